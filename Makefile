@@ -64,9 +64,10 @@ driver-hours: $(STAMP)
 unit: $(STAMP)
 	$(BIN)/python -m pytest -n auto
 
-# The picture of docs/develop/architecture.md, drawn again from the code.
+# The pictures of docs/develop/architecture.md and docs/start/robots.md, drawn again from the code.
 picture: $(STAMP)
 	$(BIN)/python -m tests.docs.picture
+	$(BIN)/python -m tests.docs.robots_picture
 
 # Trials of programs that are no part of this project: FOREIGN is the folder that holds them,
 # PROGRAM the trial (abb_driver, backups, deployed, descriptions, godel, irb140, keyence, motion_program_exec, open_abb, rfl, ros_nodes, text_servers; default: any).
@@ -136,7 +137,7 @@ endurance: $(STAMP) ## 2 min: memory of an idle driver that is watched for ten s
 many-controllers: $(STAMP) ## 2 min: 50 controllers in real time, how late their states come
 	$(BIN)/python benchmarks/many_controllers.py
 
-BENCHES := startup parsing kernels backup motion state client deploy driver streaming
+BENCHES := startup parsing kernels backup motion state client deploy driver streaming rws
 bench: $(STAMP) ## 10 min: the figures of docs/develop/performance.md that need no argument
 	for name in $(BENCHES); do $(BIN)/python benchmarks/$$name.py || exit 1; done
 

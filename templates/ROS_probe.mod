@@ -34,6 +34,7 @@ MODULE ROS_probe
         ask_alias_by_name;
         ask_axis_limits;
         ask_own_events;
+        ask_calc_in_background;
         ask_argument_error;
         tell_interrupt_delay;
         tell_statement_time;
@@ -233,6 +234,21 @@ MODULE ROS_probe
     ERROR
         SkipWarn;
         answer "axis_limits_told=false";
+        RETURN;
+    ENDPROC
+
+    ! Is the pose of joints computed in a task that moves no robot? Asked when this module is loaded into
+    ! such a task.
+    LOCAL PROC ask_calc_in_background()
+        VAR robtarget there;
+
+        IF TaskRunMec() RETURN;
+        there := CalcRobT([[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]], tool0);
+        answer "calc_in_background=true";
+        answer "! z: " + ValToStr(there.trans.z);
+    ERROR
+        SkipWarn;
+        answer "calc_in_background=false";
         RETURN;
     ENDPROC
 

@@ -15,6 +15,7 @@ MODULE ROS_probe_motion
     LOCAL VAR jointtarget place;
     LOCAL VAR clock watch;
     LOCAL VAR num lasted := 0;
+    LOCAL VAR num percent := 100;
     LOCAL VAR intnum alarm;
     LOCAL VAR intnum second_alarm;
     LOCAL VAR bool running := FALSE;
@@ -30,8 +31,9 @@ MODULE ROS_probe_motion
         ask_quick_changes;
         ask_zero_length;
         ask_refresh_timed;
-        tell_refresh_holds;
-        tell_velset_timed;
+        ask_refresh_lasts;
+        ask_refresh_standing;
+        ask_velset_timed;
         tell_time_after_stop;
         tell_planning_lead;
         ask_stop_move_reset;
@@ -97,26 +99,40 @@ MODULE ROS_probe_motion
         ENDIF
     ENDPROC
 
-    ! Half the speed, soon: SpeedRefresh may do nothing but in a move.
-    LOCAL PROC slow_down_in(num time)
+    ! Another speed, soon: SpeedRefresh may do nothing but in a move.
+    LOCAL PROC refresh_soon(num wanted)
+        percent := wanted;
         IDelete alarm;
-        CONNECT alarm WITH on_slow_down;
-        ITimer \Single, time, alarm;
+        CONNECT alarm WITH on_refresh;
+        ITimer \Single, 0.1, alarm;
     ENDPROC
 
-    LOCAL TRAP on_slow_down
-        SpeedRefresh 50;
+    LOCAL TRAP on_refresh
+        SpeedRefresh percent;
     ENDTRAP
 
+    ! To `degrees`, by WAY, without \T, in 2 s; s until the program goes on.
+    LOCAL PROC turn_slowly(num degrees)
+        VAR speeddata slow := [1000, 2.5, 1000, 1000];
+
+        place := turned(degrees);
+        ClkReset watch;
+        ClkStart watch;
+        MoveAbsJ place \NoEOffs, slow, fine, tool0;
+        lasted := ClkRead(watch);
+        ClkStop watch;
+    ENDPROC
+
     LOCAL PROC full_speed_again()
-        IDelete alarm;
         SpeedRefresh 100;
+        refresh_soon 100;
         go_back;
+        IDelete alarm;
     ENDPROC
 
     ! Does SpeedRefresh stretch a \T?
     LOCAL PROC ask_refresh_timed()
-        slow_down_in 0.1;
+        refresh_soon 50;
         turn WAY, SECONDS;
         IF lasted > 1.5 * SECONDS THEN
             answer "refresh_timed=true";
@@ -127,31 +143,40 @@ MODULE ROS_probe_motion
     ENDPROC
 
     ! Does SpeedRefresh hold for the move behind it, too?
-    LOCAL PROC tell_refresh_holds()
-        VAR speeddata slow := [1000, 2.5, 1000, 1000];
-        VAR num first;
+    LOCAL PROC ask_refresh_lasts()
+        refresh_soon 50;
+        turn_slowly WAY;
+        turn_slowly 2 * WAY;
+        IF lasted > 1.5 * SECONDS THEN
+            answer "refresh_lasts=true";
+        ELSE
+            answer "refresh_lasts=false";
+        ENDIF
+        full_speed_again;
+    ENDPROC
 
-        slow_down_in 0.1;
-        place := turned(WAY);
-        ClkReset watch;
-        ClkStart watch;
-        MoveAbsJ place \NoEOffs, slow, fine, tool0;
-        first := ClkRead(watch);
-        place := turned(0);
-        MoveAbsJ place \NoEOffs, slow, fine, tool0;
-        lasted := ClkRead(watch) - first;
-        ClkStop watch;
-        answer "! 2.0 s with SpeedRefresh 50: " + NumToStr(first, 1) + " s";
-        answer "! and the next move: " + NumToStr(lasted, 1) + " s";
+    ! Does SpeedRefresh before a move act on it?
+    LOCAL PROC ask_refresh_standing()
+        SpeedRefresh 50;
+        turn_slowly WAY;
+        IF lasted > 1.5 * SECONDS THEN
+            answer "refresh_standing=true";
+        ELSE
+            answer "refresh_standing=false";
+        ENDIF
         full_speed_again;
     ENDPROC
 
     ! Does VelSet stretch a \T?
-    LOCAL PROC tell_velset_timed()
+    LOCAL PROC ask_velset_timed()
         VelSet 50, 5000;
         turn WAY, SECONDS;
         VelSet 100, 5000;
-        answer "! VelSet 50: " + ValToStr(SECONDS) + " s become " + NumToStr(lasted, 1) + " s";
+        IF lasted > 1.5 * SECONDS THEN
+            answer "velset_timed=true";
+        ELSE
+            answer "velset_timed=false";
+        ENDIF
         go_back;
     ENDPROC
 

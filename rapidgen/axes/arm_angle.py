@@ -1,10 +1,14 @@
-"""ABB's arm angle: what eax_a of a robtarget means for an arm of seven axes.
+"""ABB's arm angle and cfx: what eax_a and robconf of a robtarget mean for an arm of seven axes.
 
 The seventh axis' own value stands in jointtargets only. In a robtarget eax_a is the angle of the
 elbow about the line from shoulder to wrist: with e along that line, h along axis 3 (the fourth of
 the arm) and r the reference direction, atan2(-(e x (e x r)) . h, -(e x r) . h). Shoulder: on axis 1
 at axis 2; wrist: on axis 6 at axis 5. After A. Elias, J. Wen, "Redundancy Parameterization of the
 ABB YuMi Robot Arm" (arXiv 2505.23111), whose ten postures read in RobotStudio are the tests.
+
+cf1, cf4 and cf6 are the closest multiples of 90 degrees, not the quarters of arms with six axes;
+cfx is +4 axis 2 negative, +2 elbow turned over, +1 axis 5 negative: so it is in 51 targets of five
+public programs in wobj0, whose postures pose and arm angle tell.
 """
 
 from collections.abc import Iterator, Sequence
@@ -41,6 +45,18 @@ class ArmAngle:
         elbow = axes[3][1]
         return atan2(-frames.dot(frames.cross(along, across), elbow), -frames.dot(across, elbow))
 
+    def cfx(self, axes: Sequence[Axis], second: float, fifth: float) -> int:
+        """cfx of an arm whose axes lie so, with its axes 2 and 5 (rad) [code].
+
+        The elbow turns over where the wrist, axis 4 at axis 5, is on the line from axis 2 to axis
+        3 (-72 degrees of axis 3); public targets only say: between -31 and -88.
+        """
+        shoulder, wrist = _foot(axes[2], axes[1]), _foot(axes[4], axes[5])
+        elbow, across = axes[3]
+        upper, fore = frames.subtract(elbow, shoulder), frames.subtract(wrist, elbow)
+        over = frames.dot(frames.cross(upper, fore), across) < 0.0
+        return 4 * (second < 0.0) + 2 * over + (fifth < 0.0)
+
     def postures(
         self, search: "Search", pose: Pose, angle: float, start: Sequence[float]
     ) -> Iterator[tuple[float, ...]]:
@@ -57,6 +73,8 @@ class ArmAngle:
         self, search: "Search", pose: Pose, angle: float, start: Sequence[float]
     ) -> tuple[float, ...] | None:
         import numpy as np  # only where an arm has seven axes
+
+        from rapidgen.axes.numeric import solved
 
         def off(values: Sequence[float]) -> list[float]:
             flange, axes = search.lines(values)
@@ -79,7 +97,7 @@ class ArmAngle:
                 columns.append([(a - b) / _STEP for a, b in zip(here, off(moved), strict=True)])
             jacobian = np.array(columns).T
             normal = jacobian.T @ jacobian + 1e-8 * size * np.eye(len(values))
-            step = np.linalg.solve(normal, jacobian.T @ np.array(here))
+            step = solved(normal, jacobian.T @ np.array(here))
             share = min(1.0, _LARGEST / max(1e-12, float(np.max(np.abs(step)))))
             for n, change in enumerate(step):
                 values[n] += share * float(change)

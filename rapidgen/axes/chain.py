@@ -43,9 +43,13 @@ def steps_of(group: GroupConfig, chain: Sequence[ChainLink]) -> tuple[Step, ...]
 
 def along(steps: tuple[Step, ...], values: Posture) -> Pose:
     """The end of a chain for joint values in the sense of the URDF."""
-    pose = IDENTITY
+    place, q = IDENTITY
     for step in steps:
-        pose = frames.compose(pose, step.fixed)
+        origin, turned = step.fixed
+        if any(origin):
+            place = frames.add(place, frames.rotate(q, origin) if q != frames.UNIT else origin)
+        if turned != frames.UNIT:
+            q = frames.multiply(q, turned)
         if step.joint >= 0:
             amount = values[step.joint]
         elif step.follows:
@@ -53,7 +57,8 @@ def along(steps: tuple[Step, ...], values: Posture) -> Pose:
         else:
             continue
         if step.prismatic:
-            pose = frames.compose(pose, (frames.scale(step.axis, amount), frames.UNIT))
+            slid = frames.scale(step.axis, amount)
+            place = frames.add(place, frames.rotate(q, slid) if q != frames.UNIT else slid)
         else:
-            pose = pose[0], frames.multiply(pose[1], frames.about(step.axis, amount))
-    return pose
+            q = frames.multiply(q, frames.about(step.axis, amount))
+    return place, q

@@ -89,6 +89,47 @@ def sphere(points: Sequence[Vector]) -> Sphere:
     return Sphere(centre, found, rms, float(errors.max()), int(errors.argmax()))
 
 
+class Circle(NamedTuple):
+    """A circle in space, and how far the points lie off it."""
+
+    centre: Vector
+    radius: float
+    normal: Vector
+    rms: float
+    largest: float
+    worst: int
+    """Which point is off most, from 0."""
+
+
+def circle(points: Sequence[Vector]) -> Circle:
+    """The circle through three points or more: in the plane that fits best, by least squares.
+
+    NoFit: they lie on one line.
+    """
+    import numpy as np
+
+    at = np.array(points)
+    middle = at.mean(axis=0)
+    near = at - middle
+    _, spread, axes = np.linalg.svd(near)
+    if spread[1] <= _FLAT * spread[0]:
+        raise NoFit("the points lie on one line")
+    flat = near @ axes[:2].T
+    matrix = np.column_stack([2 * flat, np.ones(len(flat))])
+    solved = np.linalg.lstsq(matrix, (flat**2).sum(axis=1), rcond=None)[0]
+    radius = float(np.sqrt(solved[2] + solved[:2] @ solved[:2]))
+    centre = solved[:2] @ axes[:2]
+    # Off the circle: across its plane, and along it.
+    along = np.linalg.norm(flat - solved[:2], axis=1) - radius
+    errors = np.hypot(along, near @ axes[2])
+    rms = float(np.sqrt((errors**2).mean()))
+    normal = axes[2] if axes[2][int(np.abs(axes[2]).argmax())] > 0 else -axes[2]
+    worst = int(errors.argmax())
+    return Circle(
+        _vector(centre + middle), radius, _vector(normal), rms, float(errors[worst]), worst
+    )
+
+
 def held_point(flanges: Sequence[Pose]) -> tuple[Vector, list[float]]:
     """The point of a tool that all flanges hold at one place, and how far off each one has it.
 

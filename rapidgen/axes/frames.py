@@ -80,6 +80,14 @@ def invert(p: Pose) -> Pose:
     return (-x, -y, -z), back
 
 
+def within(outer: Pose, p: Pose) -> Pose:
+    """A pose as seen from a frame; both are given in one frame."""
+    if outer[1] == UNIT:
+        return subtract(p[0], outer[0]), p[1]
+    back = conjugate(outer[1])
+    return rotate(back, subtract(p[0], outer[0])), multiply(back, p[1])
+
+
 def transform(p: Pose, v: Vector) -> Vector:
     """A point given in frame p, as seen from where p is given (PoseVect)."""
     return add(p[0], rotate(p[1], v))

@@ -8,27 +8,29 @@ base; external axes that the chain does not name have no influence here.
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from math import atan2, floor, hypot, pi
-from typing import Literal, TypeAlias
+from math import floor, pi
+from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from rapidgen.axes import frames
 from rapidgen.axes.chain import Posture as Posture
 from rapidgen.axes.chain import Step, along, steps_of
 from rapidgen.axes.four_axes import BRANCHES as FOUR_BRANCHES
 from rapidgen.axes.four_axes import Branch as FourBranch
-from rapidgen.axes.four_axes import FourAxes, palletiser, scara
-from rapidgen.axes.frames import IDENTITY, Pose, Quaternion, Vector
+from rapidgen.axes.frames import Pose, Quaternion
 from rapidgen.axes.limits import ROUNDING
 from rapidgen.axes.mapping import JointMap
+from rapidgen.axes.recognising import Four, SixAxes, four_axes, six_axes
 from rapidgen.axes.searching import ArmSearch
-from rapidgen.axes.wrist import BRANCHES, SINGULAR, Angles, WristArm
+from rapidgen.axes.wrist import BRANCHES, SINGULAR, Angles
 from rapidgen.config.model import ChainLink, GroupConfig
+
+if TYPE_CHECKING:
+    from rapidgen.axes.offset_wrist import OffsetWrist
 
 AxisConfiguration = tuple[int, int, int, int]
 """cf1, cf4, cf6, cfx"""
 ConfigurationCheck: TypeAlias = Literal["turn", "quarter"]
 """How far axes 1, 4 and 6 may be from their quarters, see `Kinematics.room`."""
-_SCARA = ("rax_1", "rax_2", "rax_3", "rax_4")
 _ENOUGH = 8
 """Postures that an iteration looks for."""
 _NEAR = 1e-6
@@ -72,12 +74,13 @@ class Kinematics:
     def forward(self, posture: Posture) -> Pose:
         """Flange of a posture."""
         values = self.map.to_urdf(posture)
-        if self._arm is None:
+        found = self._arm
+        if found is None:
             return along(self.steps, values)
-        arm, first, _, _ = self._arm
-        pose = arm.forward(self._robot_angles(values))
-        base = along(self.steps[:first], values) if first else None
-        return pose if base is None else frames.compose(base, pose)
+        pose = found.arm.forward(self._robot_angles(values))
+        if not found.first:
+            return pose
+        return frames.compose(along(self.steps[: found.first], values), pose)
 
     # -- inverse ----------------------------------------------------------------------------
 
@@ -92,27 +95,34 @@ class Kinematics:
         External axes are those of `near`. None: out of reach, or the robot is on another
         branch there. Ranges are not looked at.
         """
-        arm = self._arm
+        values = self.map.to_urdf(near)
         if self._four is not None:
-            four, _, places = self._four
-            branch = four.branch([self.map.to_urdf(near)[i] for i in places])
-            return self._of_four(pose, near, branch)
-        if arm is None:
+            four = self._four
+            return self._of_four(pose, values, four.arm.branch([values[i] for i in four.places]))
+        found = self._wrist
+        if found is None:
             return self.arm.near(pose, near)
-        values = self.map.to_urdf(near)
-        angles = self._robot_angles(values)
-        solved = arm[0].solve(self._from_base(pose, values), arm[0].branch(angles), angles[3])
-        return None if solved is None else self._as_posture(solved, angles, values)
+        angles, based = self._robot_angles(values), self._from_base(pose, values)
+        if self._offset is None:
+            solved = found.arm.solve(based, found.arm.branch(angles), angles[3])
+            return None if solved is None else self._as_posture(solved, angles, values)
+        solved = self._offset.near(based, angles)
+        # Where axis 6 alone does not lead there all axes may.
+        if solved is None:
+            return self.arm.near(pose, near)
+        return self._as_posture(solved, angles, values)
 
-    def reaches(self, pose: Pose, near: Posture) -> bool:
-        """Whether any posture reaches a pose, ranges apart."""
-        if self._four is not None:
-            return any(self._of_four(pose, near, branch) is not None for branch in FOUR_BRANCHES)
-        if self._arm is None:
-            return any(True for postures in self.arm.rounds(pose, near) for _ in postures)
+    def beyond(self, pose: Pose, near: Posture) -> Iterator[Posture]:
+        """Postures that reach a pose, ranges apart; external axes as in `near`."""
         values = self.map.to_urdf(near)
-        based = self._from_base(pose, values)
-        return any(self._arm[0].solve(based, branch, 0.0) is not None for branch in BRANCHES)
+        if self._four is not None:
+            fours = (self._of_four(pose, values, branch) for branch in FOUR_BRANCHES)
+            yield from (four for four in fours if four is not None)
+            return
+        yield from self._formulas(pose, values)
+        if self._arm is None:
+            for postures in self.arm.rounds(pose, near):
+                yield from postures
 
     def solutions(self, pose: Pose, near: Posture) -> list[Posture]:
         """All postures within the ranges that reach a pose, external axes as in `near`.
@@ -121,13 +131,16 @@ class Kinematics:
         Without a closed form: what iteration finds from `near` and from other starts, at least
         one if there is any.
         """
-        found: list[Posture] = []
+        values = self.map.to_urdf(near)
         if self._four is not None:
-            for way in FOUR_BRANCHES:
-                four = self._of_four(pose, near, way)
-                if four is not None:
-                    found += [p for p in self._turned(four) if not _known(p, found)]
-        elif self._arm is None:
+            ways = (self._of_four(pose, values, branch) for branch in FOUR_BRANCHES)
+            closed = [posture for posture in ways if posture is not None]
+        else:
+            closed = list(self._formulas(pose, values))
+        found: list[Posture] = []
+        for posture in closed:
+            found += [p for p in self._turned(posture) if not _known(p, found)]
+        if not found and not self.is_closed_form:
             for number, postures in enumerate(self.arm.rounds(pose, near)):
                 for posture in postures:
                     found += [p for p in self._turned(posture) if not _known(p, found)]
@@ -135,24 +148,28 @@ class Kinematics:
                         break
                 if found and number >= 1:
                     break
-        else:
-            arm = self._arm[0]
-            values = self.map.to_urdf(near)
-            angles = self._robot_angles(values)
-            based = self._from_base(pose, values)
-            for branch in BRANCHES:
-                solved = arm.solve(based, branch, angles[3])
-                if solved is not None:
-                    posture = self._as_posture(solved, angles, values)
-                    found += [p for p in self._turned(posture) if not _known(p, found)]
-        found.sort(key=lambda p: sum(abs(a - b) for a, b in zip(p, near, strict=True)))
+        found.sort(key=lambda posture: _apart(posture, near))
         return found
 
+    def _formulas(self, pose: Pose, values: Posture) -> Iterator[Posture]:
+        """Postures of an arm with six axes on all branches, turns as close to URDF values."""
+        found = self._wrist
+        if found is None:
+            return
+        angles, based = self._robot_angles(values), self._from_base(pose, values)
+        if self._offset is not None:
+            for solved in self._offset.solutions(based):
+                yield self._as_posture(solved, angles, values)
+            return
+        for branch in BRANCHES:
+            one = found.arm.solve(based, branch, angles[3])
+            if one is not None:
+                yield self._as_posture(one, angles, values)
+
     def _robot_angles(self, values: Posture) -> Angles:
-        assert self._arm is not None
-        _, _, signs, places = self._arm
-        r, s, t, u, v, w = signs
-        i, j, k, m, n, o = places
+        assert self._wrist is not None
+        r, s, t, u, v, w = self._wrist.signs
+        i, j, k, m, n, o = self._wrist.places
         return (
             r * values[i],
             s * values[j],
@@ -163,24 +180,25 @@ class Kinematics:
         )
 
     def _from_base(self, pose: Pose, values: Posture) -> Pose:
-        assert self._arm is not None
-        first = self._arm[1]
+        assert self._wrist is not None
+        first = self._wrist.first
         if not first:
             return pose
-        return frames.compose(frames.invert(along(self.steps[:first], values)), pose)
+        return frames.within(along(self.steps[:first], values), pose)
 
     def _as_posture(self, solved: Angles, near: Angles, values: Posture) -> Posture:
         """Controller values of solved angles, each on the turn that is closest to `near`."""
-        assert self._arm is not None
-        _, _, signs, places = self._arm
+        assert self._wrist is not None
         urdf = list(values)
-        for angle, old, sign, place in zip(solved, near, signs, places, strict=True):
+        for angle, old, sign, place in zip(
+            solved, near, self._wrist.signs, self._wrist.places, strict=True
+        ):
             urdf[place] = sign * (angle + _TURN * round((old - angle) / _TURN))
         return self.map.to_controller(urdf)
 
     def found(self, pose: Pose, near: Posture) -> Iterator[Posture]:
         """Postures within the ranges that reach a pose, one after the other as they are found."""
-        if self.is_closed_form:
+        if self.is_closed_form or self._offset is not None:
             yield from self.solutions(pose, near)
             return
         for postures in self.arm.rounds(pose, near):
@@ -192,7 +210,7 @@ class Kinematics:
         """What iteration can find, where there is no formula."""
         return ArmSearch(self.group, self.map, self.steps)
 
-    @property
+    @cached_property
     def seventh(self) -> int:
         """Place of the axis between axes 2 and 3 whose robtargets name the arm angle; else -1."""
         return self.arm.seventh
@@ -202,7 +220,7 @@ class Kinematics:
         joint = self.group.joints[self.seventh]
         found: list[Posture] = []
         for posture in self.arm.at_arm_angle(pose, angle, near):
-            for turned in self._turned(posture):
+            for turned in sorted(self._turned(posture), key=lambda turn: _apart(turn, near)):
                 value = turned[self.seventh]
                 fits = joint.lower - ROUNDING <= value <= joint.upper + ROUNDING
                 if fits and not _known(turned, found):
@@ -232,18 +250,24 @@ class Kinematics:
     def configuration(self, posture: Posture) -> AxisConfiguration:
         """confdata of a posture: quarter turns of axes 1, 4 and 6, and cfx.
 
-        cfx (memory of RobotWare): +4 wrist centre behind axis 1, +2 behind the lower arm, +1
-        axis 5 negative. It is 0 for robots with a parallel rod, whose arm cannot turn over
-        (S4 datasys 1-confdata), and where there is no closed form.
+        cfx: +4 wrist centre (where axes 4 and 5 meet) behind axis 1, +2 elbow turned over, +1
+        axis 5 negative; 438 targets of public programs have 0, 1, 2, 4 and 5 so. It is 0 for
+        robots with a parallel rod, whose arm cannot turn over (S4 datasys 1-confdata), and where
+        there is no formula. Of an arm with seven axes see `ArmAngle.cfx`; its quarters have
+        their multiple of 90 degrees in the middle.
         """
         quarters = []
+        early = self._early
         for axis in ("rax_1", "rax_4", "rax_6"):
             place = self._axes.get(axis)
-            quarters.append(0 if place is None else quarter(posture[place], self._linear[place]))
+            linear = place is not None and self._linear[place]
+            quarters.append(0 if place is None else quarter(posture[place] + early, linear))
         x = 0
-        if self._arm is not None and self._tells_branches:
+        if self.seventh >= 0:
+            x = self.arm.cfx(posture)
+        elif self._wrist is not None and self._tells_branches:
             angles = self._robot_angles(self.map.to_urdf(posture))
-            back, behind, _ = self._arm[0].branch(angles)
+            back, behind, _ = self._wrist.arm.branch(angles)
             x = 4 * back + 2 * behind + (posture[self._axes["rax_5"]] < 0)
         return quarters[0], quarters[1], quarters[2], x
 
@@ -256,11 +280,11 @@ class Kinematics:
             other = self.configuration(posture)[3] ^ wanted[3]
             if other and not (other == 1 and abs(posture[self._axes["rax_5"]]) <= SINGULAR):
                 return None
-        worst = 0.0
+        worst, early = 0.0, self._early
         for axis, cf in zip(("rax_1", "rax_4", "rax_6"), wanted, strict=False):
             place = self._axes.get(axis)
             if place is not None:
-                at = posture[place] / (1.0 if self._linear[place] else pi / 2)
+                at = (posture[place] + early) / (1.0 if self._linear[place] else pi / 2)
                 worst = max(worst, cf - at, at - cf - 1)
         return worst
 
@@ -293,7 +317,12 @@ class Kinematics:
     @property
     def _tells_branches(self) -> bool:
         """Whether cfx says on which of the eight branches a posture lies."""
-        return self._arm is not None and not self.group.coupling
+        return self.seventh >= 0 or (self._wrist is not None and not self.group.coupling)
+
+    @cached_property
+    def _early(self) -> float:
+        """rad by which quarters of axes 1, 4 and 6 begin before their multiple of 90 degrees."""
+        return pi / 4 if self.seventh >= 0 else 0.0
 
     @cached_property
     def _axes(self) -> dict[str, int]:
@@ -306,60 +335,34 @@ class Kinematics:
     # -- recognising a wrist arm ------------------------------------------------------------
 
     @cached_property
-    def _arm(self) -> tuple[WristArm, int, tuple[int, ...], tuple[int, ...]] | None:
-        """The closed form, the number of steps before it, signs and places of its axes."""
-        steps = self.steps
-        places = [self._axes.get(f"rax_{i}", -1) for i in range(1, 7)]
-        if -1 in places or any(self._linear[i] for i in places):
-            return None
-        order = [s.joint for s in steps if s.joint in places]
-        if order != places or any(step.follows for step in steps):
-            return None
-        first = next(i for i, s in enumerate(steps) if s.joint == places[0])
-        if any(s.joint >= 0 and s.joint not in places for s in steps[first:]):
-            return None
-        points, axes, flange = self._zero_frame(steps[first:])
-        return _recognise(points, axes, flange, first, tuple(places))
+    def _arm(self) -> SixAxes | None:
+        """The closed form of an arm whose wrist axes meet."""
+        found = self._wrist
+        return None if found is None or any(found.offset) else found
 
     @cached_property
-    def _four(self) -> tuple[FourAxes, int, tuple[int, ...]] | None:
-        """The closed form of an arm with four axes, the number of steps before it, its places."""
-        steps = self.steps
-        names = tuple(axis for axis in self._axes if axis.startswith("rax"))
-        if sorted(names) not in (["rax_1", "rax_2", "rax_3", "rax_6"], sorted(_SCARA)):
+    def _offset(self) -> "OffsetWrist | None":
+        """What finds the postures of an arm whose axis 6 passes beside axes 4 and 5."""
+        found = self._wrist
+        if found is None or not any(found.offset):
             return None
-        places = tuple(self._axes[axis] for axis in sorted(names))
-        if [s.joint for s in steps if s.joint in places] != list(places):
-            return None
-        first = next(i for i, s in enumerate(steps) if s.joint == places[0])
-        if any(s.joint >= 0 and s.joint not in places for s in steps[first:]):
-            return None
-        slides = [self._linear[i] for i in places]
-        passive = [i for i, s in enumerate(steps) if s.follows]
-        points, axes, flange = self._zero_frame(steps[first:])
-        if slides == [False, False, True, False] and not passive:
-            made: FourAxes | None = scara(points, axes, flange)
-        elif not any(slides) and len(passive) == 1:
-            step = steps[passive[0]]
-            signs = {places[1]: axes[1][1], places[2]: axes[2][1]}
-            wrist, kept = IDENTITY, steps[first : passive[0] + 1]
-            for before in kept:
-                wrist = frames.compose(wrist, before.fixed)
-            across = frames.rotate(wrist[1], step.axis)[1]
-            # The rods undo what axes 2 and 3 turn.
-            if {i: k * across for i, k in step.follows} != {i: -v for i, v in signs.items()}:
-                return None
-            made = palletiser(points, axes, wrist[0], flange)
-        else:
-            return None
-        return None if made is None else (made, first, places)
+        from rapidgen.axes.offset_wrist import OffsetWrist  # numpy: where there is no formula
 
-    def _of_four(self, pose: Pose, near: Posture, branch: FourBranch) -> Posture | None:
+        return OffsetWrist(found.arm, found.offset)
+
+    @cached_property
+    def _wrist(self) -> SixAxes | None:
+        return six_axes(self.steps, self._axes, self._linear)
+
+    @cached_property
+    def _four(self) -> Four | None:
+        return four_axes(self.steps, self._axes, self._linear)
+
+    def _of_four(self, pose: Pose, values: Posture, branch: FourBranch) -> Posture | None:
         assert self._four is not None
-        arm, first, places = self._four
-        values = self.map.to_urdf(near)
+        arm, first, places = self._four.arm, self._four.first, self._four.places
         if first:
-            pose = frames.compose(frames.invert(along(self.steps[:first], values)), pose)
+            pose = frames.within(along(self.steps[:first], values), pose)
         solved = arm.solve(pose, branch)
         if solved is None:
             return None
@@ -368,49 +371,6 @@ class Kinematics:
             turns = 0 if self._linear[place] else round((values[place] - value) / _TURN)
             urdf[place] = value + _TURN * turns
         return self.map.to_controller(urdf)
-
-    @staticmethod
-    def _zero_frame(steps: tuple[Step, ...]) -> tuple[list[Vector], list[Vector], Pose]:
-        """A point and the direction of each axis at zero, and the flange, from the base."""
-        pose, points, axes = IDENTITY, [], []
-        for step in steps:
-            pose = frames.compose(pose, step.fixed)
-            if step.joint >= 0:
-                points.append(pose[0])
-                axes.append(frames.rotate(pose[1], step.axis))
-        return points, axes, pose
-
-
-def _recognise(
-    points: list[Vector], axes: list[Vector], flange: Pose, first: int, places: tuple[int, ...]
-) -> tuple[WristArm, int, tuple[int, ...], tuple[int, ...]] | None:
-    signs = []
-    for axis, n in zip(axes, (2, 1, 1, 0, 1, 0), strict=True):
-        if abs(abs(axis[n]) - 1.0) > _NEAR:
-            return None
-        signs.append(1 if axis[n] > 0 else -1)
-    if abs(points[0][0]) > _NEAR or abs(points[0][1]) > _NEAR:
-        return None
-    # Axis 5 is met by axis 4 and axis 6 (both along x) in the wrist centre.
-    x5, z5 = points[4][0], points[4][2]
-    y4, z4 = points[3][1], points[3][2]
-    y6, z6 = points[5][1], points[5][2]
-    if max(abs(z4 - z5), abs(z6 - z5), abs(y4 - y6)) > _NEAR:
-        return None
-    (x2, _, z2), (x3, _, z3) = points[1], points[2]
-    centre = (x5, y4, z5)
-    back = frames.conjugate(flange[1])
-    arm = WristArm(
-        shoulder=(x2, z2),
-        upper=(hypot(x3 - x2, z3 - z2), atan2(z3 - z2, x3 - x2)),
-        fore=(hypot(x5 - x3, z5 - z3), atan2(z5 - z3, x5 - x3)),
-        lateral=y4,
-        flange=frames.rotate(back, frames.subtract(flange[0], centre)),
-        turn=flange[1],
-    )
-    if min(arm.upper[0], arm.fore[0]) < _NEAR:
-        return None
-    return arm, first, tuple(signs), places
 
 
 def quarter(value: float, linear: bool = False) -> int:
@@ -421,6 +381,10 @@ def quarter(value: float, linear: bool = False) -> int:
     """
     size = 1.0 if linear else pi / 2
     return int(value / size) if value >= 0 else int(value / size - 1)
+
+
+def _apart(posture: Posture, other: Posture) -> float:
+    return sum(abs(a - b) for a, b in zip(posture, other, strict=True))
 
 
 def _known(posture: Posture, found: list[Posture]) -> bool:

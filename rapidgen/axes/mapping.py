@@ -54,15 +54,16 @@ class JointMap:
         )
 
     @cached_property
-    def _plain(self) -> bool:
-        """Whether URDF and controller values are the same, as they are for most robots."""
-        return not self.coupling and all(j.sign == 1 and j.offset == 0 for j in self.joints)
+    def _upright(self) -> bool:
+        """Whether all axes turn as their joints do, from the same zero: most robots' do."""
+        return all(j.sign == 1 and j.offset == 0 for j in self.joints)
 
     def to_controller(self, urdf: Sequence[float]) -> tuple[float, ...]:
         """Controller axis values of URDF joint values."""
-        if self._plain and len(urdf) == len(self.joints):
-            return tuple(urdf)
-        values = [j.sign * v + j.offset for j, v in zip(self.joints, urdf, strict=True)]
+        if self._upright and len(urdf) == len(self.joints):
+            values = list(urdf)
+        else:
+            values = [j.sign * v + j.offset for j, v in zip(self.joints, urdf, strict=True)]
         if self._coupled is not None:
             second, third = self._coupled
             values[third] += self.coupling * values[second]
@@ -70,12 +71,12 @@ class JointMap:
 
     def to_urdf(self, controller: Sequence[float]) -> tuple[float, ...]:
         """URDF joint values of controller axis values."""
-        if self._plain and len(controller) == len(self.joints):
-            return tuple(controller)
         values = list(controller)
         if self._coupled is not None:
             second, third = self._coupled
             values[third] -= self.coupling * values[second]
+        if self._upright and len(values) == len(self.joints):
+            return tuple(values)
         return tuple(j.sign * (v - j.offset) for j, v in zip(self.joints, values, strict=True))
 
     def rates_to_controller(self, urdf: Sequence[float]) -> tuple[float, ...]:

@@ -34,6 +34,15 @@ _SAMPLES = 6000
 _DAMPING = 1e-8
 
 
+def solved(normal: Floats, right: Floats) -> Floats:
+    """The step of damped Newton; where the damping is too little for a singular arm, the shortest
+    one."""
+    try:
+        return np.asarray(np.linalg.solve(normal, right), dtype=np.float64)
+    except np.linalg.LinAlgError:
+        return np.asarray(np.linalg.pinv(normal) @ right, dtype=np.float64)
+
+
 @dataclass(frozen=True)
 class Link:
     """A step of the chain: its fixed part, then how the arm's values turn or slide it."""
@@ -120,7 +129,7 @@ class Search:
             jacobian = np.array(rows)
             normal = jacobian.T @ jacobian
             normal.flat[:: self.free + 1] += _DAMPING * size
-            step = np.linalg.solve(normal, jacobian.T @ np.array(error))
+            step = solved(normal, jacobian.T @ np.array(error))
             longest = float(np.max(np.abs(step)))
             share = _LARGEST / longest if longest > _LARGEST else 1.0
             for n in range(self.free):
@@ -257,7 +266,7 @@ class Search:
             # Sugihara's damping: the square of the error itself.
             damping = 0.5 * np.sum(error**2, axis=1) * 0.02 + _DAMPING
             normal += damping[:, None, None] * np.eye(self.free)
-            step = np.linalg.solve(normal, (transposed @ error[:, :, None]))[:, :, 0]
+            step = solved(normal, (transposed @ error[:, :, None]))[:, :, 0]
             longest = np.max(np.abs(step), axis=1)
             step *= np.minimum(1.0, _LARGEST / np.maximum(longest, 1e-12))[:, None]
             values = values.copy()

@@ -64,6 +64,13 @@ class ArmSearch:
         values = tuple(posture[i] for i in self._order)
         return self._angle.of(self.search(posture, whole=True).lines(values)[1])
 
+    def cfx(self, posture: Posture) -> int:
+        """cfx of a robtarget in a posture of an arm with seven axes."""
+        values = tuple(posture[i] for i in self._order)
+        axes = self.search(posture, whole=True).lines(values)[1]
+        by_axis = {joint.axis: v for joint, v in zip(self.group.joints, posture, strict=True)}
+        return self._angle.cfx(axes, by_axis["rax_2"], by_axis["rax_5"])
+
     @cached_property
     def _order(self) -> tuple[int, ...]:
         """Places of the arm's axes in the order of the chain."""

@@ -74,7 +74,12 @@ def run(arguments: list[str] | None = None) -> None:
     gc.set_threshold(50_000, 20, 50)
     words = sys.argv[1:] if arguments is None else arguments
     _prepare_streams()
-    sys.exit(main([_OPTIONAL_VALUES.get(word, word) for word in words]))
+    try:
+        code = main([_OPTIONAL_VALUES.get(word, word) for word in words])
+    except BrokenPipeError:
+        # While it said what was wrong: that reader has gone, too.
+        code = _unheard()
+    sys.exit(code)
 
 
 def main(words: list[str]) -> int:
@@ -168,7 +173,9 @@ def _root(
 
 def _unheard() -> int:
     """The reader has gone (`| head`): nothing is left to say, and nobody to say it to."""
-    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(nowhere, sys.stdout.fileno())
+    os.dup2(nowhere, sys.stderr.fileno())
     return 128 + signal.SIGPIPE
 
 

@@ -1,105 +1,107 @@
-"""What `run` and `sim` boot: configuration, shipped name, generated folder or backup."""
+"""What `run` and `sim` boot: options to wishes, what no controller loads, and what was guessed."""
 
-from collections.abc import Iterable
-from dataclasses import dataclass
+import sys
+from collections import Counter
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, refusal
+from rapidgen.cli.terminal import use_colour
+from rapidgen.diagnostics import DiagnosticError, Severity, refusal, render
 
 if TYPE_CHECKING:
-    from rapidgen.config.model import GroupConfig
-    from rapidgen.system import System
-    from rapidgen.system.controller_cfg import ControllerCfg
+    from rapidgen.controller.booting import Bootable
+    from rapidgen.controller.guessing import Named
 
 
-@dataclass(frozen=True, slots=True)
-class Bootable:
-    """A controller that can be booted. `driver` tells whether it runs a generated driver."""
-
-    name: str
-    system: "System"
-    groups: tuple["GroupConfig", ...]
-    driver: bool
-    notes: tuple[Diagnostic, ...] = ()
-    cfg: "ControllerCfg | None" = None
-    """All domains of a backup."""
-
-
-def load_target(
-    target: str,
+def chosen(
+    targets: Sequence[str],
+    *,
+    tasks: Iterable[str] | None = None,
     robot: str = "",
-    overrides: Iterable[str] = (),
+    entry: str = "",
+    cell: str = "",
+    start: str = "",
     backup: Path | None = None,
-) -> Bootable:
-    """Read a TARGET. `robot` names the mechanics of a backup, else its robot types tell them.
-    `backup` is of the controller that a generated folder is loaded onto.
+    overrides: Sequence[str] | None = None,
+    check: bool = True,
+) -> "Bootable":
+    """Read what is to be booted, and refuse what no controller loads unless `check` is False.
 
-    Raises DiagnosticError.
+    Notes, and what was guessed, are told on stderr. Raises DiagnosticError.
     """
-    path = Path(target)
-    if path.is_dir():
-        return _folder(path, robot, backup)
-    if backup is not None:
-        raise only_of_folders(target)
-    if path.is_file() and path.suffix.lower() not in (".yaml", ".yml"):
-        raise _no_target(target)
-    from rapidgen.config import load_config
-    from rapidgen.controller.cell import in_its_cell
-    from rapidgen.generate import build, make_system
+    from rapidgen.controller.booting import Wishes, load_target
 
-    config = load_config(target, overrides=tuple(overrides))
-    system = in_its_cell(make_system(config, build(config)), config)
-    return Bootable(config.name, system, config.groups, True, tuple(config.diagnostics))
-
-
-def _folder(path: Path, robot: str, backup: Path | None) -> Bootable:
-    from rapidgen.config import from_manifest
-    from rapidgen.controller.cell import in_its_cell
-    from rapidgen.controller.mechanics import mechanics
-    from rapidgen.system import is_backup, is_generated, read_folder, read_manifest, read_system
-    from rapidgen.system.backup import backup_cfg
-
-    notes: list[Diagnostic] = []
-    if is_generated(path):
-        config = from_manifest(read_manifest(path)["configuration"])
-        system = in_its_cell(read_folder(path, backup, notes=notes), config)
-        return Bootable(config.name, system, config.groups, True, tuple(notes))
-    if backup is not None:
-        raise only_of_folders(str(path))
-    system = read_system(path, notes=notes)
-    groups, more = mechanics(system, robot)
-    cfg = backup_cfg(path, system.robotware, []) if is_backup(path) else None
-    return Bootable(system.name, system, groups, False, (*notes, *more), cfg)
-
-
-def only_of_folders(target: str) -> Exception:
-    """What is no generated folder is loaded onto no backup."""
-    return refusal(
-        "RG433",
-        None,
-        f"'{target}' is no generated folder, and --backup is what one is loaded onto",
-        "build it first: `rapidgen build CONFIG --backup FOLDER`",
+    wishes = Wishes(
+        _tasks(tasks or ()),
+        robot=robot,
+        entry=entry,
+        cell=cell,
+        start=_numbers(start),
+        backup=backup,
+        overrides=tuple(overrides or ()),
     )
+    found = load_target(targets, wishes)
+    if found.notes:
+        sys.stderr.write(render(found.notes, colour=use_colour()))
+    if found.guessed is not None:
+        sys.stderr.write(_table("guessed", found.guessed.named))
+        sys.stderr.write(_table("nobody declares, and it was not guessed", found.guessed.unknown))
+    if check:
+        _refuse_unloadable(found)
+    return found
 
 
-def _no_target(target: str) -> Exception:
-    return refusal(
-        "RG433",
-        None,
-        f"'{target}' is no controller",
-        "name a configuration, a shipped model, a generated folder or a backup;"
-        " `rapidgen run` executes single RAPID files",
+def _tasks(given: Iterable[str]) -> dict[str, list[str]]:
+    by_task: dict[str, list[str]] = {}
+    for text in given:
+        name, equals, names = text.partition("=")
+        if not equals or not name or not names:
+            raise refusal(
+                "RG901",
+                None,
+                f"--task '{text}' is not NAME=FILE,FILE",
+                "such as --task T_ROB1=main.mod,data.mod",
+            )
+        by_task.setdefault(name, []).extend(names.split(","))
+    return by_task
+
+
+def _numbers(text: str) -> tuple[float, ...]:
+    try:
+        return tuple(float(part) for part in text.strip("[] ").split(",")) if text else ()
+    except ValueError as fault:
+        mend = "such as --start 0,0,0,0,30,0"
+        raise refusal("RG901", None, f"--start '{text}' is no list of numbers", mend) from fault
+
+
+def _table(title: str, rows: "Sequence[Named]") -> str:
+    if not rows:
+        return ""
+    width = max(len(row.name) for row in rows)
+    lines = (
+        f"  {row.name:{width}}  {row.type or '?':9}  {Path(row.span.path).name}:{row.span.line}\n"
+        for row in sorted(rows, key=lambda row: (row.type, row.name.casefold()))
     )
+    return f"{title}:\n{''.join(lines)}"
 
 
-def refuse_unloadable(system: "System") -> None:
-    """Refuse what no controller loads; names that nothing declares are found when reached.
+def answers_told(answers: "Iterable[tuple[str, float]]") -> str:
+    """What guessed inputs became because a program waited for it."""
+    counted = Counter(answers)
+    if not counted:
+        return ""
+    given = (
+        f"{name} = {value:g}" + (f" ({count} times)" if count > 1 else "")
+        for (name, value), count in counted.items()
+    )
+    return f"guessed inputs became what the program waited for: {', '.join(given)}\n"
 
-    Warnings are `rapidgen check`'s business. Raises DiagnosticError with all errors.
-    """
+
+def _refuse_unloadable(found: "Bootable") -> None:
+    """Names that nothing declares are found when reached; warnings are `check`'s business."""
     from rapidgen.rapid import check
 
-    errors = [d for d in check(system, gaps=True) if d.severity is Severity.ERROR]
+    errors = [d for d in check(found.system, gaps=True) if d.severity is Severity.ERROR]
     if errors:
         raise DiagnosticError(errors)

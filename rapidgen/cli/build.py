@@ -21,13 +21,7 @@ def build(
         typer.Option("--out", "-o", help="Output folder; default rapid_out/NAME.", metavar="DIR"),
     ] = None,
     overrides: options.Overrides = None,
-    backup: Annotated[
-        Path | None,
-        typer.Option(
-            help="Backup of the very controller: what it has is used, what it lacks is written.",
-            metavar="FOLDER",
-        ),
-    ] = None,
+    backup: options.VeryBackup = None,
     package_path: Annotated[
         list[Path] | None,
         typer.Option(help="Folder with ROS packages, for $(find ...) in a xacro.", metavar="DIR"),

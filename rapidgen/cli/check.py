@@ -6,9 +6,20 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from rapidgen.cli.terminal import use_colour
-from rapidgen.diagnostics import Diagnostic, DiagnosticError, Format, Severity, refusal, render
+from rapidgen.diagnostics import (
+    Diagnostic,
+    DiagnosticError,
+    Format,
+    Severity,
+    Span,
+    error,
+    refusal,
+    render,
+)
 
 if TYPE_CHECKING:
+    from rapidgen.config.model import RobotConfig
+    from rapidgen.generate.cell import Cell
     from rapidgen.rapid import Dialect
     from rapidgen.rapid.syntax.nodes import Declaration, Module
     from rapidgen.system import System
@@ -29,14 +40,23 @@ def check(
         str | None,
         typer.Option(help="RobotWare to check for, such as 6.15; default 6.", metavar="V"),
     ] = None,
+    backup: Annotated[
+        Path | None,
+        typer.Option(
+            help="Backup of the controller that configurations and generated folders are for.",
+            metavar="FOLDER",
+        ),
+    ] = None,
     format: Annotated[Format, typer.Option(help="How findings are shown.")] = Format.FULL,
 ) -> int:
     """Say everything that is wrong with configurations and RAPID.
 
     What is unknown is judged by what was given: a lone file may use names of modules that are
-    not there, a backup may not.
+    not there, a backup may not. With --backup a configuration is built for that controller, and a
+    generated folder is loaded onto it; nothing is written.
     """
     dialect = _dialect(robotware)
+    cell = _cell(backup)
     found: list[Diagnostic] = []
     modules: list[Path] = []
     for given in paths:
@@ -44,9 +64,9 @@ def check(
         is_name = not path.exists() and not path.suffix and len(path.parts) == 1
         try:
             if is_name or path.suffix.lower() in _CONFIG_SUFFIXES:
-                found += _configuration(given)
+                found += _configuration(given, cell)
             elif path.is_dir():
-                found += _folder(path, dialect)
+                found += _folder(path, dialect, backup)
             elif not path.exists():
                 raise _nothing(given)
             elif path.suffix.lower() == ".cfg":
@@ -85,10 +105,33 @@ def _dialect(robotware: str | None) -> "Dialect | None":
     return Dialect((int(major), int(minor) if minor else 99))
 
 
-def _configuration(given: str) -> list[Diagnostic]:
+def _configuration(given: str, cell: "Cell | None") -> list[Diagnostic]:
     from rapidgen.config import load_config
 
-    return list(load_config(given).diagnostics)
+    model = load_config(given)
+    found = list(model.diagnostics)
+    return found if cell is None else [*found, *_on(cell, model)]
+
+
+def _on(cell: "Cell", model: "RobotConfig") -> list[Diagnostic]:
+    """What is wrong with a configuration on the controller that it is for."""
+    from rapidgen.generate import build
+    from rapidgen.generate.cell import fit
+
+    notes = [note for note in cell.notes if note.code != "RG710"]
+    try:
+        build(fit(model, cell), cell)
+    except DiagnosticError as fault:
+        return [*notes, *fault.diagnostics]
+    return notes
+
+
+def _cell(backup: Path | None) -> "Cell | None":
+    if backup is None:
+        return None
+    from rapidgen.generate.cell import read_cell
+
+    return read_cell(backup)
 
 
 def _cfg(path: Path) -> None:
@@ -113,7 +156,7 @@ def _parsed(paths: list[Path], dialect: "Dialect | None") -> "list[Module]":
 
 
 def _files(paths: list[Path], dialect: "Dialect | None") -> list[Diagnostic]:
-    """Files named one by one: they know each other, but hardly make a whole task."""
+    """Files named one by one: they know each other."""
     from rapidgen.rapid import check as check_rapid
 
     modules: list[Module] = []
@@ -123,53 +166,59 @@ def _files(paths: list[Path], dialect: "Dialect | None") -> list[Diagnostic]:
             modules += _parsed([path], dialect)
         except DiagnosticError as fault:
             found += fault.diagnostics
-    if len(modules) == 1:
-        return found + check_rapid(modules[0], dialect=dialect)
-    return found + check_rapid(modules, dialect=dialect, gaps=True)
+    return found + check_rapid(modules, dialect=dialect)
 
 
-def _folder(path: Path, dialect: "Dialect | None") -> list[Diagnostic]:
+def _folder(path: Path, dialect: "Dialect | None", backup: Path | None) -> list[Diagnostic]:
     """A generated folder, a backup, or a folder with modules or such folders in it."""
     from rapidgen.rapid import check as check_rapid
     from rapidgen.system import is_backup, is_generated
 
     if is_generated(path) or is_backup(path):
-        return _system(path, dialect)
-    groups: list[tuple[list[Path], bool]] = []
+        return _system(path, dialect, backup)
+    groups: list[list[Path]] = []
     systems: list[Path] = []
     _search(path, groups, systems)
     if not groups and not systems:
         raise _nothing(str(path))
     found: list[Diagnostic] = []
     for system in systems:
-        found += _system(system, dialect)
-    parsed = [(_parsed(files, dialect), whole) for files, whole in groups]
-    declared = [
-        {_name(d).lower() for m in modules for d in m.declarations} for modules, _ in parsed
-    ]
-    for k, (modules, whole) in enumerate(parsed):
+        found += _system(system, dialect, backup)
+    parsed = [_rapid(_parsed(files, dialect), found) for files in groups]
+    declared = [{_name(d).lower() for m in modules for d in m.declarations} for modules in parsed]
+    for k, modules in enumerate(parsed):
         elsewhere = frozenset().union(*declared[:k], *declared[k + 1 :])
-        found += check_rapid(
-            modules,
-            dialect=dialect,
-            whole_task=whole,
-            gaps=path.name.upper() in _TASK_FOLDERS,
-            elsewhere=elsewhere,
-        )
+        found += check_rapid(modules, dialect=dialect, elsewhere=elsewhere)
     return found
+
+
+def _rapid(modules: "list[Module]", found: list[Diagnostic]) -> "list[Module]":
+    """The modules of a folder that are RAPID; of the others a note is made."""
+    from rapidgen.rapid.syntax.text import is_rapid
+
+    kept = []
+    for module in modules:
+        wrong = any(d.severity is Severity.ERROR for d in module.diagnostics)
+        if is_rapid(module) or not wrong:
+            kept.append(module)
+        else:
+            at = Span(module.source.path, 1, 1)
+            said = "the file is named like a module, but it is no RAPID: left out"
+            found.append(error("RG208", at, said, severity=Severity.INFO))
+    return kept
 
 
 def _name(declaration: "Declaration") -> str:
     return getattr(declaration, "name", "")
 
 
-def _system(path: Path, dialect: "Dialect | None") -> list[Diagnostic]:
+def _system(path: Path, dialect: "Dialect | None", backup: Path | None) -> list[Diagnostic]:
     from rapidgen.rapid import Dialect
     from rapidgen.rapid import check as check_rapid
     from rapidgen.system import is_generated, read_backup, read_folder
 
     if is_generated(path):
-        return check_rapid(read_folder(path), dialect=dialect)
+        return check_rapid(read_folder(path, backup), dialect=dialect)
     notes: list[Diagnostic] = []
     system = read_backup(path, notes=notes)
     found = [*notes, *check_rapid(system, dialect=dialect, gaps=bool(notes))]
@@ -198,8 +247,8 @@ def _not_loaded(path: Path, system: "System", dialect: "Dialect") -> list[Diagno
     return [d for d in found if d.severity is Severity.ERROR]
 
 
-def _search(folder: Path, groups: list[tuple[list[Path], bool]], systems: list[Path]) -> None:
-    """Groups of modules that belong together (and whether they are whole tasks), and systems."""
+def _search(folder: Path, groups: list[list[Path]], systems: list[Path]) -> None:
+    """Groups of modules that belong together, and systems."""
     from rapidgen.system import is_backup, is_generated
     from rapidgen.system.paths import module_files
 
@@ -209,7 +258,7 @@ def _search(folder: Path, groups: list[tuple[list[Path], bool]], systems: list[P
     for subfolder in together:
         modules += module_files(subfolder)
     if modules:
-        groups.append((modules, bool(together)))
+        groups.append(modules)
     for subfolder in subfolders:
         if is_generated(subfolder) or is_backup(subfolder):
             systems.append(subfolder)

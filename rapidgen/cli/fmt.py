@@ -23,7 +23,8 @@ def fmt(
 ) -> int:
     """Format RAPID: keywords in upper case, four spaces a level, comments kept.
 
-    Encoding and line ends stay as they are. A file with syntax errors is not touched.
+    Encoding and line ends stay as they are; where a file mixes them, its commonest is taken, and
+    that is said. A file with syntax errors is not touched.
     """
     from rapidgen._writing import write_whole
     from rapidgen.rapid import format_source
@@ -44,6 +45,10 @@ def fmt(
         if after == before:
             continue
         changed += 1
+        ends = _line_ends(before)
+        if len(ends) > 1:
+            shown = ", ".join(f"{number} {name}" for name, number in ends)
+            typer.echo(f"{path} mixes line ends ({shown}): all become {ends[0][0]}", err=True)
         if diff:
             typer.echo(_difference(path, before, after), nl=False)
         elif check:
@@ -54,6 +59,13 @@ def fmt(
     if wrong:
         raise DiagnosticError(wrong, exit_code=1)
     return 1 if changed and (check or diff) else 0
+
+
+def _line_ends(data: bytes) -> list[tuple[str, int]]:
+    """Names and numbers of the line ends that a file has, the commonest first."""
+    pairs, feeds, returns = data.count(b"\r\n"), data.count(b"\n"), data.count(b"\r")
+    found = {"CRLF": pairs, "LF": feeds - pairs, "CR": returns - pairs}
+    return sorted(((k, v) for k, v in found.items() if v), key=lambda pair: -pair[1])
 
 
 def _files(paths: list[Path]) -> list[Path]:

@@ -10,7 +10,9 @@ from rapidgen.diagnostics import DiagnosticError, refusal, render
 
 def new(
     file: Annotated[Path, typer.Argument(help="The configuration to write, FILE.yaml.")],
-    robot: Annotated[str | None, typer.Option("--robot", help="A shipped model.")] = None,
+    robot: Annotated[
+        str | None, typer.Option("--robot", help="A shipped model, a variant.")
+    ] = None,
     urdf: Annotated[Path | None, typer.Option("--urdf", help="A URDF or xacro file.")] = None,
     package_path: Annotated[
         list[Path] | None,
@@ -58,7 +60,7 @@ def new(
     """Write a commented configuration that checks and builds. What stays open is marked in it."""
     from rapidgen.cli.asking import ask_open, ask_source, is_terminal
     from rapidgen.config.described import Answers
-    from rapidgen.config.scaffold import assignments, from_shipped, from_urdf, write_new
+    from rapidgen.config.scaffold import assignments, from_model, from_urdf, write_new
 
     if robot is None and urdf is None and is_terminal():
         robot, urdf = ask_source()
@@ -70,7 +72,7 @@ def new(
             "`rapidgen robots` lists the shipped models",
         )
     if robot is not None:
-        text = from_shipped(robot)
+        text = from_model(robot, Answers(speed=speed, controller=controller, robotware=robotware))
     else:
         described = urdf
         assert described is not None

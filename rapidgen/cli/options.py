@@ -20,12 +20,41 @@ Backup = Annotated[
     Path | None,
     typer.Option(help="Backup of the controller that a generated folder is for.", metavar="FOLDER"),
 ]
+VeryBackup = Annotated[
+    Path | None,
+    typer.Option(
+        help="Backup of the very controller: what it has is used, what it lacks is written.",
+        metavar="FOLDER",
+    ),
+]
 Yes = Annotated[
     bool, typer.Option("--yes", "-y", help="Answer the question with yes; nothing more.")
 ]
 LoadCheck = Annotated[
     bool,
     typer.Option(help="Refuse programs that a controller would not load."),
+]
+
+# Of the verbs that boot a virtual controller.
+Tasks = Annotated[
+    list[str] | None,
+    typer.Option("--task", metavar="NAME=FILE,FILE", help="A task of its own with these modules."),
+]
+Entry = Annotated[str, typer.Option("--entry", help="Procedure that tasks start in, not main.")]
+RobotModel = Annotated[
+    str, typer.Option("--robot", metavar="NAME", help="Shipped robot or configuration.")
+]
+Cell = Annotated[
+    str,
+    typer.Option(
+        "--cell",
+        metavar="FILE|guess",
+        help="What stands around the controller; `guess`: whatever the programs name.",
+    ),
+]
+Start = Annotated[
+    str,
+    typer.Option("--start", metavar="J1,J2,...", help="Where the robot stands at first: deg, mm."),
 ]
 
 # Of the verbs that reach a controller's files.

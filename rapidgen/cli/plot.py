@@ -9,6 +9,7 @@ from rapidgen.diagnostics import DiagnosticError, Span, error
 
 if TYPE_CHECKING:
     from rapidgen.client.trajectory import Array
+    from rapidgen.motion.recorder import Recording
     from rapidgen.view.plot import PlottedCurve
 
 _MOVES = "moves reached (program) and under way (robot)"
@@ -42,7 +43,7 @@ def plot(
 
     metres, counts = list(linear or ()), []
     if executed is None and _is_recording(commanded):
-        curves = _recorded(commanded)
+        curves = _curves(_recording(commanded))
         metres += ["x", "y", "z"]
         counts.append(_MOVES)
     else:
@@ -65,19 +66,31 @@ def _is_recording(path: Path) -> bool:
     return path.is_file() and is_recording(path)
 
 
-def _recorded(path: Path) -> "list[PlottedCurve]":
-    """Curves of a recording. DiagnosticError RG610: it is damaged."""
-    import numpy as np
+def draw_recording(found: "Recording", paths: tuple[Path, Path], *, title: str) -> None:
+    """Write PNG and HTML of a recording."""
+    from rapidgen.view.plot import write_plot
 
-    from rapidgen.client.trajectory import Trajectory
+    curves = _curves(found)
+    write_plot(*paths, curves, title=title, prismatic=["x", "y", "z"], counts=[_MOVES])
+
+
+def _recording(path: Path) -> "Recording":
+    """A recording. DiagnosticError RG610: it is damaged."""
     from rapidgen.motion.recorder import read_recording
-    from rapidgen.view.plot import PlottedCurve
 
     try:
-        found = read_recording(path)
+        return read_recording(path)
     except ValueError as raised:
         mend = "record again with `controller.record()` and `write_csv`"
         raise DiagnosticError(error("RG610", Span(str(path), 1, 1), str(raised), mend)) from None
+
+
+def _curves(found: "Recording") -> "list[PlottedCurve]":
+    import numpy as np
+
+    from rapidgen.client.trajectory import Trajectory
+    from rapidgen.view.plot import PlottedCurve
+
     order: dict[str, int] = {}
     for move in (*found.program_pointer, *found.motion_pointer):
         order.setdefault(move, len(order))

@@ -18,6 +18,7 @@ def robots(
     """List the shipped models. `robots show NAME` prints axes, reach and sources."""
     from rapidgen.config.catalogue import shipped_models, variant_named, variant_text
     from rapidgen.config.library import variants
+    from rapidgen.config.variant_model import lacks, model_name, names
 
     if words and words[0] == "show":
         for variant in variant_named(" ".join(words[1:])):
@@ -31,12 +32,20 @@ def robots(
         typer.echo(json.dumps([model.as_json() for model in models], indent=2))
         return
     lines = []
-    width = max(len(model.name) for model in models)
+    width = max(len(name) for name in (*(model.name for model in models), *names()))
     for model in models:
         versions = ", ".join(f"RW{g}" for g in model.generations)
         lines.append(f"{model.name:<{width}}  {model.description} ({versions})")
     if known or wanted:
-        lines += [f"{'-':<{width}}  {v.name}" for v in variants() if not v.model]
+        for variant in (v for v in variants() if not v.model):
+            missing = lacks(variant)
+            name = "-" if missing else model_name(variant)
+            lines.append(f"{name:<{width}}  ABB {variant.name}" + _shown(missing))
     for line in lines:
         if all(word in line.casefold() for word in wanted):
             typer.echo(line)
+
+
+def _shown(missing: list[str]) -> str:
+    """What a variant lacks, behind its name."""
+    return f" (recognised only; lacks {'; '.join(missing)})" if missing else ""

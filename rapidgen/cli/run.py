@@ -14,7 +14,6 @@ if TYPE_CHECKING:
     from rapidgen.controller.controller import VirtualController
     from rapidgen.rapid.switches import Switches
     from rapidgen.runtime.errors import FatalError
-    from rapidgen.system.model import System
 
 
 _LONGEST = 1e9
@@ -32,18 +31,11 @@ def run(
             "or an ABB backup.",
         ),
     ] = [],  # noqa: B006 - typer wants a list here and does not share it
-    task: Annotated[
-        list[str],
-        typer.Option(
-            "--task", metavar="NAME=FILE,FILE", help="A task of its own with these modules."
-        ),
-    ] = [],  # noqa: B006
-    robot: Annotated[
-        str, typer.Option("--robot", metavar="NAME", help="Shipped robot or configuration.")
-    ] = "",
-    entry: Annotated[
-        str, typer.Option("--entry", help="Procedure that a task starts in.")
-    ] = "main",
+    task: options.Tasks = None,
+    robot: options.RobotModel = "",
+    entry: options.Entry = "",
+    cell: options.Cell = "",
+    start: options.Start = "",
     cycle: Annotated[
         Literal["once", "forever"],
         typer.Option("--cycle", help="Run main once or again and again."),
@@ -54,6 +46,9 @@ def run(
     max_statements: Annotated[
         int, typer.Option("--max-statements", help="Statements at most, in all tasks.")
     ] = 1_000_000_000,
+    max_memory: Annotated[
+        int, typer.Option("--max-memory", metavar="MB", help="Memory at most.")
+    ] = 2048,
     seed: Annotated[int, typer.Option("--seed", help="Seed of everything that is drawn.")] = 0,
     schedule: Annotated[
         Literal["round-robin", "random", "pers"],
@@ -72,7 +67,16 @@ def run(
         typer.Option("--profile", metavar="[=F.json]", help="Time by line, on stderr or as JSON."),
     ] = "",
     coverage: Annotated[
-        Path | None, typer.Option("--coverage", metavar="F.lcov", help="Lines and branches.")
+        list[Path] | None,
+        typer.Option(
+            "--coverage",
+            metavar="F.lcov|F.html",
+            help="Lines and branches, or the source with hits; may be repeated.",
+        ),
+    ] = None,
+    plot: Annotated[
+        Path | None,
+        typer.Option("--plot", metavar="F", help="F.png and F.html of what the robots did."),
     ] = None,
     backup: options.Backup = None,
     check: options.LoadCheck = True,
@@ -81,104 +85,56 @@ def run(
 
     What a controller would not load is refused: all its errors are told, nothing runs. Prints one
     line for each TPWrite. Ends when main of every task has returned; exit code 1 when a task
-    stopped with an error, on a deadlock, and at the limits of time and statements.
+    stopped with an error, on a deadlock, and at the limits of time, statements and memory.
     """
-    from rapidgen._writing import write_whole
-    from rapidgen.cli.bootable import refuse_unloadable
+    from rapidgen.cli.bootable import answers_told, chosen
+    from rapidgen.cli.memory import at_most
+    from rapidgen.cli.observed import Observed, Wanted
     from rapidgen.controller.controller import VirtualController
-    from rapidgen.controller.mechanics import mechanics
-    from rapidgen.controller.tracing import Coverage, Profile, Trace
     from rapidgen.machine.operator import read_answers
-    from rapidgen.system import is_generated, read_manifest
 
     _limits(max_time, max_statements)
-    for target in filter(None, (coverage, Path(profile) if profile not in ("", "-") else None)):
-        _writable(target)
-    system = _system(files, task, entry, backup)
-    if check:
-        refuse_unloadable(system)
-    robots = None
-    if len(files) == 1 and files[0].is_dir() and is_generated(files[0]):
-        from rapidgen.config import from_manifest
-        from rapidgen.controller.cell import in_its_cell
-
-        config = from_manifest(read_manifest(files[0])["configuration"])
-        system = in_its_cell(system, config)
-        robots = None if robot else config.groups
-    if robots is None:
-        robots, said = mechanics(system, robot)
-        # Loose files have no mechanics that could be told; a backup's cell has.
-        sys.stderr.write(render(said if system.robot_types else ()))
-    tracing = trace or bool(profile) or coverage is not None
-    with VirtualController(
-        system,
-        robots,
-        seed=seed,
-        cycle=cycle,
-        schedule="round-robin" if schedule == "round-robin" else "random",
-        switch_at_pers=schedule == "pers",
-        tracing=tracing,
-        dialect=_dialect(dialect),
-        answers=read_answers(answers) if answers is not None else None,
-        autostart=False,
-    ) as controller:
+    wanted = Wanted(trace, profile, tuple(coverage or ()), plot)
+    wanted.refuse_unwritable()
+    _no_configuration(files)
+    found = chosen(
+        list(map(str, files)),
+        tasks=task,
+        robot=robot,
+        entry=entry,
+        cell=cell,
+        start=start,
+        backup=backup,
+        check=check,
+    )
+    with (
+        at_most(max_memory),
+        VirtualController.boot(
+            found,
+            seed=seed,
+            cycle=cycle,
+            schedule="round-robin" if schedule == "round-robin" else "random",
+            switch_at_pers=schedule == "pers",
+            tracing=wanted.tracing,
+            dialect=_dialect(dialect),
+            answers=read_answers(answers) if answers is not None else None,
+            autostart=False,
+        ) as controller,
+    ):
         controller.operator.subscribe(_print)
         warnings = [d for d in controller.diagnostics if d.severity is not Severity.ERROR]
         sys.stderr.write(render(warnings))
-        if trace:
-            Trace(controller, sys.stderr)
-        profiled = Profile(controller) if profile else None
-        covered = Coverage(controller) if coverage is not None else None
+        observed = Observed(controller, wanted)
         controller.start_program()
-        found = _run(controller, max_time, max_statements)
-        if profiled is not None:
-            _write_profile(profiled, profile)
-        if covered is not None and coverage is not None:
-            write_whole(coverage, covered.lcov().encode())
-    if found:
-        raise DiagnosticError(found, exit_code=1)
+        wrong = _run(controller, max_time, max_statements)
+        sys.stderr.write(answers_told(controller.answered))
+        observed.write()
+    if wrong:
+        raise DiagnosticError(wrong, exit_code=1)
 
 
 def _print(_task: str, text: str) -> None:
     sys.stdout.write(letters(text).replace("\n", " ") + "\n")
-
-
-def _system(
-    files: list[Path], tasks: list[str], entry: str, backup: Path | None = None
-) -> "System":
-    from rapidgen.cli.bootable import only_of_folders
-    from rapidgen.system import is_backup, is_generated, read_files, read_folder, read_system
-
-    if backup is not None:
-        if tasks or len(files) != 1 or not is_generated(files[0]):
-            raise only_of_folders(" ".join(map(str, files)))
-        return read_folder(files[0], backup)
-    by_task: dict[str, list[Path | str]] = {}
-    for text in tasks:
-        name, equals, names = text.partition("=")
-        if not equals or not name or not names:
-            raise refusal(
-                "RG901",
-                None,
-                f"--task '{text}' is not NAME=FILE,FILE",
-                "such as --task T_ROB1=main.mod,data.mod",
-            )
-        by_task.setdefault(name, []).extend(names.split(","))
-    if by_task:
-        if files:
-            by_task.setdefault("T_ROB1", []).extend(files)
-        return read_files(by_task, entry=entry)
-    if not files:
-        raise refusal(
-            "RG901",
-            None,
-            "nothing to run",
-            "name a module, a folder with modules, a generated folder or a backup",
-        )
-    _no_configuration(files)
-    if len(files) == 1 and files[0].is_dir() and (is_generated(files[0]) or is_backup(files[0])):
-        return read_system(files[0])
-    return read_files(files, entry=entry, name=files[0].stem)
 
 
 def _limits(max_time: float, max_statements: int) -> None:
@@ -200,19 +156,6 @@ def _no_configuration(files: list[Path]) -> None:
                 f"{file} is a configuration, and run takes RAPID",
                 f"`rapidgen sim {file}` boots it; or build it and run the folder",
             )
-
-
-def _writable(path: Path) -> None:
-    """Refuse, before anything runs, a file that cannot be written behind it."""
-    from rapidgen._writing import check_writable
-
-    try:
-        check_writable(path)
-    except OSError as fault:
-        message = f"cannot write {path}: {fault.strerror}"
-        raise refusal(
-            "RG901", None, message, "name a file in a folder that exists and may be written"
-        ) from fault
 
 
 def _dialect(text: str) -> "Switches":
@@ -272,22 +215,3 @@ def _fault(task: str, fault: "FatalError") -> Diagnostic:
         fault.title,
         notes=tuple(notes),
     )
-
-
-def _write_profile(profile: object, target: str) -> None:
-    import json
-
-    from rapidgen._writing import write_whole
-    from rapidgen.controller.tracing import Profile
-
-    assert isinstance(profile, Profile)
-    rows = profile.as_data()
-    if target != "-":
-        write_whole(Path(target), (json.dumps(rows, indent=1) + "\n").encode())
-        return
-    sys.stderr.write(f"{'seconds':>12} {'passes':>9}  line\n")
-    for row in rows[:40]:
-        sys.stderr.write(
-            f"{row['seconds']:12.6f} {row['passes']:9}  "
-            f"{row['task']} {row['module']}/{row['routine']}:{row['line']}\n"
-        )

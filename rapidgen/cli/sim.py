@@ -14,19 +14,19 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
     from rapidgen._json import Members
-    from rapidgen.cli.bootable import Bootable
+    from rapidgen.controller.booting import Bootable
     from rapidgen.controller.cabinet import Cabinet
     from rapidgen.controller.controller import VirtualController
 
-PATIENCE = 10.0
-"""Seconds that a driver's servers may take to come up."""
-
 
 def sim(
-    target: Annotated[
-        str,
-        typer.Argument(help="Configuration, shipped name, generated folder or ABB backup."),
-    ],
+    targets: Annotated[
+        list[str] | None,
+        typer.Argument(
+            metavar="TARGET...",
+            help="Configuration, shipped name, generated folder, ABB backup, or RAPID files.",
+        ),
+    ] = None,
     host: Annotated[
         str, typer.Option(help="Address of this machine to serve on; loopback stays private.")
     ] = "127.0.0.1",
@@ -43,9 +43,11 @@ def sim(
     faults: Annotated[
         Path | None, typer.Option(help="What is to go wrong: `rapidgen explain RG421`.")
     ] = None,
-    robot: Annotated[
-        str, typer.Option(help="Mechanics of a backup: a shipped name or a configuration.")
-    ] = "",
+    task: options.Tasks = None,
+    robot: options.RobotModel = "",
+    entry: options.Entry = "",
+    cell: options.Cell = "",
+    start: options.Start = "",
     ftp: Annotated[
         int | None,
         typer.Option(help="Serve HOME over FTP; 0: any free port.", min=0, max=65_535),
@@ -61,6 +63,10 @@ def sim(
     rws_port: Annotated[
         int, typer.Option(help="Port of Robot Web Services; 0: any free port.", min=0, max=65_535)
     ] = 0,
+    rws_lenient: Annotated[
+        bool,
+        typer.Option("--rws-lenient", help="Let through what real web services refuse."),
+    ] = False,
     answers: Annotated[
         Path | None, typer.Option(help="The operator's answers: `rapidgen explain RG420`.")
     ] = None,
@@ -75,27 +81,32 @@ def sim(
     each group, of the control socket, and of the file servers with their login. What the
     operator and the event log would show goes to stderr. Ctrl-C ends it.
     """
-    from rapidgen.cli.bootable import load_target, refuse_unloadable
+    from rapidgen.cli.bootable import chosen
     from rapidgen.controller.cabinet import Cabinet
     from rapidgen.controller.faults import read_plan
     from rapidgen.machine.operator import read_answers
 
     if ports is not None and port_offset:
         raise typer.BadParameter("either --port-offset or --ports auto")
-    chosen = load_target(target, robot, overrides or (), backup)
-    _tell(chosen.notes)
+    found = chosen(
+        targets or (),
+        tasks=task,
+        robot=robot,
+        entry=entry,
+        cell=cell,
+        start=start,
+        backup=backup,
+        overrides=overrides,
+        check=check,
+    )
     plan = read_plan(faults) if faults is not None else None
     script = read_answers(answers) if answers is not None else None
     _check_host(host)
-    _check_release(chosen, rws)
-    if check:
-        refuse_unloadable(chosen.system)
-    if ports is None and chosen.driver:
-        _check_ports(chosen, host, port_offset)
-    with Cabinet(
-        chosen.system,
-        cfg=chosen.cfg,
-        robots=chosen.groups,
+    _check_release(found, rws)
+    if ports is None and found.driver:
+        _check_ports(found, host, port_offset)
+    with Cabinet.boot(
+        found,
         clock="real",
         speed=speed,
         host=host,
@@ -107,8 +118,11 @@ def sim(
         _tell(cabinet.controller.diagnostics)
         if cold:
             _start_cold(cabinet.controller)
-        with _control(cabinet) as control, _faces(cabinet, host, ftp, sftp, rws, rws_port) as faces:
-            return _serve(cabinet, chosen, host, speed, {"control": control, **faces})
+        with (
+            _control(cabinet) as control,
+            _faces(cabinet, host, ftp, sftp, (rws, rws_port, not rws_lenient)) as faces,
+        ):
+            return _serve(cabinet, found, host, speed, {"control": control, **faces})
 
 
 def _serve(
@@ -117,6 +131,8 @@ def _serve(
     """Run until a signal comes; the exit code."""
     import json
     import signal
+
+    from rapidgen.cli.readiness import PATIENCE, Readiness
 
     ended = False
 
@@ -143,12 +159,13 @@ def _serve(
     scheduler = controller.scheduler
     scheduler.rebase()
     try:
+        readiness = Readiness(controller, target)
         patience = scheduler.now + round(PATIENCE * speed * 1e9)
-        scheduler.advance(patience, lambda: ended or _is_up(controller, target))
+        scheduler.advance(patience, lambda: ended or readiness.decided)
         if ended:
             return 0
-        if not _is_up(controller, target):
-            raise _not_up(controller, target)
+        if not readiness.up:
+            raise readiness.refusal()
         found = {
             "name": target.name,
             "host": host,
@@ -156,6 +173,9 @@ def _serve(
             "listeners": {str(p): at[1] for p, at in controller.network.listeners.items()},
             **faces,
         }
+        if not target.driver:
+            for place in controller.where():
+                typer.echo(place, err=True)
         typer.echo(f"ready {json.dumps(found)}")
         cabinet.run(lambda: ended)
     finally:
@@ -200,12 +220,17 @@ def _control(cabinet: "Cabinet") -> "Iterator[int]":
 
 @contextmanager
 def _faces(
-    cabinet: "Cabinet", host: str, ftp: int | None, sftp: int | None, rws: str | None, port: int
+    cabinet: "Cabinet",
+    host: str,
+    ftp: int | None,
+    sftp: int | None,
+    rws: tuple[str | None, int, bool],
 ) -> "Iterator[Members]":
     """HOME over FTP and SFTP, Robot Web Services; what `ready` tells of each.
 
     Raises DiagnosticError RG560, RG561.
     """
+    import os
     from contextlib import ExitStack
 
     from rapidgen.faces import serve_ftp, serve_sftp
@@ -226,13 +251,18 @@ def _faces(
             if service.host_key:
                 login["host_key"] = service.host_key
             told[name] = login
-        if rws is not None:
+        generation, port, strict = rws
+        if generation is not None:
+            from rapidgen.faces.rws.office import Accounts
             from rapidgen.faces.rws.server import serve_rws
             from rapidgen.wire.rws.bodies import Generation
 
-            service = serve_rws(cabinet, Generation(int(rws)), host, port)
+            own = os.environ.get("RAPIDGEN_PASSWORD")
+            accounts = Accounts({"Default User": own}) if own else None
+            which = Generation(int(generation))
+            service = serve_rws(cabinet, which, host, port, accounts, strict=strict)
             stack.callback(service.close)
-            scheme = "rws" if rws == "1" else "rwss"
+            scheme = "rws" if which is Generation.ONE else "rwss"
             told["rws"] = f"{scheme}://{service.host}:{service.port}"
             if service.host_key:
                 told["fingerprint"] = service.host_key
@@ -248,22 +278,6 @@ def _start_cold(controller: "VirtualController") -> None:
 
 
 # -- servers ------------------------------------------------------------------------------------
-
-
-def _wanted(target: "Bootable") -> list[int]:
-    """Ports that a driver must listen on before it may be called ready."""
-    if not target.driver:
-        return []
-    ports = [group.ports for group in target.groups]
-    return [n for p in ports for n in (p.motion, p.control, p.state) if n]
-
-
-def _is_up(controller: "VirtualController", target: "Bootable") -> bool:
-    wanted = _wanted(target)
-    if wanted:
-        return all(port in controller.network.listeners for port in wanted)
-    # Nobody knows which servers a stranger's program has: every task has come to a wait.
-    return not controller.scheduler.ready and controller.now > 0.2
 
 
 def _ports(controller: "VirtualController", target: "Bootable") -> dict[str, dict[str, int]]:
@@ -282,19 +296,6 @@ def _ports(controller: "VirtualController", target: "Bootable") -> dict[str, dic
         }
         for group in target.groups
     }
-
-
-def _not_up(controller: "VirtualController", target: "Bootable") -> Exception:
-    missing = [p for p in _wanted(target) if p not in controller.network.listeners]
-    states = tuple(f"{task.name} is {task.state}" for task in controller.tasks.values())
-    return refusal(
-        "RG430",
-        None,
-        f"nothing listens on port {', '.join(map(str, missing)) or '-'} after {PATIENCE:g} s",
-        "the event log above tells why the tasks do not get there",
-        notes=(*states, *controller.where()),
-        exit_code=1,
-    )
 
 
 def _check_host(host: str) -> None:
@@ -321,7 +322,9 @@ def _check_ports(target: "Bootable", host: str, offset: int) -> None:
     """Say at once that a port is taken, instead of letting the program fail at it."""
     import socket
 
-    for port in _wanted(target):
+    from rapidgen.cli.readiness import wanted_ports
+
+    for port in wanted_ports(target):
         if not 0 < port + offset < 65_536:
             raise typer.BadParameter(f"--port-offset moves port {port} to {port + offset}")
         with socket.socket() as probe:

@@ -103,6 +103,8 @@ def test(
         typer.echo(json.dumps(report_as_json(report), indent=1))
     else:
         _show(report, uncovered)
+    if report.broken_off:
+        raise KeyboardInterrupt
     return 0 if report.passed else 1
 
 
@@ -203,6 +205,8 @@ def _show(report: "Proof", uncovered: bool) -> None:
     for finding in report.findings:
         console.print(f"failed: --replay {finding.seed}: {finding.detail}", markup=False)
     verdict = "everything held" if report.passed else "something did not hold"
+    if report.broken_off:
+        verdict = "broken off"
     console.print(
         f"{report.name} (build {report.build_id}): {verdict}, in {report.elapsed:.0f} s. "
         "On the virtual controller: no real controller was asked.",

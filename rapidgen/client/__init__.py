@@ -1,6 +1,8 @@
 """The paired Python client: sync and async."""
 
-from rapidgen.client.aio import AsyncExecution, AsyncRobot, AsyncStream
+from typing import TYPE_CHECKING
+
+from rapidgen.client.aio import AsyncExecution, AsyncProgramRun, AsyncRobot, AsyncStream
 from rapidgen.client.cell import AsyncCell, Cell
 from rapidgen.client.core.motion import Result
 from rapidgen.client.core.robot import Timeouts
@@ -9,6 +11,7 @@ from rapidgen.client.errors import (
     ConnectionFailed,
     ConnectionLost,
     IncompatibleDriver,
+    InvalidProgram,
     InvalidTrajectory,
     MotionError,
     MotionFailed,
@@ -19,33 +22,44 @@ from rapidgen.client.errors import (
     RequestRefused,
     RobotError,
     RobotTimeout,
+    RoutineFailed,
     StopFailed,
     TrajectoryRefused,
 )
-from rapidgen.client.threads import Execution, Robot, Stream
+from rapidgen.client.program import Program, Speed, Trigger, Zone, pulse
+from rapidgen.client.threads import Execution, ProgramRun, Robot, Stream
 from rapidgen.client.trajectory import Trajectory
 from rapidgen.wire.simple_message.spec import EventType, Reason, TrajectoryState
 
+if TYPE_CHECKING:
+    from rapidgen.client.rws import AsyncController, Controller
+
 __all__ = [
     "AsyncCell",
+    "AsyncController",
     "AsyncExecution",
+    "AsyncProgramRun",
     "AsyncRobot",
     "AsyncStream",
     "Cell",
     "ConnectionFailed",
     "ConnectionLost",
+    "Controller",
     "Driver",
     "Event",
     "EventType",
     "Execution",
     "Feedback",
     "IncompatibleDriver",
+    "InvalidProgram",
     "InvalidTrajectory",
     "MotionError",
     "MotionFailed",
     "MotionStopped",
     "NotReady",
     "NotSupported",
+    "Program",
+    "ProgramRun",
     "Progress",
     "ProtocolError",
     "Reason",
@@ -54,6 +68,8 @@ __all__ = [
     "Robot",
     "RobotError",
     "RobotTimeout",
+    "RoutineFailed",
+    "Speed",
     "State",
     "Status",
     "StopFailed",
@@ -62,4 +78,16 @@ __all__ = [
     "Trajectory",
     "TrajectoryRefused",
     "TrajectoryState",
+    "Trigger",
+    "Zone",
+    "pulse",
 ]
+
+
+def __getattr__(name: str) -> object:
+    # Who talks to a driver alone should not pay for HTTP and websockets.
+    if name in ("AsyncController", "Controller"):
+        from rapidgen.client import rws
+
+        return getattr(rws, name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

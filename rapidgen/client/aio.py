@@ -21,7 +21,13 @@ from rapidgen.client.errors import (
     os_reason,
 )
 from rapidgen.client.flows.effects import Close, Effect, Flow, HangUp, Open, Send, Wait
-from rapidgen.client.surface import ExecutionSurface, MakeCore, RobotSurface, StreamSurface
+from rapidgen.client.surface import (
+    ExecutionSurface,
+    MakeCore,
+    RobotSurface,
+    RunSurface,
+    StreamSurface,
+)
 from rapidgen.wire.simple_message.bulk import FRAME_BYTES
 from rapidgen.wire.simple_message.spec import Port
 
@@ -250,6 +256,10 @@ class AsyncExecution(ExecutionSurface[Loop]):
     """As `Execution`; its methods are awaited."""
 
 
+class AsyncProgramRun(RunSurface[Loop]):
+    """As `ProgramRun`; its methods are awaited."""
+
+
 class AsyncStream(StreamSurface[Loop]):
     """As `Stream`; its methods are awaited, and the block is `async with robot.stream()`."""
 
@@ -279,12 +289,13 @@ class AsyncStream(StreamSurface[Loop]):
             await self.append(times, positions)
 
 
-class AsyncRobot(RobotSurface[Loop, AsyncExecution, AsyncStream]):
+class AsyncRobot(RobotSurface[Loop, AsyncExecution, AsyncStream, AsyncProgramRun]):
     """One motion group of a robot; see `Robot`, whose arguments and methods it has."""
 
     _carrier_type = Loop
     _execution_type = AsyncExecution
     _stream_type = AsyncStream
+    _run_type = AsyncProgramRun
 
     async def connect(self) -> Self:
         """Connect and find out who is there.

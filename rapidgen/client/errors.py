@@ -9,8 +9,10 @@
     ├── IncompatibleDriver        another version or joint map: build and deploy again
     ├── NotReady                  motors, mode, e-stop, or a motion under way: mend that, try again
     ├── NotSupported              this driver cannot do that: build another one, or do without
+    ├── RoutineFailed             a routine that was called has raised an error: `number`
     ├── RequestRefused            a pause, a speed or a signal was refused; nothing else changed
     ├── InvalidTrajectory         mend the trajectory; nothing was sent
+    ├── InvalidProgram            mend the program; nothing was sent
     ├── TrajectoryRefused         the controller said no; nothing moved
     └── MotionError               the robot moved, and not to the end
         ├── MotionStopped         by a stop() or cancel()
@@ -113,13 +115,32 @@ class RequestRefused(_Told):
     """The controller did not do what was asked over the control port; `reason` says why."""
 
 
+class RoutineFailed(RobotError):
+    """A procedure that was called has raised an error: `number` is its ERRNO."""
+
+    def __init__(
+        self,
+        diagnostic: Diagnostic,
+        *,
+        number: int,
+        messages: Iterable[tuple[float, str]] = (),
+        states: "Iterable[State]" = (),
+    ) -> None:
+        super().__init__(diagnostic, messages=messages, states=states)
+        self.number = number
+
+
 class InvalidTrajectory(RobotError):
     """Every fault of a trajectory, found before a byte of it was sent."""
 
 
+class InvalidProgram(RobotError):
+    """Every fault of a program, found before a byte of it was sent."""
+
+
 class TrajectoryRefused(_Told):
-    """The controller refused the whole trajectory, for `reason`, at `point` and `joint`; nothing
-    moved."""
+    """The controller refused the whole trajectory or program, for `reason`, at `point` and `joint`;
+    nothing moved."""
 
 
 class MotionError(_Told):

@@ -12,6 +12,8 @@ from operator import attrgetter
 from os import PathLike
 from typing import Concatenate, Generic, ParamSpec, Protocol, TypeVar
 
+from rapidgen.axes.frames import Pose
+from rapidgen.axes.kinematics import AxisConfiguration
 from rapidgen.client import flows
 from rapidgen.client.address import Address
 from rapidgen.client.core.checks import Way
@@ -21,6 +23,7 @@ from rapidgen.client.core.robot import Core, Timeouts
 from rapidgen.client.core.state import Driver, Event, Progress, State
 from rapidgen.client.flows.effects import Flow
 from rapidgen.client.methods import Method, method
+from rapidgen.client.program import Program, pose_of
 from rapidgen.client.recording import JointRecording
 from rapidgen.client.target import resolve
 from rapidgen.client.trajectory import Trajectory
@@ -115,6 +118,28 @@ class ExecutionSurface(JobSurface[C_co]):
         return self._job.motion.way
 
 
+class RunSurface(JobSurface[C_co]):
+    """A program that the controller has taken: whole, or its first instructions."""
+
+    @property
+    def program(self) -> Program:
+        """What was asked for."""
+        assert self._job.program is not None
+        return self._job.program
+
+    @property
+    def warnings(self) -> Sequence[Diagnostic]:
+        """What the checks noted."""
+        assert self._job.motion is not None
+        return self._job.motion.warnings
+
+    @property
+    def way(self) -> Way:
+        """`download`: sent whole before the robot moved; `stream`: sent while it moves."""
+        assert self._job.motion is not None
+        return self._job.motion.way
+
+
 class StreamSurface(JobSurface[C_co]):
     """Points that the robot executes while more of them come."""
 
@@ -145,14 +170,16 @@ class StreamSurface(JobSurface[C_co]):
 
 Execution = TypeVar("Execution", bound=ExecutionSurface[FlowCarrier], covariant=True)
 Stream = TypeVar("Stream", bound=StreamSurface[FlowCarrier], covariant=True)
+Run = TypeVar("Run", bound=RunSurface[FlowCarrier], covariant=True)
 
 
-class RobotSurface(Generic[C_co, Execution, Stream]):
+class RobotSurface(Generic[C_co, Execution, Stream, Run]):
     """One motion group of a robot; see `Robot`."""
 
     _carrier_type: type[C_co]
     _execution_type: type[Execution]
     _stream_type: type[Stream]
+    _run_type: type[Run]
 
     def __init__(
         self,
@@ -251,6 +278,40 @@ class RobotSurface(Generic[C_co, Execution, Stream]):
     write_signal = _of_core(flows.control.write_signal)
     stop = _of_core(flows.stop.stop)
 
+    move_to = _of_core(flows.program.move_to)
+    move_linear = _of_core(flows.program.move_linear)
+    jog = _of_core(flows.program.jog)
+    call = _of_core(flows.program.call)
+
+    @property
+    def pose(self) -> Pose:
+        """The tool in the work object, m, where the robot was seen last. Raises as `pose_of`."""
+        return self.pose_of(self.state.joints)
+
+    def pose_of(self, joints: Sequence[float]) -> Pose:
+        """The pose that joints (rad, m) reach: ((x, y, z), (w, x, y, z)), m.
+
+        Raises NotSupported where the robot's geometry is not known.
+        """
+        return self.group.poses.pose(self.group.map.to_controller(joints))
+
+    def joints_for(
+        self,
+        pose: Pose,
+        *,
+        near: Sequence[float] | None = None,
+        configuration: AxisConfiguration | None = None,
+    ) -> tuple[tuple[float, ...], ...]:
+        """All joints (rad, m) within the limits that reach a pose, nearest first to `near`, by
+        default to where the robot stands; those of a configuration (cf1, cf4, cf6, cfx).
+
+        Raises NotSupported where the robot's geometry is not known.
+        """
+        group = self.group
+        here = group.map.to_controller(self.state.joints if near is None else near)
+        found = group.poses.postures(pose_of(pose), here, configuration)
+        return tuple(group.map.to_urdf(posture) for posture in found)
+
     @property
     def override(self) -> float:
         """Share of the programmed speed (0.01 to 1) that this client last asked for."""
@@ -286,3 +347,22 @@ class RobotSurface(Generic[C_co, Execution, Stream]):
         that does not stream gets the points as a whole, at the end.
         """
         return self._stream_type(self._carrier, Job(self._core, names, may_download=fallback))
+
+    def check_program(self, program: Program) -> tuple[Diagnostic, ...]:
+        """Notes about a program. Raises InvalidProgram with every fault; sends nothing."""
+        with self._carrier.guard:
+            checked, _ = self._core.check_program(program)
+        return checked.notes
+
+    @_own
+    def run(self, program: Program, *, way: Way | None = None) -> Flow[Run]:
+        """Send a program; returns when the controller has taken it and begins to move.
+
+        `way` is `download` (whole, and checked whole by the controller before anything moves) or
+        `stream` (the rest is sent while the robot moves); by default a program that the driver's
+        ring holds goes whole. Raises InvalidProgram, NotReady and NotSupported before a byte is
+        sent, TrajectoryRefused when nothing will move, RobotTimeout, ConnectionLost. Ctrl-C here,
+        or cancelling this, stops the robot.
+        """
+        job = yield from flows.program.run(self._core, program, way)
+        return self._run_type(self._carrier, job)

@@ -14,7 +14,13 @@ from rapidgen.client.core.robot import STOP_FRAME
 from rapidgen.client.core.state import State
 from rapidgen.client.errors import ConnectionLost, MotionStopped, RobotError
 from rapidgen.client.flows.effects import Close, Effect, Flow, HangUp, Open, Wait
-from rapidgen.client.surface import ExecutionSurface, MakeCore, RobotSurface, StreamSurface
+from rapidgen.client.surface import (
+    ExecutionSurface,
+    MakeCore,
+    RobotSurface,
+    RunSurface,
+    StreamSurface,
+)
 from rapidgen.wire.simple_message.spec import Port
 
 T = TypeVar("T")
@@ -169,6 +175,10 @@ class Execution(ExecutionSurface[Threads]):
     """A trajectory that the controller has taken."""
 
 
+class ProgramRun(RunSurface[Threads]):
+    """A program that the controller has taken."""
+
+
 class Stream(StreamSurface[Threads]):
     """Points that the robot executes while more of them come.
 
@@ -197,7 +207,7 @@ class Stream(StreamSurface[Threads]):
             self.append(times, positions)
 
 
-class Robot(RobotSurface[Threads, Execution, Stream]):
+class Robot(RobotSurface[Threads, Execution, Stream, ProgramRun]):
     """One motion group of a robot, driven over its rapidgen driver or a plain abb_driver.
 
     `target` is a configuration file, a shipped name, a RobotConfig, or an address
@@ -213,6 +223,7 @@ class Robot(RobotSurface[Threads, Execution, Stream]):
     _carrier_type = Threads
     _execution_type = Execution
     _stream_type = Stream
+    _run_type = ProgramRun
 
     def connect(self) -> Self:
         """Connect and find out who is there.

@@ -14,6 +14,7 @@ from rapidgen.config.layers import (
 )
 from rapidgen.config.registry import find_shipped, is_path
 from rapidgen.config.tree import MappingNode, Node, ScalarNode, decode, parse, read_bytes, to_python
+from rapidgen.config.variant_model import PATH, label, model_text, named
 from rapidgen.diagnostics import Diagnostic, Span, error, refusal
 
 Figures = dict[tuple[str, str], float]
@@ -45,14 +46,14 @@ def assemble(path_or_name: str | Path, overrides: Overrides) -> Assembly:
     shipped = not isinstance(path_or_name, Path) and not is_path(text)
     path = find_shipped(text) if shipped else Path(text)
     made = Assembly(path, MappingNode({}, Span(text, 1, 1)))
-    user = _read(path, made)
+    user = _read(path, made) if not shipped else _model(text, made)
     over, over_inputs = override_tree(overrides)
     base_name = _text(over, "model") or _text(user, "model")
     if base_name:
         made.root = _shipped(base_name, made)
         _rest_on(made, base_name, made.root)
     elif shipped or path.parent == data_folder("robots"):
-        _rest_on(made, path.stem, canonical(user, ()).root)
+        _rest_on(made, text if shipped else path.stem, canonical(user, ()).root)
     for layer in (user, over) if over.entries else (user,):
         moved = canonical(layer, group_names(made.root))
         made.found += moved.found
@@ -81,6 +82,7 @@ def _figures(group: MappingNode) -> Figures:
         (text(joint["axis"]), figure): number(joint[figure])
         for joint in map(members, joints.values())
         for figure in ("lower", "upper", "speed")
+        if not isinstance(joint[figure], str)  # open
     }
 
 
@@ -94,17 +96,38 @@ def shown_path(path: Path) -> str:
 
 def _read(path: Path, made: Assembly) -> MappingNode:
     shown = shown_path(path)
-    data = read_bytes(path, shown)
-    made.inputs.append((path.name, data))
-    root, faults = parse(decode(data, shown), shown)
+    return _parsed(path.name, read_bytes(path, shown), shown, made)
+
+
+def _model(name: str, made: Assembly, span: Span | None = None) -> MappingNode:
+    """The tree of a shipped model, or of a known variant."""
+    path = find_shipped(name, span)
+    variant = named(name) if path == PATH else None
+    if variant is None:
+        return _read(path, made)
+    return _parsed(f"{name}.yaml", model_text(variant).encode(), label(name), made)
+
+
+def _parsed(name: str, data: bytes, shown: str, made: Assembly) -> MappingNode:
+    made.inputs.append((name, data))
+    root, faults = keys_of(data, shown)
     made.found += faults
+    return root
+
+
+def keys_of(data: bytes, shown: str) -> tuple[MappingNode, list[Diagnostic]]:
+    """The keys of a YAML file, none of an empty one, and faults that do not hinder them.
+
+    Raises DiagnosticError (RG002, RG003, RG006).
+    """
+    root, faults = parse(decode(data, shown), shown)
     if isinstance(root, ScalarNode) and root.value is None:
-        return MappingNode({}, root.span)
+        return MappingNode({}, root.span), faults
     if not isinstance(root, MappingNode):
         raise refusal(
             "RG006", root.span, "a configuration is a mapping of keys", label="not a mapping"
         )
-    return root
+    return root, faults
 
 
 def _text(root: MappingNode, key: str) -> str:
@@ -116,7 +139,7 @@ def _text(root: MappingNode, key: str) -> str:
 
 
 def _shipped(name: str, made: Assembly, span: Span | None = None) -> MappingNode:
-    return canonical(_read(find_shipped(name, span), made), ()).root
+    return canonical(_model(name, made, span), ()).root
 
 
 def _group_models(made: Assembly) -> None:

@@ -66,8 +66,9 @@ def kept_axes(
                 f"{shown} of the arm {'has' if len(unkept) == 1 else 'have'} no joint",
                 where,
                 f"drives {', '.join(sorted(driven))}",
-                f"map a joint to each, or add `keep: [{shown}]`: then the robot holds them where "
-                "they stand when a trajectory is accepted",
+                "map a joint to each, or let the robot hold them where they stand when a "
+                "trajectory is accepted"
+                + ("" if any(keep.values()) else f":\nkeep: [{', '.join([*keep, *unkept])}]"),
                 key=True,
             )
         elif len(draft.ignored) > len(missing):

@@ -9,7 +9,8 @@ from rapidgen.config.draft import DraftFindings, GroupDraft
 from rapidgen.config.draft import Path as KeyPath
 from rapidgen.config.joints import joints_of
 from rapidgen.config.registry import find_shipped
-from rapidgen.config.tooling import tool_of, work_object_of
+from rapidgen.config.tooling import routine_of, tool_of, work_object_of
+from rapidgen.config.variant_model import label
 from rapidgen.diagnostics import Severity
 
 GENERATIONS = {
@@ -214,6 +215,18 @@ def _group(
         tool=tool_of(keys.tool, (*path, "tool"), report),
         payload=model.Payload(keys.payload.name, keys.payload.given_by == "TLoad"),
         work_object=work_object_of(keys.work_object, (*path, "work_object"), report),
+        tools=tuple(
+            tool_of(tool, (*path, "tools", number), report)
+            for number, tool in enumerate(keys.tools)
+        ),
+        work_objects=tuple(
+            work_object_of(wobj, (*path, "work_objects", number), report)
+            for number, wobj in enumerate(keys.work_objects)
+        ),
+        routines=tuple(
+            routine_of(name, routine, (*path, "routines", name), report)
+            for name, routine in keys.routines.items()
+        ),
         tcp_speed_limit=keys.tcp_speed_limit / 1000,
         external_units=tuple(keys.external_units),
         positioners=tuple(
@@ -227,7 +240,8 @@ def _is_shipped(path: KeyPath, name: str, report: DraftFindings) -> bool:
     """Whether a part is as the shipped model has it."""
     if not name:
         return False
-    return Path(report.span(path, key=True).path).resolve() == find_shipped(name).resolve()
+    place = report.span(path, key=True).path
+    return place == label(name) or Path(place).resolve() == find_shipped(name).resolve()
 
 
 def _chain(

@@ -10,6 +10,7 @@ from rapidgen.config.library import Variant, variants
 from rapidgen.config.load import load_config
 from rapidgen.config.registry import find_shipped, shipped_names
 from rapidgen.config.tree import MappingNode, ScalarNode, decode, parse, read_bytes
+from rapidgen.config.variant_model import lacks, model_name
 from rapidgen.diagnostics import refusal, suggest
 
 
@@ -59,7 +60,8 @@ def variant_named(name: str) -> tuple[Variant, ...]:
     """The variants of a shipped model's name, or of a type; raises DiagnosticError (RG009)."""
     wanted = name.casefold().replace(" ", "")
     every = variants()
-    found = [v for v in every if wanted == v.model or wanted == v.name.casefold().replace(" ", "")]
+    found = [v for v in every if wanted in (v.model, v.name.casefold().replace(" ", ""))]
+    found = found or [v for v in every if wanted == model_name(v)]
     found = found or [v for v in every if wanted and wanted in v.name.casefold().replace(" ", "")]
     if found:
         return tuple(found)
@@ -75,7 +77,8 @@ def variant_named(name: str) -> tuple[Variant, ...]:
 
 def variant_text(variant: Variant) -> str:
     """Axes, reach, coupling and sources of a variant for people."""
-    lines = [variant.name + (f" (model {variant.model})" if variant.model else "")]
+    model = variant.model or ("" if lacks(variant) else model_name(variant))
+    lines = [variant.name + (f" (model {model})" if model else "")]
     for axis, line in zip(variant.axes, variant.skeleton.lines, strict=True):
         unit = "mm" if line.slides else "deg"
         span = "?" if axis.lower is None else f"{axis.lower:g}..{axis.upper:g} {unit}"
@@ -91,6 +94,8 @@ def variant_text(variant: Variant) -> str:
     lines += [f"  {what}: {source}" for what, source in variant.sources]
     if variant.unsure:
         lines.append(f"  without a second source: {', '.join(variant.unsure)}")
+    if not model:
+        lines.append(f"  to be a model it lacks {'; '.join(lacks(variant))}")
     lines += [f"  differs: {text}" for text in variant.disagreements]
     return "\n".join(lines)
 

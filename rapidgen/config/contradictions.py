@@ -10,6 +10,7 @@ import re
 from collections.abc import Iterator
 from typing import TypeAlias
 
+from rapidgen.config import variant_model
 from rapidgen.config.draft import DraftFindings, GroupDraft, JointDraft
 from rapidgen.config.draft import Path as KeyPath
 from rapidgen.config.geometry import Difference, Skeleton, compare, skeleton
@@ -42,7 +43,8 @@ def contradictions(
         return
     _lengths(draft, path, report)
     arm = _arm(draft)
-    variant = of_model(draft.model, draft.name) if draft.model else None
+    model = draft.model
+    variant = (of_model(model, draft.name) or variant_model.named(model)) if model else None
     difference, is_named = None, True
     if variant and arm:
         difference = compare(arm, variant.skeleton)
@@ -138,12 +140,14 @@ def _dimensions(
             "take the model of your variant (`rapidgen robots`), or leave `model:` out and keep "
             "the URDF's dimensions; an `offset` moves an axis' zero",
         )
-    elif difference.end > _SAME_END:
+    elif difference.end > _SAME_END or difference.facing > SAME_TURN:
+        off = [f"{difference.end * 1000:.0f} mm"] if difference.end > _SAME_END else []
+        turned = math.degrees(difference.facing)
+        off += [f"turned by {turned:.0f} deg"] if difference.facing > SAME_TURN else []
         report.add(
             "RG055",
             Severity.WARNING,
-            f"the axes are those of {variant.name}, the end is {difference.end * 1000:.0f} mm "
-            "from its flange",
+            f"the axes are those of {variant.name}, the end is {' and '.join(off)} from its flange",
             (*path, "model"),
             "",
             "poses are those of the chain's end: a `tip:` at the flange (tool0) has ABB's",

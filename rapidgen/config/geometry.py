@@ -31,17 +31,19 @@ class Line:
 
 @dataclass(frozen=True, slots=True)
 class Skeleton:
-    """The axes of the arm along the chain, and where the chain ends."""
+    """The axes of the arm along the chain, and where the chain ends, with which orientation."""
 
     lines: tuple[Line, ...]
     end: Vector
+    facing: Matrix | None = None
 
 
 @dataclass(frozen=True, slots=True)
 class Difference:
     """How far one arm is from another: `axis` is off most, by `distance` m or `angle` rad.
 
-    `turned` are the axes that turn the other way, `end` is the distance of the two flanges.
+    `turned` are the axes that turn the other way, `end` is the distance of the two flanges and
+    `facing` the angle (rad) between them, 0 where one is not known.
     """
 
     axis: str
@@ -49,6 +51,7 @@ class Difference:
     angle: float
     turned: tuple[str, ...]
     end: float
+    facing: float
 
 
 def apply(m: Matrix, v: Vector) -> Vector:
@@ -90,7 +93,7 @@ def skeleton(draft: GroupDraft, chain: Sequence[ChainLink] = ()) -> Skeleton:
         name: -joint.sign * joint.offset * (0.001 if joint.unit == "mm" else math.pi / 180)
         for name, joint in joints.items()
     }
-    lines, end = _along(chain or draft.chain, at)
+    lines, end, facing = _along(chain or draft.chain, at)
     arm = [i for i, (step, _, _) in enumerate(lines) if joints[step.joint].axis.startswith("rax")]
     return Skeleton(
         tuple(
@@ -105,13 +108,14 @@ def skeleton(draft: GroupDraft, chain: Sequence[ChainLink] = ()) -> Skeleton:
         if arm
         else (),
         end,
+        facing,
     )
 
 
 def _along(
     chain: Sequence[ChainLink], at: dict[str, float]
-) -> tuple[list[tuple[ChainLink, Vector, Vector]], Vector]:
-    """Each joint's place and direction along a chain, and its end."""
+) -> tuple[list[tuple[ChainLink, Vector, Vector]], Vector, Matrix]:
+    """Each joint's place and direction along a chain, and its end with its orientation."""
     place: Vector = (0.0, 0.0, 0.0)
     turned = IDENTITY
     found = []
@@ -123,7 +127,7 @@ def _along(
         amount = at[step.joint] if step.joint else sum(at[n] * k for n, k in step.follows)
         if amount:
             turned = times(turned, turn(step.axis, amount))
-    return found, place
+    return found, place, turned
 
 
 def distance(a: Line, b: Line) -> float:
@@ -173,6 +177,7 @@ def laid(arm: Skeleton, flips: tuple[int, int] = (1, 1)) -> Skeleton:
             for line in arm.lines
         ),
         apply(axes, subtract(arm.end, origin)),
+        None if arm.facing is None else times(axes, arm.facing),
     )
 
 
@@ -206,4 +211,13 @@ def _difference(here: Skeleton, there: Skeleton) -> Difference:
         far, wide = max(far, apart), max(wide, angle)
         if apart + angle > worst:
             worst, axis = apart + angle, a.axis
-    return Difference(axis, far, wide, tuple(turned), norm(subtract(here.end, there.end)))
+    end = norm(subtract(here.end, there.end))
+    return Difference(axis, far, wide, tuple(turned), end, _apart(here.facing, there.facing))
+
+
+def _apart(a: Matrix | None, b: Matrix | None) -> float:
+    """Angle from one orientation to another one."""
+    if a is None or b is None:
+        return 0.0
+    trace = sum(dot(row, other) for row, other in zip(a, b, strict=True))
+    return math.acos(max(-1.0, min(1.0, (trace - 1) / 2)))

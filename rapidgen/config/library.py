@@ -13,7 +13,7 @@ from functools import cache
 from rapidgen._data import data_folder
 from rapidgen._json import Json, Members, items, members, number, text
 from rapidgen.config.draft import GroupDraft
-from rapidgen.config.geometry import Difference, Line, Skeleton, compare, skeleton
+from rapidgen.config.geometry import Difference, Line, Matrix, Skeleton, compare, skeleton
 from rapidgen.config.vectors import unit
 
 SAME_PLACE = 0.003
@@ -141,6 +141,7 @@ def _variant(entry: Json) -> Variant:
                 for axis in axes
             ),
             _vector(data["end"], 0.001),
+            _matrix(data["facing"]) if "facing" in data else None,
         ),
         sources=tuple((key, text(value)) for key, value in members(data["sources"]).items()),
         unsure=tuple(text(part) for part in items(data.get("unsure", []))),
@@ -155,6 +156,11 @@ def _figure(axis: Members, name: str) -> float | None:
 
 def _vector(value: Json, factor: float = 1.0) -> tuple[float, float, float]:
     x, y, z = (number(part) * factor for part in items(value))
+    return (x, y, z)
+
+
+def _matrix(value: Json) -> Matrix:
+    x, y, z = (_vector(row) for row in items(value))
     return (x, y, z)
 
 
@@ -185,6 +191,7 @@ def entry(name: str, draft: GroupDraft, sources: dict[str, str], unsure: list[st
         "coupling": draft.coupling,
         "axes": axes,
         "end": [round(v * 1000, 3) for v in arm.end],
+        "facing": [[round(v, 6) + 0.0 for v in row] for row in arm.facing or ()],
         "sources": dict(sources),
         "unsure": list(unsure),
     }

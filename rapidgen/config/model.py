@@ -106,6 +106,24 @@ class Payload:
 
 
 @dataclass(frozen=True, slots=True)
+class Parameter:
+    """A parameter of a routine; `inout`: its value then is a result."""
+
+    name: str
+    type: Literal["num", "bool", "string"]
+    inout: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class OwnRoutine:
+    """A procedure of the customer's that a program may call; `call` is what late binding finds."""
+
+    name: str
+    call: str
+    parameters: tuple[Parameter, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
 class WorkObject:
     """A work object; `name` is `wobj0` or a PERS, of the generated module or another."""
 
@@ -155,6 +173,10 @@ class GroupConfig:
     external_units: tuple[str, ...] = ()
     """Mechanical units of the external axes."""
     positioners: tuple[Positioner, ...] = field(default=(), metadata=SPARSE)
+    tools: tuple[Tool, ...] = field(default=(), metadata=SPARSE)
+    """Further ones, for motion programs."""
+    work_objects: tuple[WorkObject, ...] = field(default=(), metadata=SPARSE)
+    routines: tuple[OwnRoutine, ...] = field(default=(), metadata=SPARSE)
     kept: tuple[KeptAxis, ...] = field(default=(), metadata=SPARSE)
     """Robot axes without a joint."""
     unit_group: str = field(default="", metadata=SPARSE)

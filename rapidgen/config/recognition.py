@@ -48,7 +48,8 @@ def _aligned(lines: Sequence[Line], names: tuple[str, ...], within: float) -> Al
     hits = [v for v in variants() if _is_like(lines, v.skeleton.lines, within)]
     if within > SAME_PLACE:
         hits = [v for v in hits if v.family == family(*names)]
-    hits.sort(key=lambda v: closeness(v, *names), reverse=True)
+    said = family(*names)
+    hits.sort(key=lambda v: (v.family == said, closeness(v, *names)), reverse=True)
     for variant in hits:
         found = sorted(
             _postures(lines, variant.skeleton, within),

@@ -8,7 +8,7 @@ import typing
 from typing import Any
 
 from rapidgen._json import Members
-from rapidgen.config import schema
+from rapidgen.config import cell, schema
 from rapidgen.config.rules import Hint, Rule
 
 SECTIONS = (
@@ -28,25 +28,37 @@ SECTIONS = (
     schema.NetworkKeys,
     schema.SignalKeys,
 )
+CELL_SECTIONS = (cell.CellKeys, cell.CellRobotKeys, cell.CellSignalKeys, cell.ReactionKeys)
 
 
 def json_schema() -> Members:
     """JSON schema (2020-12) of a configuration file; group keys may stand at the top."""
+    made = _schema_of(SECTIONS, "rapidgen configuration")
+    group = made["$defs"]["GroupKeys"]["properties"]
+    made["properties"] = {**group, **made["properties"]}
+    return made
+
+
+def cell_schema() -> Members:
+    """JSON schema (2020-12) of the description of a cell."""
+    return _schema_of(CELL_SECTIONS, "rapidgen cell")
+
+
+def _schema_of(sections: tuple[type, ...], title: str) -> dict[str, Any]:
+    """`sections` begin with the top of the file."""
     from pydantic import TypeAdapter
 
-    written = json.dumps(TypeAdapter(schema.ConfigurationKeys).json_schema())
+    written = json.dumps(TypeAdapter(sections[0]).json_schema())
     made = json.loads(re.sub(r"\b(\w+Keys)\b", lambda found: _shown(found[0]), written))
-    parts = {"Configuration": made, **made["$defs"]}
-    for section in SECTIONS:
+    parts = {_shown(sections[0].__name__): made, **made["$defs"]}
+    for section in sections:
         # pydantic drops the words beside a reference to another part.
         for key in dataclasses.fields(section):
             value = parts[_shown(section.__name__)]["properties"][key.name]
             value.setdefault("description", _doc(key.type))
-    group = made["$defs"]["GroupKeys"]["properties"]
-    made["properties"] = {**group, **made["properties"]}
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
-        "title": "rapidgen configuration",
+        "title": title,
         **{key: value for key, value in made.items() if key != "title"},
     }
 
@@ -56,13 +68,13 @@ def _shown(name: str) -> str:
     return name if name == schema.GroupKeys.__name__ else name.removesuffix("Keys")
 
 
-def reference() -> str:
-    """Markdown tables of every key, in the order of `SECTIONS`."""
-    return "\n".join(_section(part) for part in SECTIONS)
+def reference(sections: tuple[type, ...] = SECTIONS) -> str:
+    """Markdown tables of every key, in the order of `sections`."""
+    return "\n".join(_section(part) for part in sections)
 
 
 def _section(part: type) -> str:
-    title = "top of the file" if part is schema.ConfigurationKeys else _key_of(part)
+    title = _key_of(part)
     text = (part.__doc__ or "").strip()
     lines = [f"### {title}", "", " ".join(text.split()), "", "| key | value | default | |"]
     lines.append("|---|---|---|---|")
@@ -75,6 +87,11 @@ def _section(part: type) -> str:
 
 def _key_of(part: type) -> str:
     names = {
+        schema.ConfigurationKeys: "top of the file",
+        cell.CellKeys: "top of the file",
+        cell.CellRobotKeys: "`robots.TASK`",
+        cell.CellSignalKeys: "`signals.NAME`",
+        cell.ReactionKeys: "`devices.NAME` (a list of these)",
         schema.GroupKeys: "`groups.NAME`",
         schema.JointKeys: "`joints.NAME`",
         schema.ChainStepKeys: "`chain` (a list of these)",

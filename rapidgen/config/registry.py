@@ -1,8 +1,9 @@
-"""The shipped models: `robots/*.yaml`, found by name."""
+"""The models, found by name: `robots/*.yaml`, and the known variants that are known enough."""
 
 from pathlib import Path
 
 from rapidgen._data import data_folder
+from rapidgen.config import variant_model
 from rapidgen.diagnostics import Span, refusal, suggest
 
 
@@ -12,12 +13,24 @@ def shipped_names() -> tuple[str, ...]:
 
 
 def find_shipped(name: str, span: Span | None = None) -> Path:
-    """File of a shipped model; an unknown name raises DiagnosticError (RG009)."""
-
+    """File of a model; an unknown name raises DiagnosticError (RG009)."""
     known = shipped_names()
     if name in known:
         return data_folder("robots") / f"{name}.yaml"
-    meant = suggest(name, known)
+    variant = variant_model.named(name)
+    if variant:
+        missing = variant_model.lacks(variant)
+        if not missing:
+            return variant_model.PATH
+        raise refusal(
+            "RG009",
+            span,
+            f"{variant.name} is known, but not well enough to be a model; it lacks: "
+            + "; ".join(missing),
+            "`rapidgen new --urdf` with a description of it takes what is known and leaves the "
+            "rest open",
+        )
+    meant = suggest(name, (*known, *variant_model.names()))
     raise refusal(
         "RG009",
         span,

@@ -9,8 +9,11 @@ from rapidgen._writing import write_whole
 from rapidgen.config import schema
 from rapidgen.config.catalogue import model_description
 from rapidgen.config.described import Answers, GroupText, describe
+from rapidgen.config.library import Variant
 from rapidgen.config.load import load_config
+from rapidgen.config.open_lines import OPEN
 from rapidgen.config.registry import find_shipped
+from rapidgen.config.variant_model import model_name, named
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, refusal
 
 _OPTIONS = """
@@ -39,9 +42,12 @@ _GROUP_OPTIONS = """# ports: {motion: 11000, control: 11001, state: 11002}
 """
 
 
-def from_shipped(name: str) -> str:
-    """Configuration text for a shipped model."""
+def from_model(name: str, said: Answers | None = None) -> str:
+    """Configuration text for a shipped model, or for a known variant."""
     find_shipped(name)
+    variant = named(name)
+    if variant:
+        return _from_variant(variant, said or Answers())
     config = load_config(name)
     major, minor = config.robotware
     lines = [
@@ -62,6 +68,23 @@ def from_shipped(name: str) -> str:
         f"#     ports: {{motion: {first.ports.motion}, control: {first.ports.control}, "
         f"state: {first.ports.state}}}\n"
     )
+
+
+def _from_variant(variant: Variant, said: Answers) -> str:
+    """What the list does not say of the controller and the speeds is said, or left open."""
+    lines = [
+        f"# ABB {variant.name}, from public sources: `rapidgen robots show {model_name(variant)}`.",
+        f"model: {model_name(variant)}",
+        "controller:",
+        f"  type: {said.controller:<20}# irc5, irc5_compact, omnicore",
+        f"  robotware: {said.robotware:<15}# see the FlexPendant: Settings or System Info",
+    ]
+    slow = [axis.axis for axis in variant.axes if axis.speed is None]
+    speed = OPEN if said.speed is None else f"{said.speed:g}"
+    if slow:
+        lines.append("joints:                    # no public source has their speeds, deg/s")
+        lines += [f"  joint_{axis[-1]}: {{speed: {speed}}}" for axis in slow]
+    return "\n".join(lines) + "\n" + _OPTIONS + _GROUP_OPTIONS + _limits_hint("joint_1")
 
 
 def _limits_hint(joint: str) -> str:

@@ -68,14 +68,14 @@ def _unturned() -> list[float]:
     return [1.0, 0.0, 0.0, 0.0]
 
 
-class _Part:
+class Part:
     """For pydantic, where it reads these classes: no further keys."""
 
     __pydantic_config__: ClassVar[dict[str, Any]] = {"extra": "forbid"}
 
 
 @dataclass(frozen=True)
-class ControllerKeys(_Part):
+class ControllerKeys(Part):
     """The controller and its software."""
 
     type: Annotated[
@@ -96,7 +96,7 @@ class ControllerKeys(_Part):
 
 
 @dataclass(frozen=True)
-class JointKeys(_Part):
+class JointKeys(Part):
     """One joint: which controller axis it drives and what that axis can do.
 
     Controller value = sign x URDF value + offset. Limits and speeds are those of the
@@ -127,7 +127,7 @@ class JointKeys(_Part):
 
 
 @dataclass(frozen=True)
-class ChainStepKeys(_Part):
+class ChainStepKeys(Part):
     """One step of the kinematic chain, from the base to the flange."""
 
     joint: Annotated[str, Rule("Joint that turns or slides here; none: a fixed step.")] = ""
@@ -144,7 +144,7 @@ class ChainStepKeys(_Part):
 
 
 @dataclass(frozen=True)
-class FrameKeys(_Part):
+class FrameKeys(Part):
     """A position with an orientation."""
 
     position: Annotated[Vector, Rule("x, y, z in mm.")] = field(default_factory=_origin)
@@ -154,7 +154,7 @@ class FrameKeys(_Part):
 
 
 @dataclass(frozen=True)
-class LoadKeys(_Part):
+class LoadKeys(Part):
     """What the tool weighs."""
 
     mass: Annotated[float, Rule("kg", ge=0)] = 0.0
@@ -166,7 +166,18 @@ class LoadKeys(_Part):
 
 
 @dataclass(frozen=True)
-class ToolKeys(_Part):
+class ToolDataKeys(Part):
+    """A tool: where its TCP is and what it weighs."""
+
+    held: Annotated[bool, Rule("False: a stationary tool.")] = True
+    frame: Annotated[FrameKeys, Rule("TCP in the flange's frame.")] = field(
+        default_factory=FrameKeys
+    )
+    load: Annotated[LoadKeys, Rule("Load of the tool.")] = field(default_factory=LoadKeys)
+
+
+@dataclass(frozen=True)
+class ToolKeys(ToolDataKeys):
     """The tool that the driver moves with. Another name than tool0 declares that tooldata."""
 
     name: Annotated[Identifier, Rule("Name of the tooldata.")] = "tool0"
@@ -177,21 +188,12 @@ class ToolKeys(_Part):
             "the beginning of each trajectory."
         ),
     ] = "here"
-    held: Annotated[bool, Rule("False: a stationary tool.")] = True
-    frame: Annotated[FrameKeys, Rule("TCP in the flange's frame.")] = field(
-        default_factory=FrameKeys
-    )
-    load: Annotated[LoadKeys, Rule("Load of the tool.")] = field(default_factory=LoadKeys)
 
 
 @dataclass(frozen=True)
-class WorkObjectKeys(_Part):
-    """The work object. Another name than wobj0 declares that wobjdata."""
+class WorkObjectDataKeys(Part):
+    """A work object: where it is."""
 
-    name: Annotated[Identifier, Rule("Name of the wobjdata.")] = "wobj0"
-    declared: Annotated[Literal["here", "elsewhere"], Rule("`elsewhere`: as with the tool.")] = (
-        "here"
-    )
     held: Annotated[bool, Rule("True: the robot holds the work object.")] = False
     user_frame: Annotated[FrameKeys, Rule("User frame in the world.")] = field(
         default_factory=FrameKeys
@@ -202,7 +204,44 @@ class WorkObjectKeys(_Part):
 
 
 @dataclass(frozen=True)
-class PayloadKeys(_Part):
+class WorkObjectKeys(WorkObjectDataKeys):
+    """The work object. Another name than wobj0 declares that wobjdata."""
+
+    name: Annotated[Identifier, Rule("Name of the wobjdata.")] = "wobj0"
+    declared: Annotated[Literal["here", "elsewhere"], Rule("`elsewhere`: as with the tool.")] = (
+        "here"
+    )
+
+
+@dataclass(frozen=True)
+class ParameterKeys(Part):
+    """A parameter of a routine."""
+
+    name: Annotated[Identifier, Rule("Name of the parameter, for people.")]
+    type: Annotated[Literal["num", "bool", "string"], Rule("Type; a string has 80 characters.")]
+    mode: Annotated[
+        Literal["in", "inout"], Rule("`inout`: its value then is a result (num and bool).")
+    ] = "in"
+
+
+@dataclass(frozen=True)
+class RoutineKeys(Part):
+    """A procedure of yours that a program may call, in the motion task."""
+
+    call: Annotated[
+        str,
+        Rule(
+            "`MODULE:PROCEDURE` as late binding finds it; a global one also by its name alone.",
+            pattern=r"^[A-Za-z][A-Za-z0-9_]{0,31}(:[A-Za-z][A-Za-z0-9_]{0,31})?$",
+        ),
+    ]
+    parameters: Annotated[
+        list[ParameterKeys], Rule("Its parameters, in their order.", max_length=8)
+    ] = field(default_factory=list)
+
+
+@dataclass(frozen=True)
+class PayloadKeys(Part):
     """What the robot carries: loaddata that a module of yours declares, `PERS` and global."""
 
     name: Annotated[Identifier, Rule("Name of the loaddata; load0: none.")] = "load0"
@@ -213,7 +252,7 @@ class PayloadKeys(_Part):
 
 
 @dataclass(frozen=True)
-class PortsKeys(_Part):
+class PortsKeys(Part):
     """TCP ports of one group. Defaults: 11000, 11001, 11002, and 10 more for each next group."""
 
     motion: Annotated[Port | None, Rule("Trajectories and stop.")] = None
@@ -225,7 +264,7 @@ class PortsKeys(_Part):
 
 
 @dataclass(frozen=True)
-class UrdfKeys(_Part):
+class UrdfKeys(Part):
     """A robot description. Meshes are never opened; ROS is not needed."""
 
     file: Annotated[str, Rule("URDF or xacro file, relative to this file.")]
@@ -250,7 +289,7 @@ class UrdfKeys(_Part):
 
 
 @dataclass(frozen=True)
-class GroupKeys(_Part):
+class GroupKeys(Part):
     """One motion task with its mechanical unit; for one group these may stand at the top."""
 
     model: Annotated[str | None, Rule("A shipped model (`rapidgen robots`).")] = None
@@ -316,6 +355,15 @@ class GroupKeys(_Part):
     work_object: Annotated[WorkObjectKeys, Rule("Work object of the moves.")] = field(
         default_factory=WorkObjectKeys
     )
+    tools: Annotated[list[ToolKeys], Rule("Further tools, for motion programs.", max_length=16)] = (
+        field(default_factory=list)
+    )
+    work_objects: Annotated[
+        list[WorkObjectKeys], Rule("Further work objects, for motion programs.", max_length=16)
+    ] = field(default_factory=list)
+    routines: Annotated[
+        dict[Identifier, RoutineKeys], Rule("Procedures of yours that clients may call, by name.")
+    ] = field(default_factory=dict)
     tcp_speed_limit: Annotated[
         float, Rule("Ceiling of the tool's speed, mm/s.", ge=0.001, le=10000)
     ] = 5000.0
@@ -331,7 +379,7 @@ class GroupKeys(_Part):
 
 
 @dataclass(frozen=True)
-class TrajectoryKeys(_Part):
+class TrajectoryKeys(Part):
     """What the motion server accepts."""
 
     capacity: Annotated[
@@ -374,7 +422,7 @@ class TrajectoryKeys(_Part):
 
 
 @dataclass(frozen=True)
-class StateKeys(_Part):
+class StateKeys(Part):
     """The state server."""
 
     rate: Annotated[
@@ -384,7 +432,7 @@ class StateKeys(_Part):
 
 
 @dataclass(frozen=True)
-class NetworkKeys(_Part):
+class NetworkKeys(Part):
     """Who may talk to the driver."""
 
     bind: Annotated[
@@ -408,7 +456,7 @@ class NetworkKeys(_Part):
 
 
 @dataclass(frozen=True)
-class SignalKeys(_Part):
+class SignalKeys(Part):
     """A signal that a client may read or write."""
 
     kind: Annotated[Literal["DI", "DO", "GI", "GO", "AI", "AO"], Rule("Type of the signal.")]
@@ -418,7 +466,7 @@ class SignalKeys(_Part):
 
 
 @dataclass(frozen=True)
-class ConfigurationKeys(_Part):
+class ConfigurationKeys(Part):
     """A controller with its motion groups."""
 
     name: Annotated[ConfigName | None, Rule("Name of the robot; the file's name without one.")] = (

@@ -1,4 +1,4 @@
-"""Tools, work objects and their frames in SI units."""
+"""Tools, work objects and their frames in SI units; the customer's routines."""
 
 import math
 
@@ -54,18 +54,23 @@ def tool_of(tool: schema.ToolKeys, path: KeyPath, report: DraftFindings) -> mode
             (*path, "load", "mass"),
             help="a controller refuses to move with a tool without mass: add `load: {mass: ...}`",
         )
-    x, y, z = load.inertia
     return model.Tool(
         tool.name,
         tool.declared == "elsewhere",
         tool.held,
         _frame(tool.frame, (*path, "frame"), report),
-        model.Load(
-            load.mass,
-            _metres(load.centre),
-            _unit_quaternion(load.axes, (*path, "load", "axes"), report),
-            (x, y, z),
-        ),
+        load_of(load, (*path, "load"), report),
+    )
+
+
+def load_of(load: schema.LoadKeys, path: KeyPath, report: DraftFindings) -> model.Load:
+    """A load."""
+    x, y, z = load.inertia
+    return model.Load(
+        load.mass,
+        _metres(load.centre),
+        _unit_quaternion(load.axes, (*path, "axes"), report),
+        (x, y, z),
     )
 
 
@@ -88,3 +93,19 @@ def work_object_of(
         _frame(given.user_frame, (*path, "user_frame"), report),
         _frame(given.object_frame, (*path, "object_frame"), report),
     )
+
+
+def routine_of(
+    name: str, given: schema.RoutineKeys, path: KeyPath, report: DraftFindings
+) -> model.OwnRoutine:
+    """A procedure that a program may call."""
+    for number, parameter in enumerate(given.parameters):
+        if parameter.type == "string" and parameter.mode == "inout":
+            report.error(
+                "RG014",
+                f"parameter '{parameter.name}' is a string and no result",
+                (*path, "parameters", number, "mode"),
+                help="results are num and bool",
+            )
+    parameters = tuple(model.Parameter(p.name, p.type, p.mode == "inout") for p in given.parameters)
+    return model.OwnRoutine(name, given.call, parameters)

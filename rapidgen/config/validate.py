@@ -8,6 +8,7 @@ import dataclasses
 import types
 import typing
 from dataclasses import dataclass, field
+from typing import TypeVar
 
 from pydantic_core import ErrorDetails, SchemaValidator, ValidationError
 
@@ -19,6 +20,7 @@ from rapidgen.config.tree import MappingNode, place_of, to_python
 from rapidgen.diagnostics import Diagnostic, error, suggest
 
 Path = tuple[str | int, ...]
+T = TypeVar("T")
 
 
 @dataclass(slots=True)
@@ -32,13 +34,18 @@ class Validated:
 
 def validate(root: MappingNode) -> Validated:
     """Validate a canonical tree."""
+    return Validated(*sound(root, ConfigurationKeys))
+
+
+def sound(root: MappingNode, kind: type[T]) -> tuple[T, list[Diagnostic], set[Path]]:
+    """A tree as `kind` of the schema, as far as it is sound; faults, and the paths taken out."""
     data = to_python(root)
-    validator = SchemaValidator(core(ConfigurationKeys))
+    validator = SchemaValidator(core(kind))
     found: list[Diagnostic] = []
     removed: set[Path] = set()
     while True:
         try:
-            return Validated(validator.validate_python(data), found, removed)
+            return validator.validate_python(data), found, removed
         except ValidationError as fault:
             faults = fault.errors(include_url=False, include_context=True)
         paths: set[Path] = set()
@@ -48,7 +55,7 @@ def validate(root: MappingNode) -> Validated:
                 found.append(_missing(root, item["loc"]))
                 path = path if len(path) < len(item["loc"]) else path[:-1]
             elif path not in paths:
-                found.append(_translate(root, path, is_key, item))
+                found.append(_translate(root, kind, path, is_key, item))
             paths.add(path)
         removed |= paths
         for path in sorted(paths, key=len, reverse=True):
@@ -104,10 +111,12 @@ def _missing(root: MappingNode, loc: Path) -> Diagnostic:
     )
 
 
-def _translate(root: MappingNode, path: Path, is_key: bool, item: ErrorDetails) -> Diagnostic:
+def _translate(
+    root: MappingNode, kind: type, path: Path, is_key: bool, item: ErrorDetails
+) -> Diagnostic:
     key, value = place_of(root, path)
     if item["type"] == "unexpected_keyword_argument":
-        known = keys_at(path[:-1])
+        known = _keys_at(kind, path[:-1])
         meant = suggest(str(path[-1]), known)
         where = f" in '{shown(root, path[:-1])}'" if len(path) > 1 else ""
         return error(
@@ -115,7 +124,7 @@ def _translate(root: MappingNode, path: Path, is_key: bool, item: ErrorDetails) 
             key,
             f"unknown key '{_short(path[-1])}'{where}",
             meant or (f"known here: {', '.join(known)}" if len(known) < 25 else ""),
-            label="not a key of the configuration" if len(path) == 1 else "not a key here",
+            label="not a key of this file" if len(path) == 1 else "not a key here",
         )
     return error(
         "RG006",
@@ -181,11 +190,11 @@ def _reason(item: ErrorDetails, is_key: bool) -> str:
     return str(item["msg"])
 
 
-def keys_at(path: Path) -> tuple[str, ...]:
+def _keys_at(kind: type, path: Path) -> tuple[str, ...]:
     """Keys that the schema knows at a path of the canonical tree."""
-    if not path:
+    if not path and kind is ConfigurationKeys:
         return tuple(dict.fromkeys((*TOP_KEYS, *GROUP_KEYS)))
-    hint: Hint = ConfigurationKeys
+    hint: Hint = kind
     for part in path:
         hint = _step(hint, part)
     model = _model(hint)

@@ -13,6 +13,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Self, Unpack
 
+from rapidgen.controller.booting import Bootable
 from rapidgen.controller.controller import Choices, VirtualController
 from rapidgen.controller.programs import Programs
 from rapidgen.controller.rebooting import boot
@@ -60,6 +61,13 @@ class Cabinet:
         self.controller = VirtualController(system, **self._options)
         self.programs = Programs(self.controller)
 
+    @classmethod
+    def boot(cls, found: Bootable, **options: Unpack[Choices]) -> Self:
+        """What `booting.load_target` has read, as `VirtualController.boot`."""
+        options.setdefault("robots", found.groups)
+        options.setdefault("surroundings", found.surroundings)
+        return cls(found.system, cfg=found.cfg, **options)
+
     @property
     def now(self) -> float:
         """The controller's time in s; it goes on over restarts."""
@@ -84,10 +92,10 @@ class Cabinet:
                 self._restart()
 
     def _restart(self) -> None:
-        for tell in tuple(self.on_restart):
-            tell()
         with self._lock:
             self._up = False
+        for tell in tuple(self.on_restart):
+            tell()
         old, programs = self.controller, self.programs
         self._restart_asked = False
         self._before += old.scheduler.now
@@ -95,7 +103,7 @@ class Cabinet:
         old.close()
         self.restarts += 1
         self.controller, self.programs = boot(old, kept, self.cfg, self._options)
-        self.controller.scheduler.rebase()
+        self._set_going()
         with self._lock:
             self._up = True
         for tell in tuple(self.on_boot):
@@ -106,11 +114,25 @@ class Cabinet:
     def start(self) -> None:
         """Run in a thread of its own from now on."""
         self._ended = False
-        self.controller.scheduler.rebase()
-        self._thread = threading.Thread(
-            target=lambda: self.run(lambda: self._ended), name="cabinet", daemon=True
-        )
+        self._set_going()
+        self._thread = threading.Thread(target=self._run_alone, name="cabinet", daemon=True)
         self._thread.start()
+
+    def _run_alone(self) -> None:
+        try:
+            self.run(lambda: self._ended)
+        finally:
+            if not self._ended:
+                # A fault has ended the thread: nobody shall wait for what it will not do.
+                with self._lock:
+                    self._up = False
+
+    def _set_going(self) -> None:
+        """Time begins to pass, and what is posted wakes the scheduler from now on."""
+        scheduler = self.controller.scheduler
+        if scheduler.clock == "real":
+            scheduler.rebase()
+            assert scheduler.selector is not None
 
     def stop(self) -> None:
         """End that thread."""

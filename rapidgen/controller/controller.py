@@ -6,17 +6,20 @@ from os import PathLike
 from pathlib import Path
 from typing import Literal, Self, TypedDict, TypeVar, Unpack
 
-from rapidgen.config import from_manifest, load_config
 from rapidgen.config.model import GroupConfig, RobotConfig
+from rapidgen.controller.booting import Bootable, Wishes, load_target
 from rapidgen.controller.cell import in_its_cell
 from rapidgen.controller.event_log import ControllerLog
 from rapidgen.controller.faults import FaultPlan
 from rapidgen.controller.faults import schedule as schedule_faults
 from rapidgen.controller.loading import Trees, configured, load
 from rapidgen.controller.operation import OperatingMode, Operation
+from rapidgen.controller.surroundings import Surroundings, settle
 from rapidgen.controller.system_signals import SystemSignals
 from rapidgen.controller.thread import ControllerThread
 from rapidgen.controller.views import Signals, TaskView
+from rapidgen.generate import build, make_system
+from rapidgen.machine.arc_equipment import ArcEquipment
 from rapidgen.machine.costs import Costs
 from rapidgen.machine.files import FileSystem
 from rapidgen.machine.io import IOSystem
@@ -28,6 +31,7 @@ from rapidgen.machine.network.sockets import SocketTable
 from rapidgen.machine.network.system import PortMap, SystemNetwork
 from rapidgen.machine.operator import Answer, Operator
 from rapidgen.machine.scheduler import ClockKind, Schedule, Scheduler
+from rapidgen.machine.smart_gripper import Hands
 from rapidgen.machine.system_parameters import SystemParameters
 from rapidgen.machine.texts import TextTables
 from rapidgen.motion.recorder import Recorder
@@ -39,7 +43,6 @@ from rapidgen.runtime.queues import QueueSystem
 from rapidgen.runtime.robot_data import RobotData
 from rapidgen.runtime.task.statements import Statements
 from rapidgen.runtime.task.task import Task
-from rapidgen.system import is_generated, read_files, read_folder, read_manifest, read_system
 from rapidgen.system.model import System
 
 _T = TypeVar("_T")
@@ -72,6 +75,7 @@ class Choices(TypedDict, total=False):
     network: Network | None
     folder: Path | None
     faults: FaultPlan | None
+    surroundings: Surroundings
     autostart: bool
     entry_needed: bool
 
@@ -104,6 +108,7 @@ class VirtualController:
         network: Network | None = None,
         folder: Path | None = None,
         faults: FaultPlan | None = None,
+        surroundings: Surroundings = Surroundings(),  # noqa: B008 - frozen
         autostart: bool = True,
         entry_needed: bool = True,
     ) -> None:
@@ -152,6 +157,10 @@ class VirtualController:
         self.booked: set[int] = set()
         """Error numbers that BookErrNo gave."""
         self.meetings = Meetings()
+        self.arcs = {t.name: ArcEquipment(self.io, system.arc, t.name) for t in system.tasks}
+        """What tasks weld with: whether `gas` flows, an `arc` burns, and with which `data`."""
+        self.hands = Hands(self.scheduler, self.io, calibrated=self.dialect.hands_calibrated)
+        """The hands of a YuMi: `hands["L"].part = 12.0` puts something between the fingers."""
         self.configuration = SystemParameters(system, tuple(robots))
         self.options = Options(
             accounting="statement" if tracing or switch_at_pers else accounting,
@@ -176,10 +185,13 @@ class VirtualController:
             name: TaskView(task, self.operation) for name, task in self.rapid_tasks.items()
         }
         self.diagnostics = load(
-            self.rapid_tasks.values(), self.parse_module, entry_needed=entry_needed
+            self.rapid_tasks.values(),
+            self.parse_module,
+            entries_wanted=entry_needed and not system.robot_types,
         )
         signals.connect()
         self.operation.power_up()
+        self.answered = settle(self, surroundings)
         if faults is not None:
             schedule_faults(faults, self)
         if autostart:
@@ -202,27 +214,32 @@ class VirtualController:
     # -- other ways in ---------------------------------------------------------------------------
 
     @classmethod
+    def boot(cls, found: Bootable, **options: Unpack[Choices]) -> Self:
+        """What `booting.load_target` has read; its robots and surroundings unless others are
+        given."""
+        if "robots" not in options:
+            options["robots"] = found.groups
+            options.setdefault("surroundings", found.surroundings)
+        return cls(found.system, **options)
+
+    @classmethod
     def from_folder(
         cls,
         path: Path | str,
         *,
         backup: Path | str | None = None,
+        robot: str = "",
+        cell: Path | str = "",
         **options: Unpack[Choices],
     ) -> Self:
         """A generated folder (its manifest tells the robots) or an ABB backup.
 
-        `backup` is of the controller that a generated folder is loaded onto. DiagnosticError when
-        something cannot be read, or a controller would not load it.
+        `backup` is of the controller that a generated folder is loaded onto; `robot` and `cell`
+        as `from_files`. DiagnosticError when something cannot be read, or a controller would not
+        load it.
         """
-        folder = Path(path)
-        generated = is_generated(folder)
-        onto = generated or backup is not None
-        system = read_folder(folder, backup) if onto else read_system(folder)
-        if generated:
-            config = from_manifest(read_manifest(folder)["configuration"])
-            system = in_its_cell(system, config)
-            options.setdefault("robots", tuple(config.groups))
-        return cls(system, **options)
+        wishes = Wishes(backup=backup, robot=robot, cell=cell)
+        return cls.boot(load_target([path], wishes), **options)
 
     @classmethod
     def from_files(
@@ -230,10 +247,19 @@ class VirtualController:
         files: Mapping[str, Sequence[Path | str]] | Sequence[Path | str],
         *,
         entry: str = "main",
+        robot: str = "",
+        cell: Path | str = "",
+        start: Sequence[float] = (),
         **options: Unpack[Choices],
     ) -> Self:
-        """Loose module files: one task T_ROB1, or one for each key."""
-        return cls(read_files(files, entry=entry), **options)
+        """Loose module files: one task T_ROB1, or one for each key.
+
+        `robot` is a shipped name or a configuration (default irb120), `cell` the file that
+        describes what stands around it, or "guess", `start` where the robot stands (deg, mm).
+        """
+        tasks = files if isinstance(files, Mapping) else {"T_ROB1": files}
+        wishes = Wishes(tasks, robot=robot, entry=entry, cell=cell, start=start)
+        return cls.boot(load_target((), wishes), **options)
 
     @classmethod
     def from_config(
@@ -247,10 +273,8 @@ class VirtualController:
 
         `overrides` are `key.path=value` texts. DiagnosticError when it has faults.
         """
-        from rapidgen.generate import build, make_system
-
         if not isinstance(config, RobotConfig):
-            config = load_config(str(config), overrides=tuple(overrides))
+            return cls.boot(load_target([str(config)], Wishes(overrides=overrides)), **options)
         options.setdefault("robots", tuple(config.groups))
         return cls(in_its_cell(make_system(config, build(config)), config), **options)
 
@@ -269,6 +293,14 @@ class VirtualController:
     def signals(self) -> Signals:
         """Values of the signals by name."""
         return Signals(self.io)
+
+    def positions(self, group: str = "") -> dict[str, float]:
+        """Where a robot stands, by joint of its configuration: controller axes, rad and m.
+
+        Of the first group, or of a named one (KeyError: there is none).
+        """
+        found = self.motion.group(group or next(iter(self.motion.groups)))
+        return dict(zip(found.map.names, found.positions(), strict=True))
 
     def record(self) -> dict[str, Recorder]:
         """Record the motion of every group from now on: `["rob1"].recording()` gives arrays."""
@@ -329,11 +361,8 @@ class VirtualController:
             stack = task.stack()
             if stack:
                 at = stack[-1]
-                asks = self.operator.waits(task.name)
-                lines.append(
-                    f"{task.name}: {at.span.path}:{at.span.line} ({at.routine})"
-                    + (f", {asks}" if asks else "")
-                )
+                why = f", {task.waits_for()}" if task.waits_for is not None else ""
+                lines.append(f"{task.name}: {at.span.path}:{at.span.line} ({at.routine}){why}")
             else:
                 lines.append(f"{task.name}: not started")
         return lines

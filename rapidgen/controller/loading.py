@@ -1,6 +1,7 @@
 """Modules into tasks: parsed once, linked, and what is wrong with them."""
 
 from collections.abc import Callable, Iterable, Sequence
+from dataclasses import replace
 
 from rapidgen.config.model import GroupConfig
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, error
@@ -32,15 +33,14 @@ class Trees:
 
 
 def load(
-    tasks: Iterable[Task],
-    tree_of: Callable[[ModuleFile], n.Module],
-    *,
-    entry_needed: bool = True,
+    tasks: Iterable[Task], tree_of: Callable[[ModuleFile], n.Module], *, entries_wanted: bool = True
 ) -> list[Diagnostic]:
     """Link the modules of tasks, which are ready then; warnings.
 
-    DiagnosticError: a module cannot be loaded, or the entry routine is not there and needed.
+    A task without its entry routine, or with two of them, is not ready: only its start is
+    refused. DiagnosticError: a module cannot be loaded, or no task at all can be started.
     """
+    tasks = list(tasks)
     found: list[Diagnostic] = []
     for task in tasks:
         trees = [(tree_of(file), file) for file in task.spec.modules]
@@ -48,24 +48,39 @@ def load(
             found += [d for d in tree.diagnostics if d not in found]
         task.program.load([(t, f) for t, f in trees if t.name])
         found += task.program.faults
-        entry = task.program.find_routine(None, task.spec.entry.lower())
-        if isinstance(entry, Routine) and entry.kind == "PROC" and not entry.parameters:
-            task.state = "ready"
+        _tell_its_robot(task)
+        key = task.spec.entry.lower()
+        entry = task.program.find_routine(None, key)
+        if any(first.name.lower() == key for first, _ in task.program.names.clashes):
+            task.no_start = f"Global routine name {task.spec.entry} ambiguous"
+        elif not isinstance(entry, Routine) or entry.kind != "PROC" or entry.parameters:
+            task.no_start = f"no procedure {task.spec.entry} without parameters"
+        if task.no_start:
+            found.append(_no_entry(task))
         else:
-            found.append(_no_entry(task, needed=entry_needed))
+            task.state = "ready"
         found += missing_routines(task.program)
+    if not entries_wanted or any(task.state == "ready" for task in tasks):
+        found = [replace(d, severity=Severity.WARNING) if d.code == "RG402" else d for d in found]
     if any(d.severity is Severity.ERROR for d in found):
         raise DiagnosticError(found)
     return found
 
 
-def _no_entry(task: Task, *, needed: bool) -> Diagnostic:
+def _tell_its_robot(task: Task) -> None:
+    """ROB_ID is the robot that the task moves or is connected to."""
+    group = task.controller.motion.of_task(task.name)
+    unit = task.program.value(None, "rob_id")
+    unit.value = group.config.mechanical_unit if group is not None else ""
+
+
+def _no_entry(task: Task) -> Diagnostic:
     return error(
         "RG402",
         None,
-        f"task {task.name} has no procedure {task.spec.entry} without parameters",
+        f"task {task.name} cannot be started: {task.no_start}",
         f"declare PROC {task.spec.entry}() in one of its modules, or name another entry",
-        severity=Severity.ERROR if task.spec.modules and needed else Severity.WARNING,
+        severity=Severity.ERROR if task.spec.modules else Severity.WARNING,
     )
 
 

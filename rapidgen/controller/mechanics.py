@@ -1,19 +1,20 @@
 """Which robot model moves which task, for a system that does not say it by itself."""
 
 import re
-from collections.abc import Iterator
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from rapidgen.config import load_config, shipped_names
 from rapidgen.config.catalogue import model_description
-from rapidgen.config.model import GroupConfig, RobotConfig
+from rapidgen.config.cell import CellRobotKeys
+from rapidgen.config.model import GroupConfig
+from rapidgen.config.of_variant import ASSUMED_SPEED, group_of, variant_named, variants_of
 from rapidgen.diagnostics import Diagnostic, Severity, error, refusal
 from rapidgen.system.model import System
 
 DEFAULT_ROBOT = "irb120"
 # MOC.cfg of backups: ROB1_4600_2.55_40, ROB_R_14000_05_05, ROB1_910SC_0.55_3, ROB1_15000_0_95_5.
-_TYPE = re.compile(r"ROB_?[A-Z0-9]+?_(\d{3,5}[A-Z]{0,3})(?:_(\d)[._](\d{2}|\d)_(\d+))?", re.I)
-_VARIANT = re.compile(r"(\d+)/(\d+\.\d+)")
+_TYPE = re.compile(r"ROB_?[A-Z0-9]+?_(\d{3,5}[A-Z]{0,3})", re.I)
 _MEND = "name the robot with `--robot NAME`; `rapidgen robots` lists the models"
 
 
@@ -23,16 +24,16 @@ def motion_tasks(system: System) -> list[str]:
     return moving or [task.name for task in system.tasks[:1]]
 
 
-def groups_for(system: System, config: RobotConfig) -> tuple[GroupConfig, ...]:
-    """The configuration's groups, each given to the motion task that moves its mechanical unit.
+def groups_for(system: System, robots: Sequence[GroupConfig]) -> tuple[GroupConfig, ...]:
+    """`robots`, each given to the motion task that moves its mechanical unit.
 
     Where the system does not tell the units, to the task of its name; what is left goes by
     order, and more motion tasks than groups get copies of the last one.
     """
     tasks = motion_tasks(system)
     units = _units(system)
-    by_unit = {group.mechanical_unit.casefold(): group for group in config.groups}
-    by_name = {group.task.casefold(): group for group in config.groups}
+    by_unit = {group.mechanical_unit.casefold(): group for group in robots}
+    by_name = {group.task.casefold(): group for group in robots}
     found: dict[str, GroupConfig] = {}
     for known in (
         {task: by_unit.get(units.get(task, "").casefold()) for task in tasks},
@@ -41,11 +42,11 @@ def groups_for(system: System, config: RobotConfig) -> tuple[GroupConfig, ...]:
         for task, group in known.items():
             if group is not None and task not in found and group not in found.values():
                 found[task] = group
-    left = iter([group for group in config.groups if group not in found.values()])
+    left = iter([group for group in robots if group not in found.values()])
     groups = []
     for i, task in enumerate(tasks):
         unit = units.get(task, "")
-        last = config.groups[-1]
+        last = robots[-1]
         copy = replace(last, name=unit.lower().replace("_", "") or f"{last.name}_{i + 1}")
         group = found.get(task) or next(left, copy)
         groups.append(replace(group, task=task, mechanical_unit=unit or group.mechanical_unit))
@@ -53,33 +54,70 @@ def groups_for(system: System, config: RobotConfig) -> tuple[GroupConfig, ...]:
 
 
 def mechanics(
-    system: System, robot: str = ""
+    system: System, robot: str = "", own: Mapping[str, CellRobotKeys] | None = None
 ) -> tuple[tuple[GroupConfig, ...], tuple[Diagnostic, ...]]:
-    """A robot for each motion task: the one that is named, else of the type that a backup tells.
+    """A robot for each motion task: the one that is named for it (`own`, by task) or for all
+    (`robot`), else of the type that a backup tells.
 
     Notes say where another robot stands in. Raises DiagnosticError RG432 for a type that no
     shipped model is of.
     """
-    if robot:
-        return groups_for(system, load_config(robot)), ()
+    given = {task.casefold(): keys for task, keys in (own or {}).items()}
     types = {unit.casefold(): name for unit, name in system.robot_types}
-    if not types:
-        note = _stands_in(f"nothing tells the mechanics: moving an {DEFAULT_ROBOT}")
-        return groups_for(system, load_config(DEFAULT_ROBOT)), (note,)
     units = _units(system)
     groups: list[GroupConfig] = []
     notes: list[Diagnostic] = []
     for i, task in enumerate(motion_tasks(system)):
-        unit = units.get(task) or list(types)[min(i, len(types) - 1)]
-        name = types.get(unit.casefold(), "")
-        model = model_of(name)
-        if not model:
-            raise refusal("RG432", None, f"no shipped model is a {name or unit}", _MEND)
-        notes += _other_variant(name, model)
-        own = next(g for g in groups_for(system, load_config(model)) if g.task == task)
-        taken = any(group.name == own.name for group in groups)
-        groups.append(replace(own, name=f"{own.name}_{i + 1}") if taken else own)
+        keys = given.get(task.casefold(), CellRobotKeys())
+        model = keys.model or robot
+        robots: Sequence[GroupConfig] = ()
+        if model:
+            robots = _chosen(model)
+        elif types:
+            unit = units.get(task) or list(types)[min(i, len(types) - 1)]
+            robots, told = _of_type(types.get(unit.casefold(), ""), unit)
+            notes += told
+        else:
+            robots = load_config(DEFAULT_ROBOT).groups
+            notes.append(_stands_in(f"nothing tells the mechanics: moving an {DEFAULT_ROBOT}"))
+        group = next(g for g in groups_for(system, robots) if g.task == task)
+        taken = any(other.name == group.name for other in groups)
+        groups.append(
+            replace(
+                group,
+                name=f"{group.name}_{i + 1}" if taken else group.name,
+                mechanical_unit=keys.mechanical_unit or group.mechanical_unit,
+                external_units=tuple(keys.external_units) or group.external_units,
+            )
+        )
     return tuple(groups), tuple(dict.fromkeys(notes))
+
+
+def _chosen(name: str) -> Sequence[GroupConfig]:
+    """The robots that a user names: a shipped model, a configuration, a variant of the library."""
+    variant = variant_named(name)
+    group = group_of(variant) if variant is not None else None
+    return (group,) if group is not None else load_config(name).groups
+
+
+def _of_type(name: str, unit: str) -> tuple[Sequence[GroupConfig], list[Diagnostic]]:
+    """The robots of a type in MOC.cfg: of the very variant, else of the model of its number."""
+    very, kin = variants_of(name)
+    model = model_of(name)
+    if very is not None and not very.model:
+        group = group_of(very)
+        if group is not None:
+            guessed = any(axis.speed is None for axis in very.axes)
+            note = f"no source tells the speeds of a {name}: {ASSUMED_SPEED:g} deg/s are taken"
+            return (group,), [_stands_in(note)] if guessed else []
+    if not model:
+        others = [f"'{variant.name}'" for variant in kin if group_of(variant) is not None]
+        mend = f"choose one of its kin with `--robot`: {', '.join(others)}" if others else _MEND
+        raise refusal("RG432", None, f"no known robot is a {name or unit}", mend)
+    if (very is not None and very.model) or not kin:
+        return load_config(model).groups, []
+    message = f"the controller has a {name}, moving an {model_description(model)}"
+    return load_config(model).groups, [_stands_in(message)]
 
 
 def model_of(robot_type: str) -> str:
@@ -87,17 +125,6 @@ def model_of(robot_type: str) -> str:
     found = _TYPE.match(robot_type)
     names = [f"{kind}{found[1].lower()}" for kind in ("irb", "crb")] if found else []
     return next((name for name in names if name in shipped_names()), "")
-
-
-def _other_variant(robot_type: str, model: str) -> Iterator[Diagnostic]:
-    found = _TYPE.match(robot_type)
-    described = model_description(model)
-    shipped = _VARIANT.search(described)
-    if found is None or found[2] is None or shipped is None:
-        return
-    reach, mass = float(f"{found[2]}.{found[3]}"), int(found[4])
-    if (mass, reach) != (int(shipped[1]), float(shipped[2])):
-        yield _stands_in(f"the controller has a {robot_type}, moving an {described}")
 
 
 def _stands_in(message: str) -> Diagnostic:

@@ -57,6 +57,7 @@ class Operation:
     def power_up(self) -> None:
         """After switching on: outputs at their defaults, POWER_ON routines are due."""
         self._host.io.power_up()
+        self._host.motion.zones.drop_all()
         for task in self._host.rapid_tasks.values():
             task.power_up()
         self._host.log.info(10_011, "Motors ON state")
@@ -139,6 +140,7 @@ class Operation:
         self.e_stop = False
         self.motors_on = False
         host.io.power_up()
+        host.motion.zones.drop_all()
         for task in host.rapid_tasks.values():
             task.power_up()
             if task.spec.type != "NORMAL":
@@ -166,6 +168,8 @@ class Operation:
             lost = task.state == "error" and task.pointer.place is None
             if lost and task.spec.type == "NORMAL":
                 log.warning(_REFUSED, "Program start refused", "PP to main first", task=task.name)
+            if task.no_start and task.spec.modules:
+                log.warning(_REFUSED, "Program start refused", task.no_start, task=task.name)
             task.start()
         self.step_moves()
         self.changed.notify()
@@ -188,8 +192,7 @@ class Operation:
         """
         for task in self._normal():
             task.stop(event)
-        for group in self._groups:
-            group.stop("program", quick=quick)
+        self._stop_motion(quick=quick)
         self._host.log.info(10_125, "Program stopped")
         self.changed.notify()
 
@@ -199,6 +202,8 @@ class Operation:
             task.pp_to_main()
         for group in self._groups:
             group.reset()
+        for arc in self._host.arcs.values():
+            arc.reset()
         self._host.log.info(10_002, "Program pointer has been reset")
 
     def drop_paths(self) -> None:
@@ -218,6 +223,8 @@ class Operation:
 
     def step_moves(self) -> None:
         """The robots may move."""
+        for arc in self._host.arcs.values():
+            arc.go_on()
         for group in self._groups:
             group.start("program")
 
@@ -278,9 +285,11 @@ class Operation:
             if other is not task:
                 other.stop()
 
-    def _stop_motion(self) -> None:
+    def _stop_motion(self, *, quick: bool = False) -> None:
+        for arc in self._host.arcs.values():
+            arc.hold()
         for group in self._groups:
-            group.stop("program")
+            group.stop("program", quick=quick)
 
 
 ACTIONS: Mapping[str, Callable[[Operation], object]] = {

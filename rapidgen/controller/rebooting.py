@@ -57,7 +57,11 @@ def boot(
         why = [d.message for d in fault.diagnostics]
         events += [(_SYSTEM_FAILURE, "Configuration error", text, "") for text in why]
     options["autostart"] = options["entry_needed"] = False
+    options["faults"] = None  # a plan's times are those of the first run
     controller = _booted(system, tasks, options)
+    for name, group in controller.motion.groups.items():
+        # Nobody has moved the robot meanwhile.
+        group.jump(old.motion.group(name).positions())
     programs = Programs(controller)
     for task in tasks:
         name = task.spec.name

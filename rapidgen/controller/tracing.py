@@ -30,7 +30,7 @@ STATEMENTS = (
 
 
 class Trace:
-    """Writes one line for each statement: time in s, task, module:line, text."""
+    """Writes one line for each statement: time in s, task, module/routine:line, text."""
 
     def __init__(self, controller: VirtualController, stream: TextIO) -> None:
         self._stream = stream
@@ -42,10 +42,10 @@ class Trace:
         assert module is not None
         source = module.tree.source
         line = source.line(node.first)
-        text = " ".join(source.tokens[node.first : min(node.last, node.first + 12) + 1])
-        self._stream.write(
-            f"{self._scheduler.now * 1e-9:12.6f} {task} {module.name}:{line} {text[:80]}\n"
-        )
+        # The line as it is written, from where the statement begins.
+        text = source.text[source.starts[node.first] :].split("\n", 1)[0].rstrip()
+        place = f"{module.name}/{routine.name}:{line}"
+        self._stream.write(f"{self._scheduler.now * 1e-9:12.6f}  {task:9} {place:28} {text[:90]}\n")
 
 
 class Profile:

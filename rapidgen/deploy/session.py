@@ -8,6 +8,7 @@ from pathlib import Path
 
 from rapidgen._json import items, members
 from rapidgen._writing import write_whole
+from rapidgen.config import from_manifest
 from rapidgen.deploy.apply import apply, conflicts_of, moved_on
 from rapidgen.deploy.driverset import DriverSet, digest, from_files, from_folder
 from rapidgen.deploy.fleet import TargetOutcome, connected, on_all
@@ -22,7 +23,9 @@ from rapidgen.deploy.target import Access
 from rapidgen.deploy.transports.registry import Target
 from rapidgen.deploy.transports.transport import Transport, refused
 from rapidgen.diagnostics import DiagnosticError, refusal
-from rapidgen.system import CfgText, write_cfg
+from rapidgen.generate.cell import check_data
+from rapidgen.generate.context import data_of_another
+from rapidgen.system import CfgText, read_backup, write_cfg
 
 Say = Callable[[str], None]
 
@@ -79,13 +82,16 @@ def config_name(config: str) -> str:
 
 
 def plan_all(job: FleetJob) -> list[Plan]:
-    """Plans of all targets. Raises the faults of those that could not be planned."""
+    """Plans of all targets. Raises the faults of those that could not be planned, or RG113."""
 
     loaded = job.loaded()
 
     def work(target: Target) -> Plan:
         with connected(target, job.access) as transport:
-            return make_plan(transport, job.find(transport), verb=job.verb, loaded=loaded)
+            wanted = job.find(transport)
+            if job.backup is not None and wanted is not None:
+                _check_data(wanted, job.backup)
+            return make_plan(transport, wanted, verb=job.verb, loaded=loaded)
 
     results = on_all(job.targets, work, parallel=job.parallel)
     failures = [r for r in results if isinstance(r, DiagnosticError)]
@@ -95,6 +101,14 @@ def plan_all(job: FleetJob) -> list[Plan]:
             exit_code=max(f.exit_code for f in failures),
         )
     return [r for r in results if isinstance(r, Plan)]
+
+
+def _check_data(wanted: DriverSet, backup: Path) -> None:
+    """Refuse a set that reads data of a user's program that the backup does not have (RG113)."""
+    given = wanted.generated.get("configuration")
+    config = from_manifest(given) if given is not None else None
+    if config is not None and any(data_of_another(group) for group in config.groups):
+        check_data(config, read_backup(backup, notes=[]))
 
 
 def apply_all(job: FleetJob, plans: Sequence[Plan], say: Say) -> list[TargetOutcome]:

@@ -1,8 +1,10 @@
 """A plan and a fleet's table as text."""
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from itertools import groupby
 
+from rapidgen._json import Json
 from rapidgen.deploy.cfg import CfgChange
 from rapidgen.deploy.fleet import TargetOutcome
 from rapidgen.deploy.live.plan import BY_SERVICES
@@ -19,6 +21,15 @@ _SIGNS = {
     "clash": "x",
 }
 
+_SAID = {
+    "add": "new, {size}",
+    "same": "same",
+    "remove": "were deployed by rapidgen, no longer belong there",
+    "restore": "what was there before the first deployment comes back",
+}
+# Of a configuration more than this is another one.
+_KEYS = 8
+
 
 def plan_text(plan: Plan) -> str:
     """The plan in lines: files, cfg instances, what people do (`!`), what is not seen (`?`)."""
@@ -31,9 +42,8 @@ def plan_text(plan: Plan) -> str:
     if plan.damaged:
         taken = "the newest backup's" if plan.had and plan.had.history else "no backup's"
         out.append(f"  ? {plan.damaged}: {taken} is taken  -> needs --overwrite")
-    shown = [(c.shown, c) for c in plan.changes]
-    width = max((len(name) for name, _ in shown), default=0)
-    out += [f"  {_SIGNS[c.action]} {name:<{width}}  {_words(c)}" for name, c in shown]
+    out += _changed_keys(plan)
+    out += _file_lines(plan)
     for change in plan.conflicts:
         what = (
             f"edited by hand since the last deployment{': ' + change.note if change.note else ''}"
@@ -74,6 +84,59 @@ def size_text(size: int) -> str:
     return f"{size} B" if size < 1000 else f"{size / 1000:.1f} kB"
 
 
+def _changed_keys(plan: Plan) -> list[str]:
+    """What differs between the configuration of the last deployment and this one."""
+    if plan.had is None or plan.wanted is None:
+        return []
+    old = dict(_leaves(plan.had.generated.get("configuration")))
+    new = dict(_leaves(plan.wanted.generated.get("configuration")))
+    keys = [key for key in {**old, **new} if old.get(key) != new.get(key)] if old else []
+    lines = [f"  ~ {key}: {old.get(key, 'none')} -> {new.get(key, 'none')}" for key in keys[:_KEYS]]
+    return lines + ([f"  ~ and {len(keys) - _KEYS} more keys"] if len(keys) > _KEYS else [])
+
+
+def _leaves(value: Json, path: str = "") -> Iterator[tuple[str, str]]:
+    """Each value of a configuration by its path: groups.0.joints.2.upper."""
+    if isinstance(value, dict | list):
+        inner = value.items() if isinstance(value, dict) else enumerate(value)
+        for key, part in inner:
+            yield from _leaves(part, f"{path}.{key}" if path else str(key))
+    elif value is not None:
+        yield path, str(value)
+
+
+def _file_lines(plan: Plan) -> list[str]:
+    """Files, those of a folder together to which the same happens."""
+    width = max((len(c.shown) for c in plan.changes), default=0)
+
+    def alike(change: FileChange) -> tuple[str, str]:
+        if change.conflict or change.foreign or change.kind == "syspar":
+            return "", ""
+        folder = change.shown.rpartition("/")[0]
+        if change.action != "change":
+            return folder, _SAID[change.action]
+        return (folder, "nothing but the build's id") if _is_new_id(plan, change) else ("", "")
+
+    out = []
+    for (folder, said), group in groupby(plan.changes, alike):
+        changes = list(group)
+        sign = _SIGNS[changes[0].action]
+        if said and len(changes) > 1:
+            size = sum(len(c.after or b"") for c in changes)
+            words = said.format(size=size_text(size))
+            out.append(f"  {sign} {folder}: {len(changes)} files, {words}")
+        else:
+            out += [f"  {_SIGNS[c.action]} {c.shown:<{width}}  {_words(c)}" for c in changes]
+    return out
+
+
+def _is_new_id(plan: Plan, change: FileChange) -> bool:
+    """Whether nothing differs but the id of the build."""
+    if plan.had is None or change.before is None:
+        return False
+    return change.before.replace(plan.had.build_id.encode(), plan.build_id.encode()) == change.after
+
+
 def _words(change: FileChange) -> str:
     if change.action == "add":
         return f"new, {size_text(len(change.after or b''))}"
@@ -89,16 +152,29 @@ def _words(change: FileChange) -> str:
 
 def _cfg_lines(plan: Plan, domain: str) -> list[str]:
     changes = [c for c in plan.cfg if c.domain == domain]
-    out = [
-        f"  {_SIGNS[c.action]} {domain}: {c.key}{f': {note}' if (note := _note(c)) else ''}"
-        for c in changes
-        if c.action != "same"
-    ]
+    out = []
+    told = [c for c in changes if c.action != "same"]
+    for _, group in groupby(told, _told_together):
+        first, *more = group
+        names = [c.key.partition(" ")[2] for c in (first, *more)]
+        shown = f"{_first(names)}{f': {note}' if (note := _note(first)) else ''}"
+        out.append(f"  {_SIGNS[first.action]} {domain}: {first.key.partition(' ')[0]} {shown}")
     same = sum(1 for c in changes if c.action == "same")
     if same:
         seen = "" if plan.cfg_present else " as last deployed"
         out.append(f"  = {domain}: {same} instances{seen}")
     return out
+
+
+def _told_together(change: CfgChange) -> str:
+    """What instances of one line have in common: new ones their section, others nothing."""
+    return change.key.partition(" ")[0] if change.action == "add" else change.key
+
+
+def _first(names: Sequence[str]) -> str:
+    """Names as far as a line goes, and how many more there are."""
+    shown = [name for n, name in enumerate(names) if n == 0 or len(", ".join(names[: n + 1])) < 70]
+    return ", ".join(shown) + (f" and {len(names) - len(shown)} more" * (len(names) > len(shown)))
 
 
 def _note(change: CfgChange) -> str:

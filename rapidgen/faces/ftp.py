@@ -16,6 +16,10 @@ _TICK = 0.2
 """s between looks at the stop flag; requests are served at once."""
 
 
+_NOT_A_CONTROLLERS = ("SITE CHMOD", "MFMT")
+"""Rights and times of files are this machine's business: a controller's disk has no rights."""
+
+
 def serve_ftp(
     home: Path | str,
     host: str = "127.0.0.1",
@@ -23,7 +27,7 @@ def serve_ftp(
     user: str = "Default User",
     password: str = "",
     *,
-    without: tuple[str, ...] = ("MLSD", "MLST"),
+    without: tuple[str, ...] = ("MLSD", "MLST", *_NOT_A_CONTROLLERS),
 ) -> Service:
     """Serve the folder `home` read and write over FTP (passive and active) in a thread.
 
@@ -44,7 +48,7 @@ def serve_ftp(
     address = loopback(host)
     password = password or secrets.token_urlsafe(12)
     authorizer = DummyAuthorizer()
-    authorizer.add_user(user, password, str(Path(home).resolve()), perm="elradfmwMT")
+    authorizer.add_user(user, password, str(Path(home).resolve()), perm="elradfmw")
     commands = {k: v for k, v in FTPHandler.proto_cmds.items() if k not in without}
     handler = type(
         "Handler",

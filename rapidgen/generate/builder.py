@@ -3,7 +3,7 @@
 import hashlib
 import json
 import os
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
 
@@ -14,7 +14,7 @@ from rapidgen.config import to_manifest
 from rapidgen.config.model import GroupConfig, RobotConfig
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.generate import layout
-from rapidgen.generate.cell import Cell, in_the_way, missing, used_signals
+from rapidgen.generate.cell import Cell, check_data, in_the_way, missing, used_signals
 from rapidgen.generate.context import group_context, used_constants
 from rapidgen.generate.lint import lint
 from rapidgen.generate.naming import naming
@@ -27,6 +27,9 @@ from rapidgen.system import ModuleFile, System, TaskSpec, expand_lines, write_cf
 from rapidgen.system.interpret import ModuleEntry
 from rapidgen.system.onto import Under, additions, delivered, of_backup, onto
 
+# In the place of the build's id until all is there that it depends on; as long as one.
+_UNKNOWN = "{build---id}"
+
 
 def build(config: RobotConfig, cell: Cell | None = None) -> Output:
     """All files for one controller; for `cell`, to which `config` was fitted, what it lacks.
@@ -34,24 +37,28 @@ def build(config: RobotConfig, cell: Cell | None = None) -> Output:
     Raises DiagnosticError: RG101 (a name or text of the configuration does not fit into RAPID),
     RG105 (the first line of a cfg file is not known for this RobotWare), RG106 (a name is taken in
     RAPID), RG110 (the cell has something in another way), RG112 (its program has a name that ours
-    needs), RG720..RG723 (it would not load the files).
+    needs), RG113 (it does not declare data that it should), RG720..RG723 (it would not load the
+    files).
     """
     templates = data_folder("templates")
-    build_id = make_build_id(config, templates)
     renderer = Renderer(templates)
     renderer.add_filter("num", literal)
-    system = layout.make_system(config, build_id)
+    system = layout.make_system(config, _UNKNOWN)
     parameters = cfg_files(config, system)
     used = {}
     if cell is not None:
+        check_data(config, cell.system)
         used = used_signals(parameters, cell)
         parameters = missing(parameters, cell)
     files = [
-        *(f for group in config.groups for f in _modules(config, group, build_id, renderer)),
+        *(f for group in config.groups for f in _modules(config, group, renderer)),
         *(_cfg(name, write_cfg(text)) for name, text in parameters),
     ]
-    readme = renderer.render("README.md.j2", **readme_context(config, system, build_id))
+    readme = renderer.render("README.md.j2", **readme_context(config, system, _UNKNOWN))
     files.append(OutputFile("README.md", readme.text.encode("utf-8"), "readme"))
+    build_id = make_build_id(config, files)
+    known = build_id.encode()
+    files = [replace(f, data=f.data.replace(_UNKNOWN.encode(), known)) for f in files]
     files.append(manifest_file(files, _head(config, build_id, files, used)))
     output = Output(config.name, build_id, tuple(files))
     if cell is not None:
@@ -87,15 +94,15 @@ def make_system(
     return replace(system, name=config.name, build_id=output.build_id)
 
 
-def make_build_id(config: RobotConfig, templates: Path) -> str:
-    """12 hexadecimal digits over everything that the output depends on."""
+def make_build_id(config: RobotConfig, files: Iterable[OutputFile]) -> str:
+    """12 hexadecimal digits over what is generated and what it was generated from."""
     digest = hashlib.sha256()
     parts: list[bytes] = [
         __version__.encode(),
         json.dumps(to_manifest(config), sort_keys=True).encode(),
     ]
-    for path in sorted(templates.glob("*.j2")):
-        parts += [path.name.encode(), path.read_bytes()]
+    for file in files:
+        parts += [file.path.encode(), file.data]
     for name, data in config.inputs:
         parts += [os.fsencode(Path(name).name), data]
     for part in parts:
@@ -103,10 +110,8 @@ def make_build_id(config: RobotConfig, templates: Path) -> str:
     return digest.hexdigest()[:12]
 
 
-def _modules(
-    config: RobotConfig, group: GroupConfig, build_id: str, renderer: Renderer
-) -> list[OutputFile]:
-    context = group_context(config, group, build_id)
+def _modules(config: RobotConfig, group: GroupConfig, renderer: Renderer) -> list[OutputFile]:
+    context = group_context(config, group, _UNKNOWN)
     names = layout.modules(config, group)
 
     def render(module: str, **more: object) -> Rendered:

@@ -10,9 +10,11 @@ from pathlib import Path
 
 from rapidgen.config.model import GroupConfig, RobotConfig
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, Span, error, refusal
+from rapidgen.generate.context import data_of_another
 from rapidgen.generate.layout import modules
 from rapidgen.generate.output import Output
 from rapidgen.rapid import check, parse
+from rapidgen.rapid.syntax.nodes import DataDeclaration
 from rapidgen.system import Attribute, CfgText, Instance, Section, System
 from rapidgen.system.adding import identity, identity_text
 from rapidgen.system.backup import backup_cfg, read_backup
@@ -329,3 +331,46 @@ def in_the_way(system: System, output: Output) -> None:
             )
     if faults:
         raise DiagnosticError(faults)
+
+
+def check_data(config: RobotConfig, cell: System) -> None:
+    """Refuse data declared elsewhere that the motion tasks of a cell do not declare as PERS.
+
+    The driver names them in tasks of its own, too: one object for all that declare it so [K §14.4].
+    Raises DiagnosticError RG113.
+    """
+    faults = []
+    for group in config.groups:
+        motion = [t for t in cell.tasks if t.name.casefold() == group.task.casefold()]
+        for kind, name, _ in data_of_another(group):
+            found = [d for task in motion for d in _declared(task, name)]
+            if not any(_is_global(data, kind) for data, _ in found):
+                wrong = f"{name} there is {_shown(found[0][0])}" if found else f"no {name} is there"
+                faults.append(
+                    error(
+                        "RG113",
+                        found[0][1] if found else None,
+                        f"the program of {group.task} has to declare {kind} {name}, and {wrong}",
+                        f"declare it in a module of {group.task}: `PERS {kind} {name} := ...;`",
+                    )
+                )
+    if faults:
+        raise DiagnosticError(faults)
+
+
+def _declared(task: TaskSpec, name: str) -> Iterator[tuple[DataDeclaration, Span]]:
+    for module in task.modules:
+        tree = parse(module.data, path=module.path)
+        for data in tree.declarations:
+            if isinstance(data, DataDeclaration) and data.name.casefold() == name.casefold():
+                yield data, tree.source.span(data.name_token, data.name_token)
+
+
+def _is_global(data: DataDeclaration, kind: str) -> bool:
+    given = data.scope, data.kind, data.type.casefold(), len(data.dimensions)
+    return given == ("", "PERS", kind, 0)
+
+
+def _shown(data: DataDeclaration) -> str:
+    words = (data.scope, data.kind, data.type)
+    return " ".join(word for word in words if word) + (" with dimensions" * bool(data.dimensions))

@@ -22,7 +22,8 @@ from rapidgen.generate.hello import hello_reply
 from rapidgen.generate.numbers import inward, literal
 from rapidgen.generate.status import STATUS_SIGNALS
 from rapidgen.wire.simple_message import messages, rapid, spec
-from rapidgen.wire.simple_message.spec import ReplyCode
+from rapidgen.wire.simple_message.instructions import MOST_SIGNALS
+from rapidgen.wire.simple_message.spec import MOST_ARGUMENTS, ReplyCode
 
 # Clients that the state port serves at a time.
 STATE_CLIENTS = 3
@@ -45,6 +46,8 @@ _SUMS = (
 # What the controller says of movement is believed for so long, s, and for so many messages.
 _BELIEF = 10.0
 _BELIEF_MESSAGES = 5
+# Of these the driver writes nothing into the event log.
+_ON_THE_WIRE_ALONE = {spec.Reason.NONE, spec.Reason.SUPERSEDED, spec.Reason.POWER_FAILURE}
 _FACTORS = (
     {"name": "ROS_DEG", "value": "57.29578", "text": "rad to deg"},
     {"name": "ROS_MM", "value": "1000", "text": "m to mm"},
@@ -56,6 +59,8 @@ def group_context(config: RobotConfig, group: GroupConfig, build_id: str) -> dic
     x = layout.suffix(config, group)
     joints = [_joint(config, group, n) for n in range(1, len(group.joints) + 1)]
     roles = layout.roles(config, group)
+    payload = _payload(group.payload)
+    exposed = _exposed(config)
     return {
         "name": config.name,
         "group": group.name,
@@ -84,7 +89,7 @@ def group_context(config: RobotConfig, group: GroupConfig, build_id: str) -> dic
                 "known": f"has_{signal.function}",
                 "function": signal.function,
                 "text": signal.text,
-                "otherwise": "seen_executing()" if signal.by_routines else "ROS_TRI_UNKNOWN",
+                "by_routines": signal.by_routines,
                 "doubted": signal.one_when_well and signal.is_open(config.robotware[0]),
             }
             for signal in STATUS_SIGNALS
@@ -98,6 +103,10 @@ def group_context(config: RobotConfig, group: GroupConfig, build_id: str) -> dic
         "slow_down": config.trajectory.too_fast == "slow_down",
         "commissioning": config.commissioning,
         "full": config.profile == "full",
+        # The motion server asks what pose joints reach.
+        "calculates": config.profile == "full" or group.tcp_speed_limit < _DEFAULT_TCP_SPEED,
+        # Without its geometry no client can tell the joints of a pose.
+        "cartesian": bool(group.chain),
         "state_period": config.state_period,
         "belief": max(_BELIEF, _BELIEF_MESSAGES * config.state_period),
         "tcp_speed": group.tcp_speed_limit * _MM,
@@ -107,8 +116,13 @@ def group_context(config: RobotConfig, group: GroupConfig, build_id: str) -> dic
         "allowed": config.allowed_clients,
         "call_main": config.call_main,
         "tool": _tool(group.tool),
-        "payload": _payload(group.payload),
+        "payload": payload,
         "wobj": _work_object(group.work_object),
+        "tools": [_tool(tool, n) for n, tool in enumerate((group.tool, *group.tools))],
+        "wobjs": [
+            _work_object(wobj, n) for n, wobj in enumerate((group.work_object, *group.work_objects))
+        ],
+        "tload": f" \\TLoad:={payload['name']}" if payload["with_moves"] else "",
         # A clock counts microseconds only on newer controllers [mem].
         "high_res": " \\HighRes" if config.robotware[0] >= 6 else "",
         # UnpackRawBytes has \ASCII no more on RobotWare 7; of PackRawBytes nobody tells.
@@ -118,7 +132,12 @@ def group_context(config: RobotConfig, group: GroupConfig, build_id: str) -> dic
         "status_at": messages.JOINT_POSITION.length + spec.PREFIX_BYTES + 1,
         "hello": hello_reply(config, group, build_id),
         **_streams(config, joints),
-        "exposed": _exposed(config),
+        "exposed": exposed,
+        "marks": any(signal["is_set"] for signal in exposed),
+        "routines": _routines(group),
+        "most_arguments": MOST_ARGUMENTS,
+        "result_reply": messages.RESULT.reply(ReplyCode.SUCCESS).length,
+        "most_marks": MOST_SIGNALS,
         "heartbeat_reply": messages.HEARTBEAT.reply(ReplyCode.SUCCESS).length,
         "signal_reply": messages.SIGNAL.reply(ReplyCode.SUCCESS).length,
     }
@@ -171,9 +190,32 @@ def _exposed(config: RobotConfig) -> list[dict[str, object]]:
             "name": signal.name,
             "kind": signal.kind,
             "access": signal.access,
+            "is_set": signal.access == "write" and signal.kind[1] == "O",
             "reader": signal.kind[0] + ("Input" if signal.kind[1] == "I" else "Output"),
         }
         for n, signal in enumerate(config.signals, 1)
+    ]
+
+
+def _routines(group: GroupConfig) -> list[dict[str, object]]:
+    """The customer's procedures, by number."""
+    forms = {"num": "numbers{{{}}}", "string": "texts{{{}}}", "bool": "yes_{}"}
+    return [
+        {
+            "n": n,
+            "name": routine.name,
+            "call": routine.call,
+            "parameters": [
+                {
+                    "n": k,
+                    "type": parameter.type,
+                    "inout": parameter.inout,
+                    "argument": forms[parameter.type].format(k),
+                }
+                for k, parameter in enumerate(routine.parameters, 1)
+            ],
+        }
+        for n, routine in enumerate(group.routines, 1)
     ]
 
 
@@ -194,9 +236,9 @@ def used_constants(texts: Iterable[str]) -> dict[str, object]:
 
 
 def _reasons(constants: list[dict[str, object]]) -> list[dict[str, str]]:
-    """Reasons that the driver can give, with their texts."""
+    """Reasons that the driver can write into the event log, with their texts."""
     known = {constant["name"] for constant in constants}
-    named = [(f"ROS_REASON_{reason.name}", reason.text) for reason in spec.Reason]
+    named = [(f"ROS_REASON_{r.name}", r.text) for r in spec.Reason if r not in _ON_THE_WIRE_ALONE]
     return [{"name": name, "text": text} for name, text in named if name in known]
 
 
@@ -256,21 +298,37 @@ def _kept(config: RobotConfig, axis: KeptAxis) -> dict[str, object]:
 def data_of_another(group: GroupConfig) -> list[tuple[str, str, str]]:
     """(type, name, value) of the data that a module of the customer's declares."""
     data = (
-        ("tooldata", _tool(group.tool)),
-        ("wobjdata", _work_object(group.work_object)),
+        *(("tooldata", _tool(tool)) for tool in (group.tool, *group.tools)),
+        *(("wobjdata", _work_object(wobj)) for wobj in (group.work_object, *group.work_objects)),
         ("loaddata", _payload(group.payload)),
     )
     return [(kind, str(d["source"]), str(d["value"])) for kind, d in data if d["source"]]
 
 
-def _tool(tool: Tool) -> dict[str, object]:
-    value = f"[{_bool(tool.held)},{_frame(tool.frame)},{_load(tool.load)}]"
-    return _datum(tool.name, "tool", tool.name != "tool0", value, elsewhere=tool.elsewhere)
+def tool_literal(tool: Tool) -> str:
+    """A tool as RAPID's tooldata."""
+    return f"[{_bool(tool.held)},{_frame(tool.frame)},{load_literal(tool.load)}]"
 
 
-def _work_object(wobj: WorkObject) -> dict[str, object]:
-    value = f'[{_bool(wobj.held)},TRUE,"",{_frame(wobj.user_frame)},{_frame(wobj.object_frame)}]'
-    return _datum(wobj.name, "wobj", wobj.name != "wobj0", value, elsewhere=wobj.elsewhere)
+def work_object_literal(wobj: WorkObject) -> str:
+    """A work object as RAPID's wobjdata."""
+    return f'[{_bool(wobj.held)},TRUE,"",{_frame(wobj.user_frame)},{_frame(wobj.object_frame)}]'
+
+
+def load_literal(load: Load) -> str:
+    """A load as RAPID's loaddata."""
+    inertia = ",".join(literal(v) for v in load.inertia)
+    return f"[{literal(load.mass)},{_list(load.centre, _MM)},{_list(load.axes)},{inertia}]"
+
+
+def _tool(tool: Tool, number: int = 0) -> dict[str, object]:
+    kind, value = f"tool_{number}" if number else "tool", tool_literal(tool)
+    return _datum(tool.name, kind, tool.name != "tool0", value, elsewhere=tool.elsewhere)
+
+
+def _work_object(wobj: WorkObject, number: int = 0) -> dict[str, object]:
+    kind, value = f"wobj_{number}" if number else "wobj", work_object_literal(wobj)
+    return _datum(wobj.name, kind, wobj.name != "wobj0", value, elsewhere=wobj.elsewhere)
 
 
 def _payload(payload: Payload) -> dict[str, object]:
@@ -302,8 +360,3 @@ def _list(values: tuple[float, ...], factor: float = 1.0) -> str:
 
 def _frame(frame: Placement) -> str:
     return f"[{_list(frame.position, _MM)},{_list(frame.orientation)}]"
-
-
-def _load(load: Load) -> str:
-    inertia = ",".join(literal(v) for v in load.inertia)
-    return f"[{literal(load.mass)},{_list(load.centre, _MM)},{_list(load.axes)},{inertia}]"

@@ -16,7 +16,7 @@ def features(config: RobotConfig, group: GroupConfig) -> Feature:
     found = Feature.PROGRESS
     if config.profile == "basic":
         return found
-    found |= Feature.STREAMING | Feature.EVENTS | Feature.FEEDBACK
+    found |= Feature.STREAMING | Feature.EVENTS | Feature.FEEDBACK | Feature.PROGRAMS
     if group.ports.control:
         found |= Feature.CONTROL
         if config.signals:

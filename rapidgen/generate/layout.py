@@ -20,6 +20,10 @@ from rapidgen.system.model import TaskType
 
 COMMON, LIMITS, EVENTS = "ROS_common", "ROS_limits", "ROS_events"
 MESSAGES, SOCKET, STREAM = "ROS_messages", "ROS_socket", "ROS_stream"
+INSTRUCTIONS, PROGRAMS, EXECUTION = "ROS_instructions", "ROS_programs", "ROS_execution"
+
+OF_FULL = (STREAM, INSTRUCTIONS, PROGRAMS, EXECUTION)
+"""What the profile `basic` does not have."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,7 +37,7 @@ class TaskRole:
 
 
 ROLES = (
-    TaskRole("motion", "", (COMMON, EVENTS, "ROS_motion")),
+    TaskRole("motion", "", (COMMON, EVENTS, INSTRUCTIONS, EXECUTION, "ROS_motion")),
     TaskRole(
         "motion_server",
         "T_ROS_RECV",
@@ -44,6 +48,8 @@ ROLES = (
             SOCKET,
             "ROS_acceptance",
             "ROS_download",
+            INSTRUCTIONS,
+            PROGRAMS,
             STREAM,
             "ROS_motionServer",
         ),
@@ -52,12 +58,12 @@ ROLES = (
     TaskRole("control", "T_ROS_CONTROL", (COMMON, LIMITS, MESSAGES, SOCKET, "ROS_control")),
     TaskRole("state", "T_ROS_STATE", (COMMON, LIMITS, MESSAGES, SOCKET, "ROS_stateServer")),
 )
-SYSTEM_MODULES = (COMMON, EVENTS, LIMITS, MESSAGES, SOCKET)
+SYSTEM_MODULES = (COMMON, EVENTS, INSTRUCTIONS, LIMITS, MESSAGES, SOCKET)
 
 
 def roles(config: RobotConfig, group: GroupConfig) -> tuple[TaskRole, ...]:
     """The tasks of a group, with the modules that its profile has."""
-    left_out = () if config.profile == "full" else (STREAM,)
+    left_out = () if config.profile == "full" else OF_FULL
     return tuple(
         replace(role, modules=tuple(m for m in role.modules if m not in left_out))
         for role in ROLES
@@ -67,8 +73,10 @@ def roles(config: RobotConfig, group: GroupConfig) -> tuple[TaskRole, ...]:
 
 def modules(config: RobotConfig, group: GroupConfig) -> tuple[str, ...]:
     """Modules of a group, each once: those that several tasks load first."""
-    return tuple(
-        dict.fromkeys((*SYSTEM_MODULES, *(m for r in roles(config, group) for m in r.modules)))
+    used = dict.fromkeys(m for role in roles(config, group) for m in role.modules)
+    return (
+        *(m for m in SYSTEM_MODULES if m in used),
+        *(m for m in used if m not in SYSTEM_MODULES),
     )
 
 

@@ -10,6 +10,7 @@ from rapidgen.rapid.syntax.lexer import KEYWORDS
 _OURS = re.compile(r"ros_|main$", re.IGNORECASE)
 _CODE = re.compile(r'"[^"\n]*"|![^\n]*')
 _DECLARED = re.compile(r"\b([A-Za-z]\w*)[ \t]+([A-Za-z]\w*)")
+_PROCEDURE = re.compile(r"\bPROC[ \t]+(\w+)")
 _THEIR_TYPES = frozenset({"tooldata", "wobjdata", "loaddata"})
 
 
@@ -22,15 +23,20 @@ def naming(group: GroupConfig, modules: list[str]) -> list[Diagnostic]:
         "tool": (group.tool.name, "tool0"),
         "work_object": (group.work_object.name, "wobj0"),
         "payload": (group.payload.name, "load0"),
+        **{f"tools.{n}": (tool.name, "tool0") for n, tool in enumerate(group.tools)},
+        **{f"work_objects.{n}": (w.name, "wobj0") for n, w in enumerate(group.work_objects)},
     }
     chosen = {key: name for key, (name, default) in names.items() if name != default}
     if not chosen:
         return []
+    texts = [_CODE.sub("", text) for text in modules]
+    # A call of a procedure looks like a declaration.
+    called = {name.casefold() for text in texts for name in _PROCEDURE.findall(text)}
     declared = {
         match[2].casefold()
-        for text in modules
-        for match in _DECLARED.finditer(_CODE.sub("", text))
-        if match[1].casefold() not in _THEIR_TYPES
+        for text in texts
+        for match in _DECLARED.finditer(text)
+        if match[1].casefold() not in _THEIR_TYPES | called
     }
     found = []
     for number, (key, name) in enumerate(chosen.items()):

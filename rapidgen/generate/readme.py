@@ -1,5 +1,7 @@
 """What the README of a generated folder tells: tables of tasks, ports, joints and signals."""
 
+import math
+
 from rapidgen import __version__
 from rapidgen.config.model import RobotConfig
 from rapidgen.generate import layout
@@ -110,5 +112,9 @@ def _group(config: RobotConfig, n: int) -> dict[str, object]:
                 "unsure": joint.unsure,
             }
             for joint in group.joints
+        ],
+        "kept": [
+            {"n": axis.axis[-1], "at": literal(math.degrees(axis.value)) if axis.must_stand else ""}
+            for axis in group.kept
         ],
     }

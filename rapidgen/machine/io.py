@@ -8,7 +8,7 @@ connections); abb_driver's documentation for the seven system outputs that it wa
 import math
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
-from typing import Final
+from typing import Final, Literal
 
 from rapidgen.machine.log import EventLog
 from rapidgen.machine.scheduler import S, Scheduler, Timer, WaitSet
@@ -43,6 +43,7 @@ STATUSES: Final[dict[str, str]] = {
     for row in _STATUS_ROWS.strip().splitlines()
     for spelling in row.split()
 }
+Relation = Literal["=", "<>", "<", ">", "<=", ">="]
 # Without an argument such a status holds when it holds for all; every other one for any.
 _FOR_ALL: Final = frozenset({"MechUnitNotMoving", "MechUnitActive"})
 
@@ -100,6 +101,54 @@ class Signal:
 
 
 @dataclass(frozen=True, slots=True)
+class Awaited:
+    """What somebody waits for: a signal that is in this relation to a value."""
+
+    signal: Signal
+    relation: Relation
+    value: float
+
+    def holds(self) -> bool:
+        """Whether it is now."""
+        now, value = self.signal.value, self.value
+        match self.relation:
+            case "=":
+                return now == value
+            case "<>":
+                return now != value
+            case "<":
+                return now < value
+            case ">":
+                return now > value
+            case "<=":
+                return now <= value
+            case ">=":
+                return now >= value
+
+    def fulfilling(self) -> float | None:
+        """A value with which it would hold, and which fits the signal; None: there is none."""
+        match self.relation:
+            case "=" | "<=" | ">=":
+                tries = [self.value]
+            case "<":
+                tries = [self.value - 1]
+            case ">":
+                tries = [self.value + 1]
+            case "<>":
+                tries = [self.value + 1, self.value - 1]
+        for value in tries:
+            try:
+                return self.signal.fit(value)
+            except ValueError:
+                continue
+        return None
+
+    def __str__(self) -> str:
+        now = f"{self.signal.name} is {self.signal.value:g}"
+        return f"{self.signal.name} {self.relation} {self.value:g}; {now}"
+
+
+@dataclass(frozen=True, slots=True)
 class _Output:
     status: str
     argument: str
@@ -123,6 +172,8 @@ class IOSystem:
         """Called with (action, argument) when the signal of a system input rises."""
         self.on_end: Callable[[str], None] | None = None
         """Called with the action when it falls."""
+        self.on_awaited: Callable[[Awaited], None] | None = None
+        """Called with what somebody begins to wait for."""
         self._states: dict[str, dict[str, float]] = {}
         self._outputs = [*self._system_outputs(system)]
         self._actions: dict[int, list[tuple[str, str]]] = {}
@@ -146,6 +197,11 @@ class IOSystem:
 
     def __getitem__(self, name: str) -> Signal:
         return self.signals[name.lower()]
+
+    def await_value(self, awaited: Awaited) -> None:
+        """Let whoever drives inputs know what a program is going to wait for."""
+        if self.on_awaited is not None and not awaited.holds():
+            self.on_awaited(awaited)
 
     # -- changing ---------------------------------------------------------------------------
 

@@ -8,8 +8,9 @@ from rapidgen.axes import frames
 from rapidgen.axes.frames import Pose
 from rapidgen.axes.kinematics import ConfigurationCheck, Kinematics, Posture
 from rapidgen.axes.limits import outside
+from rapidgen.axes.shapes import LARGEST_ARC, Arc, Line, arc_through
+from rapidgen.axes.unreached import unreached
 from rapidgen.motion.faults import MotionFault, Refusal
-from rapidgen.motion.geometry import LARGEST_ARC, Arc, Line, arc_through
 from rapidgen.motion.moves import (
     NO_TURN,
     SHORTEST,
@@ -181,7 +182,8 @@ class CartesianWay:
             return self._solve_wrist(share, near)
         found = self._kinematics.follow(self.carrier.at(near).flange(pose), near)
         if found is None:
-            raise MotionFault(Refusal.OUT_OF_REACH, tuple(round(v, 4) for v in pose[0]))
+            _, why = unreached(self._kinematics, self.carrier.at(near).flange(pose), near)
+            raise MotionFault(Refusal.OUT_OF_REACH, why)
         return found
 
     def _solve_wrist(self, share: float, near: Posture) -> Posture:

@@ -44,6 +44,7 @@ class PathExecution:
         "_name",
         "_planner",
         "_punctuality",
+        "_refreshed",
         "_release",
         "_report",
         "_scheduler",
@@ -81,6 +82,8 @@ class PathExecution:
         """Called once when the robot stands."""
         self._events = PathEvents()
         self._punctuality = Punctuality()
+        self._refreshed: Leg | None = None
+        """The leg that SpeedRefresh holds for, where it does not last."""
         self._timer: Timer | None = None
         self._commit = self._release = inf
         """Scheduler s at which the end of the path becomes a stop; of the program going on."""
@@ -129,10 +132,14 @@ class PathExecution:
         if standing and not self.stops:
             leg.began = self._scheduler.now / S
         if failed:
-            events.corner_failure(self._log, self._name, path.legs[-2].move)
+            self._warn_of_corner(path.legs[-2].move)
         if not self.stops:
             self.replan()
         return leg
+
+    def _warn_of_corner(self, move: Move) -> None:
+        if self._planner.modal.corner_warning:
+            events.corner_failure(self._log, self._name, move)
 
     def stay(self, move: Move) -> Leg | None:
         """A move to where the path ends: a stop point makes the end a stop, else nothing."""
@@ -148,6 +155,7 @@ class PathExecution:
     def begin(self, path: Path) -> None:
         """A path that begins where the robot stands."""
         self.path = path
+        self._refreshed = None
         self.drive.put(TimeLaw(0.0), self._scheduler.now, path)
         self._rearm()
         self.settle()
@@ -239,6 +247,9 @@ class PathExecution:
             if not tail.released:
                 times.append(ceil(self._release * S))
             times.append(ceil(self._commit * S))
+        self._find_refreshed()
+        if self._refreshed is not None:
+            times.append(ceil(motion.time_at(self._refreshed.end) * S))
         for leg in self.path.legs:
             if leg.stops:
                 times.append(ceil(motion.time_at(leg.end) * S))
@@ -252,6 +263,31 @@ class PathExecution:
             self._timer.cancel()
         self._timer = None if due is None else self._scheduler.at(due, self.settle)
 
+    def refresh(self, value: float) -> None:
+        """SpeedRefresh, 0 to 1, of the leg under way, or of all from now on; 0 always lasts."""
+        self.drive.refresh, self._refreshed = value, None
+        self.drive.forget()
+
+    def _find_refreshed(self) -> None:
+        """The leg under way, or the first one to come, is the one that SpeedRefresh holds for."""
+        drive, place = self.drive, self.drive.place()
+        if (
+            self._refreshed is None
+            and 0.0 < drive.refresh < 1.0
+            and not drive.settings.refresh_lasts
+        ):
+            self._refreshed = next((leg for leg in self.path.legs if leg.end > place), None)
+
+    def _end_refresh(self) -> None:
+        """The leg that SpeedRefresh holds for is over: as fast as programmed again."""
+        leg = self._refreshed
+        if leg is None or not (leg.finished or leg.cleared or leg.end <= self.drive.place() + 1e-6):
+            return
+        self._refreshed, self.drive.refresh = None, 1.0
+        self.drive.forget()
+        if not self.stops:
+            self.replan()
+
     def settle(self) -> None:
         """Bring everything up to the present time."""
         now = self._scheduler.now / S
@@ -263,8 +299,9 @@ class PathExecution:
                 tail.released = changed = True
             if self._scheduler.now >= ceil(self._commit * S):
                 tail.committed = tail.released = changed = True
-                events.corner_failure(self._log, self._name, tail.move)
+                self._warn_of_corner(tail.move)
         self._events.fire(self.motion, now)
+        self._end_refresh()
         # Off the path nothing is reached, wherever on it the robot should be.
         if self.motion.coast is None and (done := self.path.passed(self.drive.place())):
             self.finish(done, cleared=False)

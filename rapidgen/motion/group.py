@@ -64,6 +64,8 @@ class MotionGroup:
         """External axes of deactivated units (DeactUnit)."""
         self.listeners: list[Callable[[Move], None]] = []
         """Called with every move that the program asks for."""
+        self.contacts = WaitSet()
+        """Notified when the robot touches something (`touch`)."""
         self.on_reset: list[Callable[[], None]] = []
         """Called when the modal settings are reset (PP to main)."""
         start = tuple(min(max(0.0, j.lower), j.upper) for j in config.joints)
@@ -192,6 +194,10 @@ class MotionGroup:
         self._execution.come_back(tuple(posture), self.motion.law.place)
         self._execution.settle()
 
+    def touch(self) -> None:
+        """The robot touches something (a test): ContactL stops."""
+        self.contacts.notify()
+
     # -- speed ------------------------------------------------------------------------------
 
     @property
@@ -208,12 +214,19 @@ class MotionGroup:
 
     @property
     def refresh(self) -> float:
-        """Speed override of the program (SpeedRefresh), 0 to 1."""
+        """Speed override of the program (SpeedRefresh), 0 to 1.
+
+        Set while the robot stands it has an effect by `refresh_standing` only.
+        """
         return self._drive.refresh
 
     @refresh.setter
     def refresh(self, value: float) -> None:
-        self._drive.refresh = value
+        held = "override" in self._stops
+        if self.is_standing and not held and not self.settings.refresh_standing:
+            return
+        self._execution.settle()
+        self._execution.refresh(value)
         self._change_speed()
 
     @property
@@ -423,6 +436,7 @@ class MotionGroup:
         self.planner.modal = ModalSettings()
         for listener in self.on_reset:
             listener()
-        self._drive.refresh, self._drive.tcp_limit = 1.0, inf
+        self._execution.refresh(1.0)
+        self._drive.tcp_limit = inf
         self._concurrent = 0
         self._change_speed()

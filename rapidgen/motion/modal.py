@@ -4,7 +4,8 @@ from dataclasses import dataclass, field
 from math import inf
 
 from rapidgen.axes.frames import IDENTITY, Pose
-from rapidgen.motion.moves import CircleMode, Singularities
+from rapidgen.axes.shapes import CircleMode
+from rapidgen.motion.moves import Singularities
 
 
 @dataclass(slots=True)
@@ -19,6 +20,8 @@ class ModalSettings:
     """AccSet, share."""
     ramp: float = 1.0
     """AccSet: how quickly acceleration builds up, share."""
+    corner_warning: bool = True
+    """CornerPathWarning: whether the log tells of corners that became stop points."""
     check_linear: bool = True
     """ConfL"""
     check_joint: bool = True

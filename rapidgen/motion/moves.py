@@ -7,6 +7,7 @@ from math import inf, sqrt
 
 from rapidgen.axes.frames import IDENTITY, Pose, compose, invert
 from rapidgen.axes.kinematics import AxisConfiguration, MovingFrame, Posture
+from rapidgen.axes.shapes import CircleMode
 from rapidgen.motion.faults import MotionFault, Refusal
 
 NO_WAY = 1e-7
@@ -111,14 +112,6 @@ class JointMove(Move):
     """To a posture with all axes together (MoveAbsJ, MoveJ, MoveExtJ)."""
 
     target: Posture
-
-
-class CircleMode(Enum):
-    """CirPathMode: how the orientation turns on a circle."""
-
-    PATH = "evenly relative to the path"
-    OBJECT = "evenly relative to the object, as on a line"
-    POINT = "relative to the path, through the orientation of the circle point"
 
 
 class Singularities(Enum):

@@ -33,6 +33,17 @@ class MotionSettings:
     refresh_timed: bool = True
     """SpeedRefresh stretches moves with \\T, too. No source."""
 
+    refresh_lasts: bool = False
+    """SpeedRefresh holds for later moves, too, until PP to main; or for the move under way only.
+    3HAC050917 speaks of the ongoing movement. No source; the strict answer."""
+
+    refresh_standing: bool = False
+    """SpeedRefresh while the robot stands acts on what moves next; or it does nothing, as seen on
+    a RobotWare 7.21 controller (Nantaphat-Yoktaworn/node-red-contrib-abb-gofa)."""
+
+    velset_timed: bool = True
+    """VelSet stretches a \\T, too (S4 datasys 2-VelSet-1)."""
+
     cleared_move: Literal["hang", "return"] = "hang"
     """What a move instruction does whose path ClearPath removes while it waits: it never returns,
     as seen on a RobotWare 7.21 controller in two programs of one author

@@ -8,6 +8,7 @@ from math import pi
 from rapidgen.axes import frames
 from rapidgen.axes.frames import Vector
 from rapidgen.axes.kinematics import ConfigurationCheck, Kinematics, Posture
+from rapidgen.axes.unreached import unreached
 from rapidgen.motion.faults import MotionFault, Refusal
 from rapidgen.motion.moves import Carrier, CartesianMove, Singularities
 
@@ -43,8 +44,8 @@ def wrist_end(
     flange = move.carrier.at(near).flange(move.target)
     found = kinematics.solutions(flange, near)
     if not found:
-        reached = kinematics.reaches(flange, near)
-        raise MotionFault(Refusal.NO_POSTURE_IN_RANGE if reached else Refusal.NO_POSTURE)
+        reached, why = unreached(kinematics, flange, near)
+        raise MotionFault(Refusal.NO_POSTURE_IN_RANGE if reached else Refusal.NO_POSTURE, why)
     if move.singularities is Singularities.LOCK_AXIS_4:
         return _locked(kinematics, move, near, found)
     if move.wanted is not None:

@@ -9,6 +9,7 @@ from rapidgen.machine.scheduler import Scheduler
 from rapidgen.motion.group import MotionGroup
 from rapidgen.motion.recorder import Recorder
 from rapidgen.motion.settings import MotionSettings
+from rapidgen.motion.zones import WorldZones
 
 
 class MotionSystem:
@@ -28,6 +29,7 @@ class MotionSystem:
             config.name: MotionGroup(config, scheduler, log, io, self._settings)
             for config in robots
         }
+        self.zones = WorldZones(scheduler, self.groups.values())
         self._tasks = {g.config.task.lower(): g for g in self.groups.values()}
         self._moving = set(self._tasks)
 

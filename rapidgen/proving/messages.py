@@ -23,6 +23,7 @@ INDEX_WRAP = 2**23
 
 PING, JOINT_POSITION, JOINT_TRAJ_PT, STATUS, JOINT_FEEDBACK = 1, 10, 11, 13, 15
 HELLO, PROGRESS, POINTS, STOPPED, PAUSE, SPEED, HEARTBEAT, SIGNAL, EVENT = range(1300, 1309)
+PROGRAM, RESULT = 1309, 1310
 POINT_BYTES, STATE_BYTES = 68, 60 + 44
 """Bytes of a JOINT_TRAJ_PT, and of what every state client gets: JOINT and STATUS."""
 
@@ -75,6 +76,7 @@ class RawFeature(IntFlag):
     SIGNALS = 8
     EVENTS = 16
     FEEDBACK = 32
+    PROGRAMS = 64
 
 
 class RawStreamFlag(IntFlag):
@@ -83,6 +85,29 @@ class RawStreamFlag(IntFlag):
     BEGIN = 1
     END = 2
     FLUSH = 4
+    WHOLE = 8
+
+
+class RawInstruction(IntEnum):
+    """What an instruction of a program does."""
+
+    MOVE_ABSJ = 1
+    MOVE_J = 2
+    MOVE_L = 3
+    MOVE_C = 4
+    WAIT = 5
+    WAIT_SIGNAL = 6
+    SET = 7
+    CALL = 8
+
+
+class RawModal(IntFlag):
+    """What stands before its operands."""
+
+    SPEED = 256
+    ZONE = 512
+    FRAMES = 1024
+    SIGNALS = 2048
 
 
 class RawTrajectoryState(IntEnum):
@@ -128,6 +153,13 @@ class RawReason(IntEnum):
     BUILD_MISMATCH = 24
     IDLE = 27
     NOT_SERVING = 28
+    NO_INSTRUCTION = 29
+    BAD_SPEED = 30
+    BAD_ZONE = 31
+    POSE_MISMATCH = 32
+    NO_GEOMETRY = 33
+    NO_FRAME = 34
+    NO_ROUTINE = 35
     STOPPED = 40
     SUPERSEDED = 41
     CLIENT_LOST = 42
@@ -137,6 +169,8 @@ class RawReason(IntEnum):
     POWER_FAILURE = 46
     MODE_CHANGED = 47
     INTERNAL = 49
+    WAITED = 50
+    ROUTINE = 51
 
 
 def text_of(reason: RawReason) -> str:
@@ -336,6 +370,20 @@ class RawSignalReply(NamedTuple):
     value: float
 
 
+class RawResult(NamedTuple):
+    """RESULT of the routine that a program called last."""
+
+    trajectory: int
+
+
+class RawResultReply(NamedTuple):
+    """What it left in its parameters, or its error."""
+
+    trajectory: int
+    error: int
+    values: tuple[float, ...]
+
+
 class RawAccepted(NamedTuple):
     """Reply to an end frame: the trajectory was taken under this number."""
 
@@ -359,8 +407,12 @@ class RawFailure(NamedTuple):
 
 
 _Told: TypeAlias = RawJointPosition | RawStatus | RawJointFeedback | RawProgress | RawStopped
-_Asked: TypeAlias = RawTrajectoryPoint | RawHello | RawPause | RawSpeed | RawHeartbeat | RawSignal
-_Done: TypeAlias = RawHelloReply | RawHeartbeatReply | RawSignalReply | RawPointsAccepted
+_Asked: TypeAlias = (
+    RawTrajectoryPoint | RawHello | RawPause | RawSpeed | RawHeartbeat | RawSignal | RawResult
+)
+_Done: TypeAlias = (
+    RawHelloReply | RawHeartbeatReply | RawSignalReply | RawPointsAccepted | RawResultReply
+)
 _Refused: TypeAlias = RawHelloRefusal | RawPointsRefused | RawNotDone | RawRefused | RawFailure
 RawContent: TypeAlias = (
     _Told | _Asked | _Done | _Refused | RawEvent | RawPing | RawAccepted | RawAcknowledged
@@ -380,6 +432,10 @@ _LAYOUTS: tuple[tuple[int, int, type[RawContent], str], ...] = (
     (PROGRESS, 0, RawProgress, "i i i i i i i i"),
     (POINTS, 1, RawPointsAccepted, "i i i i i i i"),
     (POINTS, 2, RawPointsRefused, "i i i i i i"),
+    (PROGRAM, 1, RawPointsAccepted, "i i i i i i i"),
+    (PROGRAM, 2, RawPointsRefused, "i i i i i i"),
+    (RESULT, 0, RawResult, "i"),
+    (RESULT, 1, RawResultReply, "i i 8f"),
     (STOPPED, 0, RawStopped, "i i i 10f"),
     (PAUSE, 0, RawPause, "i"),
     (PAUSE, 2, RawNotDone, "i"),
@@ -482,9 +538,14 @@ def points_frame(
 def words_of(point: Point) -> list[int]:
     """The words of a point: s, rad and m in millionths."""
     joints, duration = point
-    numbers = [round(value * 1e6) for value in (duration, *joints)]
+    return millionths((duration, *joints))
+
+
+def millionths(values: Sequence[float]) -> list[int]:
+    """Words for s, rad, m and numbers without a unit."""
+    numbers = [round(value * 1e6) for value in values]
     if not all(abs(number) < 2**31 for number in numbers):
-        raise ValueError(f"{point} does not fit into a batch")
+        raise ValueError(f"{values} does not fit into a batch")
     return numbers
 
 
@@ -495,10 +556,11 @@ def words_frame(
     words: Sequence[int],
     flags: int = 0,
     comm: int = RawComm.REQUEST,
+    number: int = POINTS,
 ) -> bytes:
     """A batch of any words, that says to have `count` points; its checksum is right."""
     whole = [stream, flags, first, count, *words]
     checksum = 0
     for word in whole:
         checksum = (2 * checksum + word + 2**31) % (2**31 - 19)
-    return framed(POINTS, struct.pack(f"<{len(whole) + 1}i", *whole, checksum), comm)
+    return framed(number, struct.pack(f"<{len(whole) + 1}i", *whole, checksum), comm)

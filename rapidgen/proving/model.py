@@ -60,6 +60,8 @@ class Proof:
     findings: list[Finding] = field(default_factory=list)
     schedules: int = 0
     elapsed: float = 0.0
+    broken_off: bool = False
+    """Whether somebody ended the run before it had seen everything."""
     lines: dict[str, dict[int, int]] = field(default_factory=dict)
     """Lines of RAPID by file, and how often the cases reached them; empty: not the whole suite."""
 
@@ -72,4 +74,4 @@ class Proof:
     @property
     def passed(self) -> bool:
         """Whether everything held."""
-        return not self.findings and all(o.passed for o in self.outcomes)
+        return not self.broken_off and not self.findings and all(o.passed for o in self.outcomes)

@@ -58,6 +58,7 @@ def prove(
 
     The answers to any `strength` open questions meet in some setting (0: the default alone);
     `assuming`: in that one only. `progress(what, done, total)` is called for every piece of work.
+    A KeyboardInterrupt ends the run; the report has what it had seen, and says so.
     """
     global _shared  # noqa: PLW0603 - workers inherit it by fork
     output = build(config)
@@ -74,15 +75,19 @@ def prove(
         if cases and not (config.commissioning and case.background)
         if case.name in only or (not only and (setting.coverage or not case.once))
     ]
-    report.outcomes = each(work, _attempt, jobs, "cases", progress)
-    if not assuming:
-        report.outcomes = _explained(report, jobs, progress)
-    if not only and not assuming:
-        for outcome in report.outcomes:
-            add_lines(report.lines, outcome.lines)
-        explored = each(list(range(seeds)), _explore, jobs, "schedules", progress)
-        report.schedules = len(explored)
-        report.findings = [e.finding for e in explored if e.finding is not None]
+    explored: list[Explored] = []
+    try:
+        each(work, _attempt, jobs, "cases", progress, report.outcomes)
+        if not assuming:
+            report.outcomes = _explained(report, jobs, progress)
+        if not only and not assuming:
+            for outcome in report.outcomes:
+                add_lines(report.lines, outcome.lines)
+            each(list(range(seeds)), _explore, jobs, "schedules", progress, explored)
+    except KeyboardInterrupt:
+        report.broken_off = True
+    report.schedules = len(explored)
+    report.findings = [e.finding for e in explored if e.finding is not None]
     report.elapsed = time.monotonic() - started
     for starter in _ready.values():
         starter.close()

@@ -51,8 +51,9 @@ class Setting:
 # What the driver cannot do without. Where it is otherwise a task ends at its start or every link
 # breaks, and nothing moves: tests/proving/test_variants.py.
 NEEDED = frozenset({"alias_by_name"})
-# What its moves cannot notice: they are MoveAbsJ.
-NOT_ITS_MOVES = frozenset({"configuration_check"})
+# Where the TCP has a ceiling of its own every trajectory is refused with it.
+NOT_WITH_CEILINGS = "calc_in_background=false"
+_CEILING = 5.0
 # Figures of the motion that no source gives, and another one for each.
 FIGURES = {"planning_lead": 0.02, "servo_lag": 0.05, "settle": 0.2, "quick_factor": 1.0}
 COSTS = (1.0, 0.25, 4.0)
@@ -78,7 +79,7 @@ def answers_to(switches: Switches | MotionSettings) -> dict[str, tuple[Answer, .
 def questions() -> dict[str, tuple[Answer, ...]]:
     """What a driver can notice of its controller, with the answers to it; the default first."""
     switches = answers_to(Switches()) | answers_to(MotionSettings())
-    left_out = NEEDED | NOT_THE_DRIVERS | NOT_ITS_MOVES
+    left_out = NEEDED | NOT_THE_DRIVERS
     asked = {name: own for name, own in switches.items() if name not in left_out}
     return asked | {"costs": COSTS, "schedule": SCHEDULES}
 
@@ -152,6 +153,11 @@ def rows(strength: int = 2) -> dict[str, tuple[str, ...]]:
 
 def settings(config: RobotConfig, rows: "dict[str, tuple[str, ...]]") -> dict[str, Setting]:
     """A setting for each row, and the default for each further motion group."""
+    if any(group.tcp_speed_limit < _CEILING for group in config.groups):
+        rows = {
+            name: tuple(text for text in texts if text != NOT_WITH_CEILINGS)
+            for name, texts in rows.items()
+        }
     found = {name: assumed(texts) for name, texts in rows.items()}
     if "" in found:
         found[""] = replace(found[""], coverage=True)

@@ -6,6 +6,7 @@ with it.
 
 import os
 import pickle
+import signal
 import warnings
 from collections.abc import Callable, Sequence
 from concurrent.futures import ProcessPoolExecutor
@@ -27,10 +28,14 @@ def each(
     jobs: int | None,
     what: str = "",
     progress: Callable[[str, int, int], None] | None = None,
+    results: list[R] | None = None,
 ) -> list[R]:
-    """Results of a module's function for each piece of work, in order, on several processes."""
+    """Results of a module's function for each piece of work, in order, on several processes.
+
+    They are put into `results` as they come: there they are, too, when the work is broken off.
+    """
     count = jobs or os.cpu_count() or 1
-    results = []
+    results = [] if results is None else results
     if count == 1:
         for done, item in enumerate(work, 1):
             results.append(function(item))
@@ -39,11 +44,21 @@ def each(
         return results
     # A few pieces at a time, as long as there are enough for all.
     chunk = max(1, min(4, len(work) // (4 * count)))
-    with ProcessPoolExecutor(count, mp_context=get_context("fork")) as pool:
-        for done, result in enumerate(pool.map(function, work, chunksize=chunk), 1):
-            results.append(result)
-            if progress is not None:
-                progress(what, done, len(work))
+    # An interruption is this process's own: the others end what they are at.
+    with ProcessPoolExecutor(
+        count,
+        mp_context=get_context("fork"),
+        initializer=signal.signal,
+        initargs=(signal.SIGINT, signal.SIG_IGN),
+    ) as pool:
+        try:
+            for done, result in enumerate(pool.map(function, work, chunksize=chunk), 1):
+                results.append(result)
+                if progress is not None:
+                    progress(what, done, len(work))
+        except KeyboardInterrupt:
+            pool.shutdown(cancel_futures=True)
+            raise
     return results
 
 

@@ -8,6 +8,12 @@ class Dialect:
     """The RobotWare version that decides what exists: (major, minor)."""
 
     robotware: tuple[int, int] = (6, 0)
+    """6.0: some RobotWare 6; nobody has said which."""
+
+    @property
+    def told(self) -> bool:
+        """Whether the release is known. Where it is not, what another one brings is no fault."""
+        return self.robotware != (6, 0)
 
     @property
     def has_radix(self) -> bool:

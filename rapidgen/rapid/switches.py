@@ -99,6 +99,11 @@ class Switches:
     axis_limits_told: bool = True
     """ReadCfgData finds the limits of the axes, MOC/ARM [code]. False: ERR_CFG_NOTFND."""
 
+    calc_in_background: bool = True
+    """CalcRobT and CalcJointT in a task that moves no robot compute for the one that its unit group
+    names, as CRobT and CJointT do there in ABB's own module for RobotWare 7 [ABB]. False:
+    ERR_NOT_MOVETASK [mem]."""
+
     error_reach: Literal["all", "own"] = "all"
     """IError tells a task of everybody's events, as public loggers in tasks of their own expect
     [code], or of those of its own only."""
@@ -150,6 +155,22 @@ class Switches:
     sockets_limited: bool = True
     """32 sockets of a controller may be open [mem]. False: any number."""
 
+    stationary_zones: Literal["power_on", "anywhere"] = "power_on"
+    """Where stationary world zones may be defined: in event routines of POWER ON [manual
+    3HAC050917], or in any routine, for programs that are tried without their event routines."""
+
+    hands_calibrated: bool = False
+    """Whether the hands of a YuMi are calibrated when the controller is switched on [HandDriver.sys
+    asks for it]. True: as if a program before had done it."""
+
+    no_configuration: Literal["limit", "reach", "stop"] = "limit"
+    """CalcJointT of a configuration that the place has not: ERR_ROBLIMIT, as an axis would have to
+    be where it cannot be [manual], ERR_OUTSIDE_REACH, or the task stops as with a move."""
+
+    delimiters: Literal["added", "alone"] = "added"
+    """The \\Delim of ReadStr comes in addition to the line feed, as with ReadNum [mem], or in its
+    place."""
+
     byte_to_str: Literal["character", "code"] = "character"
     """ByteToStr \\Char of a code that cannot be shown: the character itself (open_abb's servers
     end their lines so), or three characters such as `\\07` (S4 datasys 3-ByteToStr by its word)."""
@@ -168,6 +189,10 @@ NOT_THE_DRIVERS = frozenset(
         "list_number",
         "queue_patience",
         "sockets_limited",
+        "stationary_zones",
+        "hands_calibrated",
+        "delimiters",
+        "no_configuration",
     }
 )
 """Switches that no generated driver can notice: it does nothing that they are about."""

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from types import FrameType
 from typing import Literal, Protocol, TypeAlias
 
+from rapidgen.machine.arc_equipment import ArcEquipment
 from rapidgen.machine.costs import Costs
 from rapidgen.machine.files import FileSystem
 from rapidgen.machine.io import IOSystem
@@ -13,6 +14,7 @@ from rapidgen.machine.network.interface import Network
 from rapidgen.machine.network.sockets import SocketTable
 from rapidgen.machine.operator import Operator
 from rapidgen.machine.scheduler import Scheduler
+from rapidgen.machine.smart_gripper import Hands
 from rapidgen.machine.system_parameters import SystemParameters
 from rapidgen.machine.texts import TextTables
 from rapidgen.motion.group import Waiter
@@ -21,6 +23,7 @@ from rapidgen.rapid.switches import Switches
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.compiler.context import Options
 from rapidgen.runtime.compiler.program import Program
+from rapidgen.runtime.cyclic import CyclicBools
 from rapidgen.runtime.errors import FatalError, Location
 from rapidgen.runtime.queues import QueueSystem
 from rapidgen.runtime.robot_data import RobotData
@@ -76,6 +79,10 @@ class Host(Protocol):
     booked: set[int]
     """Error numbers that BookErrNo gave."""
     meetings: Meetings
+    arcs: dict[str, ArcEquipment]
+    """What tasks weld with."""
+    hands: Hands
+    """The hands of a YuMi."""
 
     # What runs.
     statements: Statements
@@ -134,6 +141,7 @@ class RapidTask(Waiter, Protocol):
     in_trap: bool
     errno: int
     intno: int
+    cyclic: CyclicBools
 
     @property
     def frame(self) -> FrameType | None:

@@ -44,8 +44,9 @@ def load(task: RapidTask, words: str, *, dynamic: bool, check: bool) -> str:
         raise RapidError("ERR_LOADED", tree.name)
     known = len(program.faults)
     program.load([(tree, file)])
-    if len(program.faults) > known:
-        reason = program.faults[known].message
+    wrong = [d for d in program.faults[known:] if d.severity is Severity.ERROR]
+    if wrong:
+        reason = wrong[0].message
         del program.faults[known:]
         program.unload(tree.name)
         raise RapidError("ERR_SYNTAX", f"{words}: {reason}")
@@ -139,7 +140,7 @@ def module_text(task: RapidTask, module: LoadedModule) -> str:
             continue
         data = task.program.find_data(module, key)
         cell = task.program.space.get(data.code) if data is not None else None
-        if isinstance(cell, PersistentCell):
+        if isinstance(cell, PersistentCell) and cell.type.is_value:
             start = source.starts[declaration.initial.first]
             last = declaration.initial.last
             end = source.starts[last] + len(source.tokens[last])

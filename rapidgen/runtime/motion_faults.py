@@ -20,6 +20,7 @@ NO_MOTION_TASK = 49_901
 NOT_ALLOWED = 49_902
 FRAMES_CONTRADICT = 49_904
 NOT_SIMULATED = 49_905
+WORLD_ZONE = 49_907
 NO_GEOMETRY = 59_900
 
 _P = ParamSpec("_P")
@@ -50,12 +51,12 @@ class _Stop:
 
 
 _MEANINGS: dict[Refusal, _Error | _Stop] = {
-    Refusal.OUT_OF_REACH: _Error("ERR_OUTSIDE_REACH", "{} m"),
+    Refusal.OUT_OF_REACH: _Error("ERR_OUTSIDE_REACH", "on the way; {}"),
     Refusal.OUT_OF_REACH_IN_CORNER: _Error("ERR_OUTSIDE_REACH", "in a corner"),
     Refusal.OUT_OF_REACH_WITH_WRIST: _Error("ERR_OUTSIDE_REACH", "with SingArea \\Wrist"),
     Refusal.OUT_OF_REACH_WITH_AXIS_4: _Error("ERR_OUTSIDE_REACH", "with SingArea \\LockAxis4"),
-    Refusal.NO_POSTURE: _Error("ERR_OUTSIDE_REACH"),
-    Refusal.NO_POSTURE_IN_RANGE: _Error("ERR_ROBLIMIT"),
+    Refusal.NO_POSTURE: _Error("ERR_OUTSIDE_REACH", "{}"),
+    Refusal.NO_POSTURE_IN_RANGE: _Error("ERR_ROBLIMIT", "{}"),
     Refusal.OUT_OF_RANGE: _Error("ERR_ROBLIMIT", "{}"),
     Refusal.TARGET_OUT_OF_RANGE: _Stop(OUT_OF_RANGE, "Joint out of range", "{}"),
     Refusal.SINGULARITY: _Stop(

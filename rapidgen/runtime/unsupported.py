@@ -3,30 +3,23 @@
 Loading a program says which of them it uses; reaching one stops the task with an event.
 """
 
+from functools import cache
 from typing import Final
+
+from rapidgen.rapid.builtins import signatures
 
 _GROUPS: Final[tuple[tuple[str, str], ...]] = (
     (
         "externally guided motion (option 689-1) is not simulated",
         """EGMGetId EGMGetState EGMSetupUC EGMSetupAI EGMSetupAO EGMSetupLTAPP EGMActJoint
-        EGMActPose EGMActMove EGMRunJoint EGMRunPose EGMMoveL EGMMoveC EGMStop EGMReset
+        EGMSetupGI EGMActPose EGMActMove EGMRunJoint EGMRunPose EGMMoveL EGMMoveC EGMStop EGMReset
         EGMStreamStart EGMStreamStop EGMWaitCond""",
-    ),
-    (
-        "world zones are not simulated",
-        """WZBoxDef WZCylDef WZSphDef WZHomeJointDef WZLimJointDef WZDOSet WZLimSup WZEnable
-        WZDisable WZFree""",
     ),
     ("the servo loops are not simulated", "TuneServo TuneReset"),
     (
         "there are no I/O units: every signal is a virtual one",
-        "IOEnable IODisable IOUnitState PackDNHeader",
+        "IOEnable IODisable IOUnitState IOBusStart IOBusState PackDNHeader",
     ),
-    (
-        "conditions that the controller evaluates by itself are not simulated",
-        "GetMaxNumberOfCyclicBool SetupCyclicBool RemoveCyclicBool RemoveAllCyclicBool",
-    ),
-    ("nobody can lead a simulated robot by hand", "SetLeadThrough IsLeadThrough"),
     (
         "path correction is not simulated",
         "CorrCon CorrDiscon CorrClear CorrWrite CorrRead",
@@ -40,20 +33,28 @@ _GROUPS: Final[tuple[tuple[str, str], ...]] = (
         """SenDevice WriteVar ReadVar WriteBlock ReadBlock SiConnect SiClose SiGetCyclic
         SiSetCyclic IVarValue""",
     ),
-    ("contact is not simulated", "ContactL"),
     (
         "force control (option 661-2) is not simulated",
         """FCCalib FCAct FCDeact FCRefStart FCRefStop FCPress1LStart FCPressL FCPressC FCPressEnd
         FCLoadID""",
     ),
-    (
-        "the gripper's own controller is not simulated",
-        """Hand_Initialize Hand_GripInward Hand_GripOutward Hand_MoveTo Hand_SetHoldForce
-        Hand_SetMaxSpeed Hand_Stop Hand_JogInward Hand_JogOutward Hand_DoCalibrate
-        Hand_GetActualPos Hand_GetActualSpeed g_Init g_GripIn g_GripOut g_MoveTo g_SetMaxSpd
-        g_SetForce g_Stop g_JogIn g_JogOut g_Calibrate""",
-    ),
     ("linked motors are not simulated", "Linked_m_exe"),
+    (
+        "BullsEye measures a real tool with its beam: there is neither",
+        "BESetupToolJ BECheckTcp BEUpdateTcp BERefPointer BETcpExtend BEDebugState",
+    ),
+    (
+        "the Production Manager's engine, which calls parts and menus, is not simulated",
+        "ExecEngine PMgrGetNextPart PMgrSetNextPart PMgrRunMenu",
+    ),
+    (
+        "paths of seams are not recorded, and weld data hold for a whole movement",
+        "ArcRepL ArcRefresh",
+    ),
+    (
+        "SmarTac feels a part with the torch: there is neither",
+        "Search_1D Search_Groove Search_Part PDispAdd",
+    ),
     (
         "the controller's path recorder is not simulated",
         """PathRecStart PathRecStop PathRecMoveBwd PathRecMoveFwd PathRecValidBwd PathRecValidFwd
@@ -66,13 +67,58 @@ _GROUPS: Final[tuple[tuple[str, str], ...]] = (
     ("motor angles need gear ratios, which are in no public source", "ReadMotor"),
     (
         "its arguments are in no public source",
-        "TriggLIOs TriggJIOs",
+        "TriggLIOs TriggJIOs SSearchL",
     ),
     (
         "how the controller fits axes and tools to measured points is in no public source",
         "CalcRotAxisFrame CalcRotAxFrameZ MToolRotCalib SToolRotCalib SToolTCPCalib",
     ),
-    ("loads are not identified: torques are 0", "LoadId"),
+    (
+        "loads and friction are not identified: torques are 0",
+        """LoadId ManLoadIdProc ParIdPosValid ParIdRobValid FricIdInit FricIdEvaluate
+        FricIdSetFricLevels""",
+    ),
+    (
+        "profiles of synchronised sensors are not simulated",
+        """PrxActivAndStoreRecord PrxActivRecord PrxDbgStoreRecord PrxDeactRecord PrxResetPos
+        PrxResetRecords PrxSetPosOffset PrxSetRecordSampleTime PrxSetSyncalarm PrxStartRecord
+        PrxStopRecord PrxStoreRecord PrxUseFileRecord PrxGetMaxRecordpos SupSyncSensorOn
+        SupSyncSensorOff""",
+    ),
+    (
+        "continuous applications (CAP) are not simulated",
+        """CapL CapC CapCondSetDO CapEquiDist CapNoProcess CapRefresh CapGetFailSigs ICap InitSuperv
+        SetupSuperv RemoveSuperv""",
+    ),
+    (
+        "servo guns are not simulated",
+        """STCalib STClose STOpen STIndGun STIndGunReset STTune STTuneReset STCalcForce STCalcTorque
+        STIsCalib STIsClosed STIsIndGun STIsOpen""",
+    ),
+    (
+        "there is no safety controller",
+        """SafetyControllerSyncRequest SafetyControllerGetChecksum SafetyControllerGetOpModePinCode
+        SafetyControllerGetSWVersion SafetyControllerGetUserChecksum""",
+    ),
+    (
+        "wear of axes is not counted",
+        """ResetAxisDistance ResetAxisMoveTime GetAxisDistance GetAxisMoveTime HollowWristReset""",
+    ),
+    (
+        "how the planner's modes and its event buffer act is in no public source",
+        "MotionProcessModeSet ActEventBuffer DeactEventBuffer",
+    ),
+    ("program memory has no size here", "ProgMemFree"),
+    (
+        "what a program does is shown by --trace, not by a file of the controller",
+        "SpyStart SpyStop",
+    ),
+    (
+        "it is not remembered who moved the pointer, nor which path power failed on",
+        "PPMovedInManMode ResetPPMoved PFRestart",
+    ),
+    ("UIMsgWrite is written, not shown: nothing is there to take away", "UIMsgWriteAbort"),
+    ("its values are in no public source", "GetModalPayLoadMode"),
     (
         "there is no camera",
         """CamLoadJob CamStartLoadJob CamWaitLoadJob CamSetProgramMode CamSetRunMode CamReqImage
@@ -80,20 +126,32 @@ _GROUPS: Final[tuple[tuple[str, str], ...]] = (
         CamNumberOfResults""",
     ),
     (
-        "welding is not simulated",
-        "ArcL ArcC ArcLStart ArcLEnd ArcCStart ArcCEnd SpotL SpotJ",
+        "spot welding is not simulated",
+        "SpotL SpotJ",
     ),
     (
         "independent axes are not simulated",
         "IndAMove IndCMove IndDMove IndRMove IndReset IndInpos IndSpeed",
     ),
 )
+OPTION: Final = (
+    "it belongs to an option or add-in of RobotWare, of which only the name is known here:"
+    " declare it in a module of your own to say what it does"
+)
 _REASONS: Final = {name.lower(): reason for reason, names in _GROUPS for name in names.split()}
 
 
 def reason(name: str) -> str:
-    """Why a built-in without a binding cannot be executed. KeyError: it can."""
-    return _REASONS[name.lower()]
+    """Why a built-in without a binding, or a name of an option, cannot be executed. KeyError: it
+    can."""
+    key = name.lower()
+    return OPTION if key in option_routines() else _REASONS[key]
+
+
+@cache
+def option_routines() -> frozenset[str]:
+    """Lower-case names of routines of options of which nothing else is known."""
+    return signatures.option_names("procedures") | signatures.option_names("functions")
 
 
 def names() -> frozenset[str]:

@@ -11,6 +11,7 @@ from pathlib import Path
 
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, error, refusal
 from rapidgen.system.adding import faults_within
+from rapidgen.system.arc import arc_signals
 from rapidgen.system.base.releases import DOMAINS
 from rapidgen.system.cfg import CfgText, parse_cfg
 from rapidgen.system.controller_cfg import ControllerCfg
@@ -63,12 +64,14 @@ def read_backup(folder: Path | str, *, notes: list[Diagnostic] | None = None) ->
         )
         for n, task in enumerate(tasks_of(sys_cfg), 1)
     )
+    proc = _further(folder, "PROC", collected)
     found = System(
         name=folder.resolve().name,
         tasks=tasks,
         robotware=_robotware(info, sys_cfg, collected),
         home=home if home.is_dir() else None,
         robot_types=_robot_types(folder, collected),
+        arc=() if proc is None else arc_signals(proc),
     )
     return with_cfg(found, sys_cfg, eio_cfg)
 

@@ -66,10 +66,12 @@ def load_entries(
     """`loaded` and then what CAB_TASK_MODULES adds to `task`.
 
     A file that is not in the folder is a warning RG710 when `notes` collects them (a real
-    backup names options' files that it does not carry), else an error.
+    backup names options' files that it does not carry), else an error; so is a second file with a
+    module of the same name, RG714.
     """
     modules = list(loaded)
     known = {module.name.casefold() for module in loaded}
+    brought: dict[str, str] = {}
     for entry in entries:
         if not entry.loads_into(task):
             continue
@@ -80,16 +82,13 @@ def load_entries(
             stem = entry.file.replace("\\", "/").rpartition("/")[2].rpartition(".")[0]
             if stem.casefold() in known:
                 continue
-            missing = error(
+            _note(
+                notes,
                 "RG710",
                 place,
                 f"module file '{entry.file}' of task {task.name} is missing",
                 "put the file into HOME, or take its CAB_TASK_MODULES instance out",
-                severity=Severity.ERROR if notes is None else Severity.WARNING,
             )
-            if notes is None:
-                raise DiagnosticError(missing)
-            notes.append(missing)
             continue
         origin = (origins or {}).get(f"HOME/{path.relative_to(home).as_posix()}", ())
         module = load_module(
@@ -99,7 +98,28 @@ def load_entries(
             shared=entry.shared,
             installed=entry.installed,
         )
+        first = brought.setdefault(module.name.casefold(), entry.file)
+        if first.casefold() != entry.file.casefold():
+            _note(
+                notes,
+                "RG714",
+                place,
+                f"task {task.name} gets module {module.name} from '{entry.file}' and, before it, "
+                f"from '{first}': which of two a controller takes is not sure [mem]",
+                "take one of the two CAB_TASK_MODULES instances out",
+            )
         if module.name.casefold() not in known:
             known.add(module.name.casefold())
             modules.append(module)
     return tuple(modules)
+
+
+def _note(
+    notes: list[Diagnostic] | None, code: str, place: Span | None, message: str, mend: str
+) -> None:
+    """A warning where they are collected, else an error, which is raised."""
+    severity = Severity.ERROR if notes is None else Severity.WARNING
+    fault = error(code, place, message, mend, severity=severity)
+    if notes is None:
+        raise DiagnosticError(fault)
+    notes.append(fault)

@@ -129,6 +129,15 @@ class EventRoutine:
 
 
 @dataclass(frozen=True, slots=True)
+class ArcSignals:
+    """ARC_EQUIP_IO_...: what arc welding equipment has for signals: (`WeldOn`, name), ..."""
+
+    instance: str
+    """Such as stdIO_T_ROB1: its end names the task."""
+    names: tuple[tuple[str, str], ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
 class System:
     """A whole controller: tasks in order, I/O, mechanical units, RobotWare, HOME:."""
 
@@ -149,3 +158,5 @@ class System:
     """BUILD_ID of a generated folder, else empty."""
     robot_types: tuple[tuple[str, str], ...] = ()
     """(mechanical unit, -use_robot_type of MOC), where a backup tells them."""
+    arc: tuple[ArcSignals, ...] = ()
+    """Of PROC.cfg, where a backup has it."""

@@ -1,13 +1,18 @@
-"""pytest plugin: virtual controllers in tests, with seeds.
+"""pytest plugin: programs on virtual controllers in tests, with cells, clients, faults and seeds.
 
-    def test_moves(virtual_controller):
-        controller = virtual_controller("rapid_out/irb120")
-        controller.run_for(1.0)
-        assert controller.task("T_ROB1").state == "running"
+    def test_grips(virtual_controller, virtual_cell, virtual_client):
+        cell = virtual_cell("signals: {doGrip: {kind: DO}, diPart: {kind: DI}}")
+        controller = virtual_controller("main.mod", robot="irb1200", cell=cell)
+        client = virtual_client(controller, 5000)
+        client.send(b"PICK\\n")
+        controller.signals["diPart"] = 1
+        assert client.receive(until=b"\\n") == b"OK\\n"
+        assert controller.signals["doGrip"] == 1
+        assert controller.positions("rob1")["joint_1"] == pytest.approx(0.5)
 
     @pytest.mark.virtual_seeds(50)
     def test_no_race(virtual_controller):       # 50 tests, one for each seed
-        controller = virtual_controller("cell", switch_at_pers=True)
+        controller = virtual_controller("irb120", switch_at_pers=True)
 
 `--virtual-seed N` runs just that seed: a failing one replays exactly.
 """
@@ -20,7 +25,9 @@ import pytest
 
 if TYPE_CHECKING:
     from rapidgen.controller.controller import Choices, VirtualController
+    from rapidgen.controller.faults import FaultPlan
     from rapidgen.system.model import System
+    from rapidgen.testing.client import Client
 
 MARK = "virtual_seeds"
 
@@ -69,9 +76,12 @@ def virtual_controller(
 ) -> "Iterator[Callable[..., VirtualController]]":
     """Makes virtual controllers: `virtual_controller(target, **options)`.
 
-    `target` is a generated folder, a backup, module files (a list, or a mapping from task to
-    list), or a `System`; options are those of `VirtualController`. All are closed after the test.
+    `target` is what `rapidgen sim` takes (a shipped name, a configuration, a generated folder, a
+    backup, a module, a folder of modules), a list of module files, a mapping from task to such a
+    list, or a `System`. `robot`, `entry`, `cell` and `start` are those of `rapidgen run`, all other
+    options those of `VirtualController`. All are closed after the test.
     """
+    from rapidgen.controller.booting import Wishes, load_target
     from rapidgen.controller.controller import VirtualController
     from rapidgen.system.model import System
 
@@ -79,20 +89,64 @@ def virtual_controller(
 
     def make(
         target: "str | Path | System | Mapping[str, Sequence[str | Path]] | Sequence[str | Path]",
+        *,
+        robot: str = "",
+        entry: str = "",
+        cell: Path | str = "",
+        start: Sequence[float] = (),
         **options: "Unpack[Choices]",
     ) -> VirtualController:
         options.setdefault("seed", virtual_seed)
         if isinstance(target, System):
-            controller = VirtualController(target, **options)
-        elif isinstance(target, str | Path) and Path(target).is_dir():
-            controller = VirtualController.from_folder(target, **options)
-        elif isinstance(target, str | Path):
-            controller = VirtualController.from_files([target], **options)
-        else:
-            controller = VirtualController.from_files(target, **options)
-        made.append(controller)
-        return controller
+            made.append(VirtualController(target, **options))
+            return made[-1]
+        tasks = target if isinstance(target, Mapping) else {}
+        files = [target] if isinstance(target, str | Path) else [] if tasks else list(target)
+        wishes = Wishes(tasks, robot=robot, entry=entry, cell=cell, start=start)
+        made.append(VirtualController.boot(load_target(files, wishes), **options))
+        return made[-1]
 
     yield make
     for controller in made:
         controller.close()
+
+
+@pytest.fixture
+def virtual_cell(tmp_path: Path) -> "Callable[[str], Path]":
+    """Makes the file of a cell from its YAML text: `cell=virtual_cell("signals: ...")`."""
+
+    def make(text: str) -> Path:
+        path = tmp_path / f"cell_{len(list(tmp_path.glob('cell_*.yaml')))}.yaml"
+        path.write_text(text, encoding="utf-8")
+        return path
+
+    return make
+
+
+@pytest.fixture
+def virtual_faults(tmp_path: Path) -> "Callable[[str], FaultPlan]":
+    """Makes a plan of what goes wrong from its YAML text, for the option `faults`."""
+    from rapidgen.controller.faults import read_plan
+
+    def make(text: str) -> "FaultPlan":
+        path = tmp_path / "faults.yaml"
+        path.write_text(text, encoding="utf-8")
+        return read_plan(path)
+
+    return make
+
+
+@pytest.fixture
+def virtual_client() -> "Iterator[Callable[..., Client]]":
+    """Makes clients: `virtual_client(controller, port)`, see `rapidgen.testing.client`."""
+    from rapidgen.testing.client import Client
+
+    made: list[Client] = []
+
+    def connect(controller: "VirtualController", port: int, *, timeout: float = 10.0) -> Client:
+        made.append(Client(controller, port, timeout=timeout))
+        return made[-1]
+
+    yield connect
+    for client in made:
+        client.close()

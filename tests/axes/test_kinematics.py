@@ -105,7 +105,7 @@ def wrapped(angles):
 @pytest.mark.parametrize("group", WRIST_ARMS)
 def test_an_independent_package_finds_the_same_postures(group):
     own = Kinematics.of(group)
-    arm = own._arm[0]
+    arm = own._arm.arm
     robot = opw_robot(arm)
     for posture in postures(group, 25):
         angles = own._robot_angles(own.map.to_urdf(posture))
@@ -182,7 +182,7 @@ def test_out_of_reach_is_nothing():
     far = ((2.0, 0.0, 0.5), (1.0, 0.0, 0.0, 0.0))
     assert own.follow(far, (0.0,) * 6) is None
     assert own.solutions(far, (0.0,) * 6) == []
-    assert not own.reaches(far, (0.0,) * 6)
+    assert not any(own.beyond(far, (0.0,) * 6))
 
 
 def test_axis_6_appears_with_every_turn_of_its_range():
@@ -210,7 +210,7 @@ def test_metres_of_a_linear_axis():
 
 
 def test_cfx_tells_the_eight_branches_apart():
-    # [mem] +4 behind axis 1, +2 behind the lower arm, +1 axis 5 negative
+    # +4 behind axis 1, +2 behind the lower arm [mem], +1 axis 5 negative
     own = kinematics("irb120")
     posture = (0.1, 0.2, 0.3, 0.7, 0.5, 0.4)
     found = {own.configuration(p)[3] for p in own.solutions(own.forward(posture), posture)}
@@ -285,3 +285,14 @@ def test_home_of_an_irb_140():
     turned = frames.from_rpy(*map(math.radians, (180, 60, 180)))
     assert frames.angle_between(q, turned) < 1e-9
     assert own.matches(home, (0, 0, 0, 0), "quarter")
+
+
+def test_a_singular_arm_is_no_end_of_a_search():
+    """A tool straight down in the robot's own foot: rows of the Jacobian vanish on the way."""
+    own = Kinematics.of(load_config("crb15000").groups[0])
+    foot = ((0.0, 0.0, 0.05), (0.0, 1.0, 0.0, 0.0))
+    start = (
+        *(1.4968308644007164, 0.1457763096632032, 1.4363546943094327),
+        *(-2.9059740906472533, -0.26568228074002587, 1.9886889063547626),
+    )
+    assert all(own.follow(own.forward(p), p) is not None for p in own.solutions(foot, start))

@@ -56,4 +56,4 @@ def test_four_axes_cannot_tilt(name):
     tilted = place, frames.multiply(frames.about((1.0, 0.0, 0.0), 0.01), q)
     assert own.solutions(tilted, posture) == []
     assert own.follow(tilted, posture) is None
-    assert not own.reaches(tilted, posture)
+    assert not any(own.beyond(tilted, posture))

@@ -50,3 +50,16 @@ def test_the_proof_refuses_another_cell(built, capsys):
     backup, _ = built
     assert main(["test", "crb15000", "--backup", str(backup)]) == 2
     assert "RG111" in capsys.readouterr().err
+
+
+def test_check_looks_at_a_configuration_and_a_folder_on_the_cell(built, capsys):
+    backup, out = built
+    assert main(["check", "irb120", str(out), "--backup", str(backup)]) == 0
+    program = backup / "RAPID/TASK1/PROGMOD/theirs.mod"
+    program.write_text(program.read_text().replace("  PROC", "  VAR num ROS_latched;\n  PROC", 1))
+    capsys.readouterr()
+    assert main(["check", "irb120", "--backup", str(backup)]) == 1
+    assert "RG112" in capsys.readouterr().out
+    assert main(["check", str(out), "--backup", str(backup)]) == 1
+    assert main(["check", "irb120", "--backup", str(backup / "SYSPAR")]) == 2
+    assert main(["check", "irb120"]) == 0

@@ -42,6 +42,18 @@ def test_json_is_one_array_also_for_none(folder, capsys):
 
 
 @pytest.mark.parametrize(
+    "text",
+    ["#!/usr/bin/env python3\n", "module example.org/x\n\ngo 1.21\n", "Sub Load()\nEnd Sub\n"],
+)
+def test_a_file_of_another_language_in_a_folder_is_left_out(folder, capsys, text):
+    (folder / "bad.mod").write_text(text)
+    assert main(["check", ".", "--format", "concise"]) == 0
+    assert "info[RG208]" in capsys.readouterr().out
+    (folder / "bad.mod").write_text("PROC p()\nENDPROC\n")
+    assert main(["check", "."]) == 1
+
+
+@pytest.mark.parametrize(
     ("format", "start"), [("concise", "bad.mod:2:18: error[RG307]"), ("github", "::error ")]
 )
 def test_other_formats(folder, capsys, format, start):
@@ -97,6 +109,13 @@ def test_fmt_writes_once(folder, capsys):
     assert main(["fmt", "ugly.mod"]) == 0
     assert path.read_bytes() == b"MODULE m\r\n    VAR num gr\xf6\xdfe;\r\nENDMODULE\r\n"
     assert main(["fmt", "ugly.mod", "--check"]) == 0
+
+
+def test_fmt_says_that_a_file_mixes_line_ends(folder, capsys):
+    (folder / "mixed.mod").write_bytes(GOOD.encode().replace(b"\n", b"\r\n", 2))
+    assert main(["fmt", "mixed.mod"]) == 0
+    assert "mixed.mod mixes line ends (3 LF, 2 CRLF): all become LF" in capsys.readouterr().err
+    assert (folder / "mixed.mod").read_bytes() == GOOD.encode()
 
 
 def test_fmt_leaves_wrong_files_alone(folder, capsys):

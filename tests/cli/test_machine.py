@@ -69,6 +69,13 @@ def test_a_reader_that_has_gone_is_no_fault(folder, words):
     assert (done.returncode, done.stderr) == (141, b"")
 
 
+@pytest.mark.parametrize("words", ["check nowhere.mod", "robots show none", "run good.mod"])
+def test_nor_one_of_the_errors(folder, words):
+    done = shell(f"{{ sleep 0.2; $RG {words}; echo $? >code; }} 2>&1 | true", folder)
+    assert done.returncode == 0
+    assert (folder / "code").read_text() == "141\n"
+
+
 def test_a_closed_stderr_is_no_fault(folder):
     assert shell("$RG check nowhere.mod 2>&-", folder).returncode == 2
 

@@ -140,10 +140,10 @@ def test_trace_profile_coverage(capsys, program: Path, tmp_path: Path) -> None:
     assert (code, out) == (0, ["sum 6"])
     lines = [line.split(None, 3) for line in err.splitlines()]
     assert [f"{task} {place}" for _, task, place, _ in lines[:4]] == [
-        "T_ROB1 demo:5",
-        "T_ROB1 demo:6",
-        "T_ROB1 demo:7",
-        "T_ROB1 demo:6",
+        "T_ROB1 demo/main:5",
+        "T_ROB1 demo/main:6",
+        "T_ROB1 demo/main:7",
+        "T_ROB1 demo/main:6",
     ]
     assert lines[-1][3].startswith("WaitTime 2")
 

@@ -135,6 +135,45 @@ def test_a_backup_of_somebody_elses_program(start, tmp_path):
     assert "RG432" in err
 
 
+def test_a_lone_module_is_ready_where_its_server_waits(start, tmp_path):
+    """All tasks stand in SocketAccept then, and nothing else would ever happen."""
+    module = tmp_path / "echo.mod"
+    module.write_text(SERVER)
+    sim = start(str(module), "--ports", "auto")
+    with sim.connect(sim.ready["listeners"]["5000"]) as sock:
+        sock.sendall(b"hello")
+        assert sock.recv(100) == b"hello!"
+    code, _, err = sim.end()
+    assert code == 0
+    assert "SocketAccept waits for a client on port 5000" in err
+
+
+def test_a_server_that_an_error_stops_is_not_called_ready(tmp_path):
+    module = tmp_path / "echo.mod"
+    module.write_text(SERVER.replace("SocketCreate server", "TPWrite NumToStr(1/0,0)"))
+    code, out, err = failing(str(module), "--ports", "auto")
+    assert (code, out) == (1, "")
+    assert "RG430" in err
+
+
+def test_several_tasks_in_a_described_cell(start, tmp_path):
+    (tmp_path / "echo.mod").write_text(SERVER)
+    (tmp_path / "talk.mod").write_text(
+        "MODULE talk\n PROC main()\n  WaitDI diGo, 1;\n  SetDO doGone, 1;\n ENDPROC\nENDMODULE\n"
+    )
+    (tmp_path / "cell.yaml").write_text("signals: {diGo: {kind: DI}, doGone: {kind: DO}}")
+    tasks = ("--task", f"T_ECHO={tmp_path}/echo.mod", "--task", f"T_TALK={tmp_path}/talk.mod")
+    cell = ("--cell", str(tmp_path / "cell.yaml"), "--robot", "irb1600")
+    sim = start(*tasks, *cell, "--ports", "auto")
+    assert "5000" in sim.ready["listeners"]
+    sim.control(do="set-signal", name="diGo", value=1)
+    while not sim.control(do="signals")["result"]["doGone"]:
+        pass
+    code, _, err = sim.end()
+    assert code == 0
+    assert "waits for diGo = 1; diGo is 0" in err
+
+
 def test_faults_reach_real_sockets(start, tmp_path):
     plan = tmp_path / "plan.yaml"
     plan.write_text(
@@ -192,14 +231,15 @@ def test_signals_that_the_configuration_exposes_are_there(start, tmp_path, built
         assert of_signal(own, 3) == 1.5
 
 
-def test_what_no_controller_loads_is_refused_whole(start, tmp_path):
+def test_what_no_controller_loads_is_refused_whole(tmp_path):
     """As `run` does it."""
     backup = a_backup(tmp_path, SERVER.replace("SocketListen", "text := 1;\n        SocketListen"))
     code, out, err = failing(str(backup), "--ports", "auto")
     assert (code, out) == (2, "")
     assert "RG307" in err
-    sim = start(str(backup), "--ports", "auto", "--no-check")
-    assert sim.end()[0] == 0
+    code, out, err = failing(str(backup), "--ports", "auto", "--no-check")
+    assert (code, out) == (1, "")
+    assert "RG430" in err
 
 
 def failing(*arguments):

@@ -23,10 +23,15 @@ def system_of(name, overrides):
     return config, make_system(config, build(config))
 
 
-def booted(name="irb120", *, seed=0, signals=(), overrides=None):
+def booted(name="irb120", *, seed=0, signals=(), overrides=None, modules=()):
     config, system = system_of(name, json.dumps(overrides or {}))
     # Signals of the cell are the controller's own, no part of the driver.
     system = replace(system, signals=(*system.signals, *signals))
+    tasks = tuple(
+        replace(task, modules=(*task.modules, *modules)) if task.motion else task
+        for task in system.tasks
+    )
+    system = replace(system, tasks=tasks)
     controller = VirtualController(system, config.groups, seed=seed)
     controller.run_for(2.0)
     return controller, config
@@ -39,9 +44,11 @@ def robot_of(config, group=None, **options):
 
 
 @contextmanager
-def driven(name="irb120", *, group=0, seed=0, signals=(), overrides=None, **options):
+def driven(name="irb120", *, group=0, seed=0, signals=(), overrides=None, modules=(), **options):
     """A connected robot, under the calls of a Robot, and its controller."""
-    controller, config = booted(name, seed=seed, signals=signals, overrides=overrides)
+    controller, config = booted(
+        name, seed=seed, signals=signals, overrides=overrides, modules=modules
+    )
     target = robot_of(config, config.groups[group], **options)
     with controller, Simulated(target, VirtualLoop(controller)) as robot:
         yield robot, controller

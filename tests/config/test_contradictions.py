@@ -155,3 +155,14 @@ def test_20_what_cannot_be_kept(tmp_path, keep):
     with pytest.raises(DiagnosticError) as caught:
         load_config(tmp_path / "cell.yaml")
     assert {d.code for d in caught.value.diagnostics} <= {"RG006", "RG021"}
+
+
+def test_an_end_that_is_turned_against_the_flange_is_said(check):
+    text = drawn("irb120", name_of="x")
+    start = text.rindex("rpy=")
+    turned = text[:start] + re.sub('rpy="[^"]*"', 'rpy="0 0 0"', text[start:], count=1)
+    for description, said in ((text, False), (turned, True)):
+        made, found = check(description)
+        assert made
+        assert ("RG055" in found) is said
+    assert "the end is turned by 90 deg from its flange" in found["RG055"].message

@@ -5,6 +5,7 @@ import json
 import pytest
 
 from rapidgen.config.library import family, recognise, variants
+from rapidgen.config.recognition import align
 from tests.config.library import PATH, shipped_entries
 
 
@@ -44,3 +45,11 @@ def test_most_variants_have_dimensions_from_two_sources():
 )
 def test_the_family_of_a_name(name, number):
     assert family(name) == number
+
+
+def test_of_arms_with_one_geometry_the_named_type_is_meant():
+    known = next(v for v in variants() if v.name == "IRB 52-7/1.45")
+    for name, meant in (("IRB52_long_rev1", "52"), ("irb1600_10_145", "1600"), ("arm", None)):
+        found = align(known.skeleton.lines, name)
+        assert found is not None
+        assert meant is None or found.variant.family == meant

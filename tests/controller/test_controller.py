@@ -6,7 +6,7 @@ from dataclasses import replace
 import pytest
 
 from rapidgen.controller import Deadlock, VirtualController
-from rapidgen.diagnostics import DiagnosticError
+from rapidgen.diagnostics import DiagnosticError, Severity
 from rapidgen.system.model import (
     ModuleFile,
     SignalSpec,
@@ -231,7 +231,6 @@ def test_a_generated_module_points_to_its_template() -> None:
     [
         ("MODULE m\nPROC main(\nENDMODULE", "RG201"),
         ("MODULE m\nPROC start()\nENDPROC\nENDMODULE", "RG402"),
-        ("MODULE m\nVAR nosuch x;\nPROC main()\nENDPROC\nENDMODULE", "RG401"),
         ("MODULE m\nVAR num x{2} := [1,2,3];\nPROC main()\nENDPROC\nENDMODULE", "RG401"),
         (
             "MODULE m\nCONST num a := b;\nCONST num b := a;\nPROC main()\nENDPROC\nENDMODULE",
@@ -244,6 +243,37 @@ def test_what_cannot_be_loaded_is_said(text: str, code: str) -> None:
     with pytest.raises(DiagnosticError) as caught:
         VirtualController(System("s", (TaskSpec("T1", modules=(file,)),)))
     assert code in {d.code for d in caught.value.diagnostics}
+
+
+def task(name: str, *bodies: str) -> TaskSpec:
+    files = (
+        ModuleFile(f"{name}{i}", f"{name}{i}.mod", f"MODULE {name}{i}\n{text}\nENDMODULE".encode())
+        for i, text in enumerate(bodies)
+    )
+    return TaskSpec(name, modules=tuple(files))
+
+
+def test_two_entry_routines_are_in_the_way_of_their_task_only() -> None:
+    """RobotWare 7.21: "Global routine name main ambiguous", only when that task is started."""
+    main = 'PROC main()\nTPWrite "main";\nENDPROC'
+    system = System("s", (task("T1", main, main), task("T2", main)))
+    with VirtualController(system, autostart=False, cycle="once") as controller:
+        assert [(d.code, d.severity) for d in controller.diagnostics] == [
+            ("RG402", Severity.WARNING)
+        ]
+        controller.start_program()
+        controller.run(max_time=1)
+        assert (controller.task("T1").state, controller.task("T2").state) == ("empty", "finished")
+        said = next(e for e in controller.log if e.task == "T1")
+        assert said.texts == ("Global routine name main ambiguous",)
+
+
+def test_a_backup_without_an_entry_routine_boots() -> None:
+    """[backup]: controllers save them so, and wait for a program."""
+    whole = System("s", (task("T1", "VAR num n;"),), robot_types={"ROB_1": "IRB 120"})
+    with VirtualController(whole) as controller:
+        assert [d.severity for d in controller.diagnostics] == [Severity.WARNING]
+        assert controller.task("T1").state == "empty"
 
 
 def test_missing_routines_are_said_at_load_and_stop_when_reached() -> None:

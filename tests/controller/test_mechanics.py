@@ -2,7 +2,10 @@
 
 import pytest
 
+from rapidgen.axes.kinematics import Kinematics
 from rapidgen.config import load_config
+from rapidgen.config.library import variants
+from rapidgen.config.of_variant import group_of
 from rapidgen.controller.mechanics import groups_for, mechanics, model_of
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.system.model import MechanicalUnitGroup, System, TaskSpec
@@ -35,7 +38,7 @@ def given(groups):
 )
 def test_the_arms_of_a_yumi_keep_their_tasks(system):
     right, left = (task.name for task in system.tasks)
-    groups = groups_for(system, load_config("irb14000"))
+    groups = groups_for(system, load_config("irb14000").groups)
     assert given(groups) == {right: "rob_r", left: "rob_l"}
     assert [group.mechanical_unit for group in groups] == ["ROB_R", "ROB_L"]
 
@@ -51,7 +54,7 @@ def two_robots(*types):
 
 
 def test_a_copy_has_the_unit_of_its_task():
-    groups = groups_for(two_robots(), load_config("irb120"))
+    groups = groups_for(two_robots(), load_config("irb120").groups)
     assert [(g.task, g.mechanical_unit, g.name) for g in groups] == [
         ("T_ROB2", "ROB_2", "rob2"),
         ("T_ROB1", "ROB_1", "rob1"),
@@ -60,7 +63,7 @@ def test_a_copy_has_the_unit_of_its_task():
 
 def test_what_nothing_names_goes_by_order():
     tasks = (TaskSpec("T_A", motion=True), TaskSpec("T_B", motion=True))
-    groups = groups_for(System("two", tasks), load_config("irb14000"))
+    groups = groups_for(System("two", tasks), load_config("irb14000").groups)
     assert given(groups) == {"T_A": "rob_l", "T_B": "rob_r"}
 
 
@@ -92,12 +95,48 @@ def test_a_backup_moves_its_own_robots():
     assert notes == ()
 
 
+def test_a_variant_that_is_no_shipped_model_moves_as_the_library_knows_it():
+    system = two_robots(("ROB_1", "ROB1_140_0.81_6"), ("ROB_2", "ROB2_1300_0.9_11"))
+    groups, (note,) = mechanics(system)
+    assert {g.task: g.model for g in groups} == {
+        "T_ROB1": "IRB 140-6/0.81",
+        "T_ROB2": "IRB 1300-11/0.9",
+    }
+    assert "100 deg/s" in note.message
+    assert "1300" in note.message
+
+
+def test_a_variant_becomes_the_very_arm_of_a_shipped_file():
+    """Their chains were written from different sources; the arm is the same."""
+    for variant in variants():
+        if variant.model in ("irb4600", "irb2400", "irb120", "irb1600"):
+            made, shipped = group_of(variant), load_config(variant.model).groups[0]
+            assert made is not None
+            for axes in ((0,) * 6, (0.1, 0.2, 0.3, 0.4, 0.5, 0.6)):
+                pose, known = (
+                    Kinematics.of(made).forward(axes),
+                    Kinematics.of(shipped).forward(axes),
+                )
+                for part, own in zip(pose, known, strict=True):
+                    assert part == pytest.approx(own, abs=1e-9)
+
+
 def test_another_variant_is_told():
-    system = two_robots(("ROB_1", "ROB1_120_0.58_3"), ("ROB_2", "ROB2_4600_2.55_40"))
+    system = two_robots(("ROB_1", "ROB1_120_0.58_3"), ("ROB_2", "ROB2_4600_2.55_99"))
     (note,) = mechanics(system)[1]
     assert note.code == "RG432"
-    assert "2.55_40" in note.message
+    assert "2.55_99" in note.message
     assert "60/2.05" in note.message
+
+
+def test_kin_of_an_unknown_variant_can_be_chosen():
+    system = two_robots(("ROB_1", "ROB1_6660_1.95_205"), ("ROB_2", "ROB1_6660_1.95_205"))
+    with pytest.raises(DiagnosticError) as caught:
+        mechanics(system)
+    assert "'IRB 6660-205/1.9'" in caught.value.diagnostics[0].help
+    groups, notes = mechanics(system, "irb 6660-205/1.9")
+    assert [group.coupling for group in groups] == [1, 1]
+    assert notes == ()
 
 
 def test_an_unknown_type_asks_for_a_robot():

@@ -14,6 +14,7 @@ from rapidgen.deploy import parse_target
 from rapidgen.deploy.secrets import Credentials, Secret, find_password, redact
 from rapidgen.diagnostics import DiagnosticError, render
 from rapidgen.faces import serve_ftp, serve_sftp
+from tests.generate.cell_backup import write_backup
 from tests.refusal import refusal, refused
 
 OLD, NEW = "aaaaaaaaaaaa", "bbbbbbbbbbbb"
@@ -58,7 +59,7 @@ def test_plan_then_exactly_that_plan(run, built, home, tmp_path, kit):
     url, file = f"dir://{home}", tmp_path / "plan.json"
     code, out, _ = run("plan", built(OLD), "--to", url, "--detailed-exitcode", "--out", file)
     assert code == 2
-    assert "  + HOME:/rapidgen/ROS_common.sys " in out
+    assert "  + HOME:/rapidgen: " in out
     assert "Plan: 6 to add, 0 to change, 0 to remove." in out
     assert run("plan", built(OLD), "--to", url)[0] == 0
     assert json.loads(file.read_text())["plans"][0]["name"] == "cell1"
@@ -72,6 +73,20 @@ def test_plan_then_exactly_that_plan(run, built, home, tmp_path, kit):
     assert (code, "RG522" in err) == (1, True)
     code, _, err = run("plan", built(OLD), "--to", "dir:///nowhere", "--detailed-exitcode")
     assert (code, "RG506" in err) == (1, True)
+
+
+def test_a_plan_is_short_and_tells_what_was_configured_otherwise(run, home):
+    url = ("--to", f"dir://{home}")
+    out = run("plan", "irb120", *url)[1]
+    assert len(out.splitlines()) <= 25
+    assert "HOME:/rapidgen: 13 files, new, " in out
+    assert "  + SYS: CAB_TASKS T_ROS_RECV, T_ROS_SUP, T_ROS_CONTROL, T_ROS_STATE\n" in out
+    assert run("deploy", "irb120", *url, "--yes")[0] == 0
+    out = run("plan", "irb120", *url, "--set", "state.rate=20")[1]
+    assert len(out.splitlines()) <= 25
+    assert "  ~ state_period: 0.1 -> 0.05\n" in out
+    assert "  ~ HOME:/rapidgen/ROS_stateServer.mod   +3 -3\n" in out
+    assert "files, nothing but the build's id\n" in out
 
 
 def test_nobody_there_to_answer(run, built, home, monkeypatch):
@@ -229,3 +244,17 @@ def test_a_url_that_leads_nowhere_tells_what_there_is(run, built, url):
     assert "error[RG509]" in err
     assert "help:" in err
     assert "Errno" not in err
+
+
+def test_a_plan_with_a_backup_looks_for_data_of_the_users_program(run, home, tmp_path):
+    backup = write_backup(tmp_path / "cell")
+    cfg = backup / "SYSPAR/SYS.cfg"
+    cfg.write_text(cfg.read_text().replace("T_MOVE", "T_ROB1"))
+    words = ("irb120", "--to", f"dir://{home}", "--backup", backup, "--set", "payload.name=lPart")
+    code, _, err = run("plan", *words)
+    assert code == 2
+    assert "RG113" in err
+    assert "loaddata lPart" in err
+    program = backup / "RAPID/TASK1/PROGMOD/theirs.mod"
+    program.write_text(program.read_text().replace("  PROC", "  PERS loaddata lPart;\n  PROC", 1))
+    assert run("plan", *words)[0] == 0

@@ -160,3 +160,13 @@ def test_loopback_only_and_own_credentials(serve, home):
     second.close()
     with pytest.raises(ConnectionRefusedError):
         socket.create_connection((first.host, first.port), timeout=2)
+
+
+@pytest.mark.parametrize(
+    "command", ["SITE CHMOD 777 /", "SITE CHMOD 777 a.mod", "MFMT 20200101000000 /"]
+)
+def test_rights_and_times_of_this_machines_files_cannot_be_changed(ftp, home, command):
+    before = home.stat()
+    with pytest.raises(ftplib.error_perm, match="500"):
+        ftp.voidcmd(command)
+    assert (home.stat().st_mode, home.stat().st_mtime) == (before.st_mode, before.st_mtime)

@@ -27,7 +27,7 @@ def main(folder: Path) -> None:
     """Run the trial; AssertionError where it fails."""
     file = next(folder.rglob("mGodel_Main.mod"))
     system = read_files([file], entry="Godel_Main")
-    groups = groups_for(system, load_config("irb2400"))
+    groups = groups_for(system, load_config("irb2400").groups)
     with VirtualController(system, groups) as controller:
         printed: list[str] = []
         controller.operator.subscribe(lambda _, text: printed.append(text))

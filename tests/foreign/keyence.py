@@ -19,7 +19,7 @@ from rapidgen.controller import VirtualController
 from rapidgen.controller.mechanics import groups_for
 from rapidgen.rapid.switches import Switches
 from rapidgen.system.model import ModuleFile, System, TaskSpec
-from tests.foreign.cell import furnish
+from tests.foreign.programs import furnished
 
 PORT = 8500
 MAIN = 'MODULE TrialMain\nPROC main()\n  KeyenceSetup "192.168.0.10", 8500;\nENDPROC\nENDMODULE\n'
@@ -65,11 +65,10 @@ def module(path: Path) -> ModuleFile:
 def running(*modules: ModuleFile):
     """A robot with these modules in real time, and the camera's connection to it."""
     task = TaskSpec("T_ROB1", motion=True, modules=modules)
-    system, cell = furnish(System("keyence", (task,)))
-    print(f"    given: {cell}")
+    system = furnished(System("keyence", (task,)))
     with socket.create_server(("127.0.0.1", PORT)) as server:
         server.settimeout(30)
-        robots = groups_for(system, load_config("irb1200"))
+        robots = groups_for(system, load_config("irb1200").groups)
         # Its check sums have seven digits.
         dialect = Switches(whole_text="all")
         with VirtualController(

@@ -37,7 +37,7 @@ def install(folder: Path, config: str, where: Path) -> Path:
 def controller_of(folder: Path, config: str, robot: str, scratch: str) -> VirtualController:
     """Set up, switched on, and stopped: its client starts the program."""
     system = read_system(install(folder, config, Path(scratch)))
-    groups = groups_for(system, load_config(robot))
+    groups = groups_for(system, load_config(robot).groups)
     controller = VirtualController(system, groups, clock="real", cycle="once", speed=4)
     controller.stop_program()
     controller.start()

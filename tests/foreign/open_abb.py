@@ -10,8 +10,7 @@ import importlib.util
 import sys
 from pathlib import Path
 
-from tests.foreign.cell import furnish
-from tests.foreign.programs import programs
+from tests.foreign.programs import furnished, programs
 from tests.foreign.serving import served
 
 
@@ -21,8 +20,8 @@ def main(folder: Path) -> None:
     abb = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(abb)
     program = next(programs(folder))
-    system, cell = furnish(program.read())
-    print(f"{program.name}, given {cell}")
+    system = furnished(program.read())
+    print(program.name)
     track = ("TRACK_1", "STN1")
     with served(system, "irb120_track", units=track) as (controller, (port,)):
         robot = abb.Robot("127.0.0.1", port)

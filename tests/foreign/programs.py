@@ -5,11 +5,16 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+from rapidgen.controller.guessing import guess
+from rapidgen.controller.surroundings import furnish
+from rapidgen.rapid import parse
+from rapidgen.rapid.syntax import nodes as n
 from rapidgen.system import is_backup, read_files, read_system
 from rapidgen.system.model import System
 
 _MAIN = re.compile(rb"^[^!\"\n]*\bPROC\s+main\s*\(", re.I | re.M)
 _MODULE = re.compile(rb"^\s*MODULE\s+\w+", re.I | re.M)
+_NAMED = n.DataDeclaration | n.RoutineDeclaration | n.RecordDeclaration | n.AliasDeclaration
 _SUFFIXES = {".mod", ".modx", ".sys", ".sysx", ".prg"}
 
 
@@ -27,6 +32,11 @@ class Program:
         return read_files(self.files, name=self.name)
 
 
+def furnished(system: System) -> System:
+    """A system with the signals, tools and work objects that its modules lack."""
+    return furnish(system, guess(system).cell)
+
+
 def programs(folder: Path) -> Iterator[Program]:
     """What can be started in a folder."""
     backups = [p for p in (folder, *sorted(folder.rglob("*"))) if p.is_dir() and is_backup(p)]
@@ -42,12 +52,34 @@ def programs(folder: Path) -> Iterator[Program]:
     ]
     mains = [path for path in modules if _MAIN.search(path.read_bytes())]
     for main in mains:
-        parts = [p for p in modules if p not in mains and _belongs(p, main.parent)]
-        yield Program(str(main.relative_to(folder)), (main, *parts))
+        beside = [p for p in modules if p not in mains and _beside(p, main.parent)]
+        yield Program(str(main.relative_to(folder)), (main, *_needed(main, beside)))
 
 
-def _belongs(path: Path, folder: Path) -> bool:
+def _beside(path: Path, folder: Path) -> bool:
     """Beside main or below; PROGMOD and SYSMOD belong together."""
     if folder.name.upper() == "PROGMOD":
         folder = folder.parent
     return folder in path.parents
+
+
+def _needed(main: Path, beside: list[Path]) -> Iterator[Path]:
+    """Those that declare what main, or another that is needed, names and does not declare; of two
+    that declare the same name the first: a folder holds versions and exercises, too."""
+    trees = {path: parse(path.read_bytes(), path=str(path)) for path in (main, *beside)}
+    names = {
+        path: {d.name.lower() for d in tree.declarations if isinstance(d, _NAMED)}
+        | {tree.name.lower()}
+        for path, tree in trees.items()
+    }
+    words = {path: {t.lower() for t in tree.source.tokens} for path, tree in trees.items()}
+    known, wanted = set(names[main]), set(words[main])
+    left = list(beside)
+    while True:
+        found = next((p for p in left if names[p] & wanted - known and not names[p] & known), None)
+        if found is None:
+            return
+        left.remove(found)
+        known |= names[found]
+        wanted |= words[found]
+        yield found

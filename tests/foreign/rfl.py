@@ -32,7 +32,7 @@ START = [0.0, 10.0, 20.0, 0.0, 40.0, 0.0, 5000.0, -2000.0, -1500.0]
 def started(backup: Path) -> VirtualController:
     """The controller in real time, with the job that its operator has chosen."""
     system = read_system(backup)
-    one, two = groups_for(system, load_config(str(Path(__file__).with_name("gantry.yaml"))))
+    one, two = groups_for(system, load_config(str(Path(__file__).with_name("gantry.yaml"))).groups)
     (gantry,) = two.positioners
     other = replace(
         two, external_units=("Gantry22",), positioners=(replace(gantry, unit="Gantry22"),)

@@ -14,7 +14,7 @@ from rapidgen.system.model import System
 @contextmanager
 def served(system: System, robot: str, count: int = 1, *, units: tuple[str, ...] = ()):
     """A controller in real time, and the real ports of its first `count` listeners."""
-    groups = groups_for(system, load_config(robot))
+    groups = groups_for(system, load_config(robot).groups)
     if units:
         groups = tuple(replace(group, external_units=units) for group in groups)
     with VirtualController(system, groups, clock="real", ports="auto", speed=20) as controller:

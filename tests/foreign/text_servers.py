@@ -14,14 +14,13 @@ from contextlib import suppress
 from pathlib import Path
 
 from rapidgen.system.model import ModuleFile, System, TaskSpec
-from tests.foreign.cell import furnish
-from tests.foreign.programs import programs
+from tests.foreign.programs import furnished, programs
 from tests.foreign.serving import Link, served
 
 
 def only_program(folder: Path) -> System:
     """The first program of a folder, furnished."""
-    return furnish(next(programs(folder)).read())[0]
+    return furnished(next(programs(folder)).read())
 
 
 def rapidserver(folder: Path) -> None:
@@ -74,7 +73,7 @@ def machina(folder: Path) -> None:
 
     driver = TaskSpec("T_ROB1", motion=True, modules=(module("machina_abb_driver.mod", "7000"),))
     monitor = TaskSpec("T_MON", modules=(module("Machina_ABB_Monitor.mod", "7001"),))
-    system, _ = furnish(System("machina", (driver, monitor)))
+    system = furnished(System("machina", (driver, monitor)))
     with served(system, "irb120", 2) as (controller, (port, watch)), Link(port) as link:
         hello = [link.until(";") for _ in range(4)]
         assert hello[0] == "$20 1 4 2", hello

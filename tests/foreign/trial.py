@@ -1,40 +1,40 @@
-"""Trial: every RAPID program below a folder, as it is, on the virtual controller.
+"""Trial: every RAPID program below a folder, as it is, on the virtual controller, cell guessed.
 
     python -m tests.foreign.trial FOLDER [ROBOT]     (or: make foreign FOREIGN=FOLDER)
 
-Nothing of a program is changed. Its cell is made up: signals and tools that no module declares
-exist, inputs change at random, an operator presses the first button, numbers are 1, and start
-is pressed again behind a Stop; axis 5 begins at 30 degrees, as in a RobotStudio station. For
-each program it says how it ended, what of its lines was reached, and why not further.
+Nothing of a program is changed. It is what `rapidgen run PROGRAM --cell guess` does, on the robot
+with which it gets furthest: signals and tools that no module declares exist, an input that the
+program waits for answers, and nobody else does. A backup moves its own robot. For each program it
+says how it ended (whole; waits for a partner: socket, file, dialog; goes round and round; stops
+with an error; does not load), what of its lines was reached, and why not further. The last lines
+are the sums.
 """
 
-import math
 import re
+import statistics
 import sys
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from rapidgen.config import load_config
 from rapidgen.controller import VirtualController
-from rapidgen.controller.mechanics import groups_for
+from rapidgen.controller.booting import Wishes, load_target
 from rapidgen.controller.tracing import Coverage
 from rapidgen.diagnostics import DiagnosticError, Severity
-from tests.foreign.cell import furnish
+from rapidgen.rapid import check
 from tests.foreign.programs import Program, programs
 
-HERE = Path(__file__).parent
 ROBOTS = (
-    *("irb120", "irb1200", "irb1600", "irb2400", "irb4600", "irb6640", "irb660"),
-    str(HERE / "irb140.yaml"),
+    *("irb120", "irb1200", "IRB 140-6/0.81", "irb1600", "irb2400", "IRB 2600-12/1.65", "irb4600"),
+    *("irb6640", "irb6700", "irb660", "irb14000", "crb15000", "irb910sc"),
 )
 """Tried in this order while a position cannot be reached."""
 _MISFIT = re.compile("REACH|ROBLIMIT|not compatible|singularity")
+_PARTNER = re.compile(r"Socket|bytes from|waits for an answer|message|ERR_SOCK|ERR_FILE|ERR_TP_")
 _TIME = 300.0
 _STATEMENTS = 2_000_000
-_STEP = 0.5
-_PRESSES = 20
-"""How often the operator presses start behind a Stop."""
+GOOD = ("whole", "waits for a partner", "goes round")
 
 
 @dataclass(frozen=True)
@@ -42,108 +42,87 @@ class Outcome:
     """How far a program ran."""
 
     end: str
-    reached: int
-    lines: int
+    reached: int = 0
+    lines: int = 0
     notes: tuple[str, ...] = ()
 
+    @property
+    def share(self) -> float:
+        """Of the lines."""
+        return self.reached / self.lines if self.lines else 0.0
 
-def trial(program: Program, robot: str = "irb120", *, seed: int = 1) -> Outcome:
+
+def trial(program: Program, robot: str = "") -> Outcome:
     """Load, start, run until it ends, or for a while."""
     try:
-        system, cell = furnish(program.read())
-        groups = groups_for(system, load_config(robot))
-        controller = VirtualController(
-            system, groups, cycle="once", tracing=True, seed=seed, autostart=False
-        )
+        found = load_target(program.files, Wishes(cell="guess", robot=robot))
+        errors = [d for d in check(found.system, gaps=True) if d.severity is Severity.ERROR]
+        if errors:
+            raise DiagnosticError(errors)
+        controller = VirtualController.boot(found, cycle="once", tracing=True, autostart=False)
     except DiagnosticError as error:
         wrong = [d for d in error.diagnostics if d.severity is Severity.ERROR]
         notes = tuple(
             f"{d.code} {Path(d.span.path).name if d.span else ''}:{d.span.line if d.span else ''} "
             f"{d.message}"
-            for d in wrong[:3]
+            for d in wrong[:4]
         )
-        return Outcome(f"does not load ({len(wrong)} errors)", 0, 0, notes)
+        return Outcome(f"does not load ({len(wrong)} errors)", notes=notes)
     with controller:
         covered = Coverage(controller)
         controller.operator.attach()
-        for group in controller.motion.groups.values():
-            axes = [joint.axis for joint in group.config.joints]
-            group.jump(tuple(math.radians(30) if axis == "rax_5" else 0.0 for axis in axes))
         controller.start_program()
-        end = _run(controller)
+        ended = controller.run(max_time=_TIME, max_statements=_STATEMENTS)
         lines = [hits for file in covered.lines().values() for hits in file.values()]
-        said = [d.message for d in controller.diagnostics]
-        notes = [f"given: {cell}"] if str(cell) else []
-        notes += [f"in no module: {kind} {name}" for name, kind in list(cell.lost.items())[:3]]
-        for task in controller.tasks.values():
-            if task.fault is not None:
-                notes.append(f"{task.name}: {_fault(task.fault)}")
-        notes += [f"waits: {where}" for where in controller.where()]
-        notes += said[:4]
+        faults = [f"{t.name}: {t.fault}" for t in controller.tasks.values() if t.fault is not None]
+        waits = controller.where()
+        guessed = found.guessed
+        notes = [*faults, *waits]
+        if guessed is not None and guessed.unknown:
+            notes.append(
+                "in no module: " + ", ".join(f"{u.type} {u.name}" for u in guessed.unknown[:5])
+            )
+        end = _end(ended, faults, waits)
         return Outcome(end, sum(1 for hits in lines if hits), len(lines), tuple(notes))
 
 
-def _fault(fault: object) -> str:
-    span = getattr(fault, "span", None)
-    where = f" at {Path(span.path).name}:{span.line}" if span is not None else ""
-    return f"{fault}{where}"
-
-
-def _run(controller: VirtualController) -> str:
-    """Let time pass while inputs change and dialogs are answered; how it ended."""
-    scheduler = controller.scheduler
-    inputs = [s for s in controller.io.signals.values() if s.spec.type in ("DI", "GI", "AI")]
-    price = controller.costs.statement
-    presses = 0
-    while controller.now < _TIME:
-        controller.run_for(_STEP)
-        states = {task.state for task in controller.tasks.values()}
-        if "stopped" in states and not _faults(controller) and presses < _PRESSES:
-            presses += 1
-            controller.start_program()
-        elif "running" not in states:
-            return "ends" if not _faults(controller) else "stops"
-        if scheduler.now - scheduler.idle > _STATEMENTS * price:
-            break
-        for signal in inputs:
-            if scheduler.rng.random() < 0.3:
-                controller.io.set(signal, scheduler.rng.randrange(2))
-        for question in tuple(controller.operator.questions):
-            _answer(controller, question.number, question.choices)
-    return "stops" if _faults(controller) else f"runs on ({controller.now:.0f} s)"
-
-
-def _faults(controller: VirtualController) -> bool:
-    return any(task.fault is not None for task in controller.tasks.values())
-
-
-def _answer(controller: VirtualController, number: int, choices: tuple[str, ...]) -> None:
-    for value in (*choices, "1", "a"):
-        try:
-            controller.operator.answer(number, value)
-        except ValueError:
-            continue
-        return
+def _end(ended: str, faults: Sequence[str], waits: Sequence[str]) -> str:
+    if faults:
+        return "waits for a partner" if all(map(_PARTNER.search, faults)) else "stops"
+    if ended == "finished":
+        return "whole"
+    if any(_PARTNER.search(where) for where in waits):
+        return "waits for a partner"
+    return "goes round" if ended in ("time", "statements") else "waits for ever"
 
 
 def best(program: Program, robots: Sequence[str]) -> tuple[str, Outcome]:
     """The robot with which a program gets furthest, and how far."""
     found: list[tuple[str, Outcome]] = []
     for robot in robots:
-        found.append((Path(robot).stem, trial(program, robot)))
+        found.append((Path(robot).stem or "its own", trial(program, robot)))
         if not any(note for note in found[-1][1].notes if _MISFIT.search(note)):
             break
-    return max(found, key=lambda one: one[1].reached)
+    return max(found, key=lambda one: (one[1].end in GOOD, one[1].reached))
 
 
 def main(folder: Path, robots: Sequence[str]) -> None:
-    """Print one paragraph for each program."""
+    """Print one paragraph for each program, and the sums."""
+    ends: Counter[str] = Counter()
+    shares: list[float] = []
     for program in programs(folder):
-        robot, outcome = best(program, robots)
-        share = f"{outcome.reached} of {outcome.lines} lines" if outcome.lines else ""
-        print(f"{program.name}: {robot}: {outcome.end} {share}")
+        backup = program.files[0].is_dir()
+        robot, outcome = best(program, ("",) if backup else robots)
+        ends[("backups: " if backup else "mains: ") + outcome.end.split(" (")[0]] += 1
+        if not backup:
+            shares.append(outcome.share)
+        print(f"{program.name}: {robot}: {outcome.end} {outcome.reached} of {outcome.lines} lines")
         for note in outcome.notes:
-            print(f"    {note}")
+            print(f"    {note}", flush=True)
+    for end, count in sorted(ends.items()):
+        print(f"{count:5} {end}")
+    if shares:
+        print(f"median of the lines of mains: {statistics.median(shares):.0%}")
 
 
 if __name__ == "__main__":

@@ -69,7 +69,7 @@ def test_the_manifest_holds_the_configuration(irb120, output):
 
 def test_every_module_carries_the_build_id(output):
     modules = [f for f in output.files if f.kind == "module"]
-    assert len(modules) == 13
+    assert len(modules) == 16
     for module in modules:
         assert module.data.decode().count(f'"{output.build_id}"') >= 1, module.path
 
@@ -95,7 +95,7 @@ def test_set_changes_only_what_it_says(output):
     ids = [line for line in found if changed.build_id in line]
     rest = sorted(line for line in found if changed.build_id not in line)
     # One in each module, and one in the reply to HELLO.
-    assert len(ids) == 14
+    assert len(ids) == 17
     assert rest == ["CONST num ROS_CAPACITY := 5000;", "LOCAL CONST num PORT := 12000;"]
 
 

@@ -26,9 +26,9 @@ def edit(backup, name, old, new):
     path.write_text(text.replace(old, new))
 
 
-def built(backup, name="irb120"):
+def built(backup, name="irb120", overrides=()):
     cell = read_cell(backup)
-    config = fit(load_config(name), cell)
+    config = fit(load_config(name, overrides=overrides), cell)
     output = build(config, cell)
     texts = {f.path: parse_cfg(f.data) for f in output.files if f.kind == "cfg"}
     return config, output, texts
@@ -224,3 +224,42 @@ def test_the_firewall_of_the_cell_stays_open(backup):
     opened = sio.replace("-EnableOnIONet", "-EnableOnPublicNet -EnableOnPrivateNet")
     (backup / "SYSPAR/SIO.cfg").write_text(opened)
     assert "SIO.cfg" not in built(backup, "crb15000")[2]
+
+
+def test_another_build_id_where_the_cell_makes_other_files(backup):
+    before = built(backup)[1]
+    edit(backup, "SYS.cfg", "-SeqNo 50", "-SeqNo 60")
+    after = built(backup)[1]
+    assert [f.data for f in before.files] != [f.data for f in after.files]
+    assert before.build_id != after.build_id
+
+
+TOOL = ["tool.name=tGripper", "tool.declared=elsewhere", "tool.load.mass=1", "tcp_speed_limit=4000"]
+VALUE = "[TRUE,[[0,0,0],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]]"
+
+
+@pytest.mark.parametrize(
+    ("declared", "what"),
+    [
+        ("", "no tGripper is there"),
+        ("PERS wobjdata tGripper;", "tGripper there is PERS wobjdata"),
+        (f"TASK PERS tooldata tGripper := {VALUE};", "TASK PERS tooldata"),
+        ("VAR tooldata tGripper;", "VAR tooldata"),
+        ("PERS tooldata tGripper{2};", "PERS tooldata with dimensions"),
+    ],
+)
+def test_data_that_the_program_does_not_declare(backup, declared, what):
+    program = backup / "RAPID/TASK1/PROGMOD/theirs.mod"
+    program.write_text(program.read_text().replace("  PROC", f"  {declared}\n  PROC", 1))
+    with pytest.raises(DiagnosticError, match=what) as caught:
+        built(backup, overrides=TOOL)
+    (fault,) = caught.value.diagnostics
+    assert fault.code == "RG113"
+    assert declared == "" or (fault.span and fault.span.path.endswith("theirs.mod"))
+
+
+def test_data_that_the_program_declares(backup):
+    program = backup / "RAPID/TASK1/PROGMOD/theirs.mod"
+    declared = f"  PERS tooldata TGRIPPER := {VALUE};\n  PROC"
+    program.write_text(program.read_text().replace("  PROC", declared, 1))
+    assert built(backup, overrides=TOOL)[2]

@@ -54,6 +54,24 @@ def as_moved(bench, before):
     assert all(place[4] == pytest.approx(before, abs=1e-6) for _, place in bench.track)
 
 
+@pytest.mark.parametrize(
+    ("keep", "said"),
+    [
+        ("[rax_5]", "No joint drives axis 5: it is held where it stands when a trajectory begins."),
+        (
+            "{rax_5: -30}",
+            "No joint drives axis 5: a trajectory is refused unless it stands at -30 deg.",
+        ),
+    ],
+)
+def test_the_readme_tells(tmp_path, keep, said):
+    (tmp_path / "cell.yaml").write_text(
+        f"urdf: {{file: {URDF}, ignore_joints: [joint_5]}}\nkeep: {keep}\njoints:\n{JOINTS}\n"
+    )
+    files = build(load_config(tmp_path / "cell.yaml")).files
+    assert [f for f in files if f.kind == "readme" and said in f.data.decode()]
+
+
 @pytest.mark.parametrize("keep", ["[rax_5]", "{rax_5: 30}"])
 def test_a_trajectory_leaves_it_where_it_stands(robot, keep):
     bench = robot(keep, THIRTY)

@@ -16,7 +16,7 @@ def code_lines(files):
 @pytest.mark.parametrize("name", ["irb120", "irb4600", "irb460", "irb910sc"])
 def test_the_basic_profile_is_short(name):
     files = build(load_config(name, overrides=["profile=basic"])).files
-    assert code_lines(files) <= 1960
+    assert code_lines(files) <= 1750
     names = {f.path.rpartition("/")[2].partition(".")[0] for f in files if f.kind == "module"}
     assert not names & {"ROS_stream", "ROS_control"}
 

@@ -1,5 +1,7 @@
 """RAPID motion programs on a whole controller."""
 
+from dataclasses import replace
+
 import pytest
 
 from rapidgen.config import load_config
@@ -56,7 +58,6 @@ def test_how_far_an_axis_may_be_from_its_quarter(rapid, check, said, move):
         ("VelSet 50, 5000;", "v100\\T:=1", 2.0),  # 50 % doubles \T
         ("VelSet 100, 5;", "v100\\T:=1", 1.0),  # the ceiling does not concern \T
         ("", "v10\\V:=50", 2.0),
-        ("SpeedRefresh 50;", "v200", 1.0),
     ],
 )
 def test_speed_arguments_and_settings(rapid, settings, argument, expected):
@@ -152,16 +153,57 @@ def test_whether_stop_move_waits_is_a_switch(rapid, waits, ended):
     assert program.run() == [ended]
 
 
-@pytest.mark.parametrize(("timed", "expected"), [(True, 2.0), (False, 1.0)])
-def test_whether_speed_refresh_stretches_a_given_time_is_a_switch(rapid, timed, expected):
+_TIMED_MOVES = (
+    "ClkReset c; ClkStart c; MoveL Offs(p,0,100,0), v100\\T:=1, fine, tool0; ClkStop c;"
+    'TPWrite "" \\Num:=ClkRead(c);'
+    "ClkReset c; ClkStart c; MoveL p, v100\\T:=1, fine, tool0; ClkStop c;"
+    'TPWrite "" \\Num:=ClkRead(c);'
+)
+
+
+@pytest.mark.parametrize(
+    ("said", "switches", "expected"),
+    [
+        ("moving", {}, (1.9, 1.0)),
+        ("moving", {"refresh_timed": False}, (1.0, 1.0)),
+        ("moving", {"refresh_lasts": True}, (1.9, 2.0)),
+        ("moving", {"refresh_timed": False, "refresh_lasts": True}, (1.0, 1.0)),
+        ("standing", {}, (1.0, 1.0)),
+        ("standing", {"refresh_lasts": True}, (1.0, 1.0)),
+        ("standing", {"refresh_standing": True}, (2.0, 1.0)),
+        ("standing", {"refresh_standing": True, "refresh_lasts": True}, (2.0, 2.0)),
+    ],
+)
+def test_what_speed_refresh_acts_on_is_for_switches_to_tell(rapid, said, switches, expected):
     # No source says so.
+    refresh = "SpeedRefresh 50;"
+    if said == "moving":
+        refresh = "CONNECT i WITH slower; ITimer \\Single, 0.1, i;"
     program = rapid(
-        HOME + "SpeedRefresh 50; ClkStart c; MoveL Offs(p,0,100,0), v100\\T:=1, fine, tool0;"
-        'ClkStop c; TPWrite "" \\Num:=ClkRead(c);',
-        DATA + "VAR clock c;\n",
+        HOME + refresh + _TIMED_MOVES,
+        DATA + "VAR clock c;\nVAR intnum i;\nTRAP slower\nSpeedRefresh 50;\nENDTRAP\n",
     )
-    program.controller.motion.settings = MotionSettings(refresh_timed=timed)
-    assert float(program.run()[0]) == pytest.approx(expected, abs=0.15)
+    program.controller.motion.settings = replace(MotionSettings(), **switches)
+    assert [float(line) for line in program.run()] == pytest.approx(expected, abs=0.1)
+
+
+@pytest.mark.parametrize(("timed", "expected"), [(True, 2.0), (False, 1.0)])
+def test_whether_velset_stretches_a_given_time_is_a_switch(rapid, timed, expected):
+    # S4 datasys 2-VelSet-1 says so; of later systems no source.
+    program = rapid(HOME + "VelSet 50, 5000;" + _TIMED_MOVES, DATA + "VAR clock c;\n")
+    program.controller.motion.settings = MotionSettings(velset_timed=timed)
+    assert [float(line) for line in program.run()] == pytest.approx([expected] * 2, abs=0.1)
+
+
+def test_speed_refresh_ends_in_the_corner_behind_its_move(rapid):
+    program = rapid(
+        HOME + "CONNECT i WITH slower; ITimer \\Single, 0.1, i; ClkStart c;"
+        "MoveL Offs(p,0,100,0), v100\\T:=1, z1, tool0;"
+        "MoveL Offs(p,0,200,0), v100\\T:=1, fine, tool0;"
+        'ClkStop c; TPWrite "" \\Num:=ClkRead(c);',
+        DATA + "VAR clock c;\nVAR intnum i;\nTRAP slower\nSpeedRefresh 50;\nENDTRAP\n",
+    )
+    assert float(program.run()[0]) == pytest.approx(2.9, abs=0.1)
 
 
 def test_a_motion_task_may_have_any_name(tmp_path):

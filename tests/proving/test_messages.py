@@ -10,7 +10,10 @@ from rapidgen.wire import simple_message as wire
 from rapidgen.wire.simple_message import bulk, spec
 from rapidgen.wire.simple_message import messages as known
 
-ENUMS = ("Comm", "ReplyCode", "TriState", "Mode", "Feature", "StreamFlag")
+ENUMS = (
+    *("Comm", "ReplyCode", "TriState", "Mode", "Feature", "StreamFlag"),
+    *("Instruction", "Modal"),
+)
 
 
 def some(layout, chance):

@@ -48,7 +48,8 @@ def test_an_answer_is_the_switch(name, value, tmp_path):
 
 
 def test_it_asks():
-    wanted = {"cleared_move", "stop_move_reset", "refresh_timed", "zero_length", "range_error"}
+    wanted = {"cleared_move", "stop_move_reset", "zero_length", "range_error", "velset_timed"}
+    wanted |= {"refresh_timed", "refresh_lasts", "refresh_standing"}
     assert wanted <= set(ASKED)
 
 

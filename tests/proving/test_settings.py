@@ -16,7 +16,6 @@ from rapidgen.proving.model import Broken
 from rapidgen.proving.settings import (
     FIGURES,
     NEEDED,
-    NOT_ITS_MOVES,
     Setting,
     assumed,
     questions,
@@ -83,7 +82,7 @@ def test_every_switch_is_asked_or_left_out_by_name():
     switches = [*fields(Switches), *fields(MotionSettings)]
     names = [switch.name for switch in switches]
     assert len(names) == len(set(names))
-    left_out = NEEDED | NOT_THE_DRIVERS | NOT_ITS_MOVES
+    left_out = NEEDED | NOT_THE_DRIVERS
     assert left_out | set(FIGURES) <= set(names)
     for switch in switches:
         choice = isinstance(switch.default, bool | str)

@@ -1,5 +1,6 @@
 """The suite holds for every kind of robot, and sees defects when there are some."""
 
+import json
 import re
 from pathlib import Path
 from xml.etree import ElementTree
@@ -149,6 +150,20 @@ def test_the_verb_writes_reports_and_says_what_failed(tmp_path, capsys):
     assert "whole-trajectory" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize("jobs", ["1", "2"])
+def test_a_run_that_is_broken_off_reports_what_it_saw(jobs, monkeypatch, capsys):
+    def interrupted(bars, what, done, total):
+        if done == 1:
+            raise KeyboardInterrupt
+
+    monkeypatch.setattr("rapidgen.cli.test._Progress._step", interrupted)
+    words = ["--case", "hello", "--case", "single-point", "--quick", "--jobs", jobs, "--json"]
+    assert main(["test", "irb120", *words]) == 130
+    told = json.loads(capsys.readouterr().out)
+    assert [outcome["passed"] for outcome in told["outcomes"]] == [True]
+    assert (told["broken_off"], told["passed"]) == (True, False)
+
+
 def test_the_table_of_faults_names_cases_that_exist():
     page = Path(__file__).parents[2] / "docs" / "develop" / "testing.md"
     text = page.read_text(encoding="utf-8")
@@ -176,6 +191,23 @@ def test_every_example_can_be_proven(path, capsys):
     """One commissions, one has a main of its own, one several groups."""
     words = ["test", str(path), "--quick", "--case", "ping", "--case", "sent-meanwhile"]
     assert main([*words, "--jobs", "2"]) == 0, capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("name", "case", "words"),
+    [
+        # Its axes accelerate slowly.
+        ("irb460-rw7", "one-place", ()),
+        # A ceiling of the TCP, and a zone whose parts are not as 2 to 3.
+        ("irb2400-rw5", "unknown-corner", ()),
+        ("irb2400-rw5", "e-stop-at-speed", ()),
+        ("irb120-rw6", "own-main", ("--set", "commissioning=true")),
+    ],
+)
+def test_a_case_holds_on_robots_and_configurations_unlike_others(name, case, words, capsys):
+    path = next(str(path) for path in EXAMPLES if path.stem == name)
+    words = ["test", path, "--quick", "--jobs", "1", "--case", case, *words]
+    assert main(words) == 0, capsys.readouterr().out
 
 
 def test_what_needs_an_answer_while_stopped_is_left_out_while_commissioning():

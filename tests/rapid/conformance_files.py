@@ -3,7 +3,7 @@
 The head says `! rule:` (what is shown), `! source:` (where that is known from) and, where needed,
 `! given: system` (judge it as a whole system), `! robotware: 5.0` and `! at 7: RG207` (for lines
 that can hold no comment). `! -> RG307` at the end of a line expects that error on that line, and
-`! -> RG217?` that warning; what is not expected must not be found.
+`! -> RG217?` that warning, `! -> RG321~` that note; what is not expected must not be found.
 """
 
 import re
@@ -18,7 +18,7 @@ from rapidgen.system import ModuleFile, System, TaskSpec
 FOLDER = Path(__file__).parent / "conformance"
 _HEAD = re.compile(r"^! (rule|source|given|robotware): (.*)$", re.MULTILINE)
 _AT = re.compile(r"^! at (\d+): (.*)$", re.MULTILINE)
-_ARROW = re.compile(r"! -> ((?:RG\d{3}\?? ?)+)$")
+_ARROW = re.compile(r"! -> ((?:RG\d{3}[?~]? ?)+)$")
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,10 +48,10 @@ class Conformance:
         return check(System("demo", (TaskSpec("T_ROB1", modules=(file,)),)))
 
     def found(self) -> Counter[tuple[int, str]]:
-        """(line, code) of each finding; the code of a warning has a `?` behind it."""
+        """(line, code) of each finding; a warning's has a `?` behind it, a note's a `~`."""
+        marks = {Severity.ERROR: "", Severity.WARNING: "?", Severity.INFO: "~"}
         return Counter(
-            (d.span.line if d.span else 0, d.code + "?" * (d.severity is Severity.WARNING))
-            for d in self.findings()
+            (d.span.line if d.span else 0, d.code + marks[d.severity]) for d in self.findings()
         )
 
 

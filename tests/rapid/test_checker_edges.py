@@ -2,14 +2,18 @@
 
 import pytest
 
-from rapidgen.rapid import Dialect, check, parse
+from rapidgen.rapid import Dialect, check
 from rapidgen.rapid.builtins import signatures
 from rapidgen.rapid.builtins.signatures import Signature
+from rapidgen.system import ModuleFile, System, TaskSpec
 
 
 def codes(body, data="", rest="", **options):
-    text = f"MODULE m\n{data}\nPROC main()\n{body}\nENDPROC\n{rest}\nENDMODULE\n"
-    return [d.code for d in check([parse(text, path="m.mod")], whole_task=True, **options)]
+    text = f"MODULE Demo\n{data}\nPROC main()\n{body}\nENDPROC\n{rest}\nENDMODULE\n"
+    system = System(
+        "s", (TaskSpec("T_ROB1", modules=(ModuleFile("Demo", "m.mod", text.encode()),)),)
+    )
+    return [d.code for d in check(system, **options)]
 
 
 @pytest.mark.parametrize(

@@ -29,7 +29,17 @@ UNKNOWN = {
 
 @pytest.mark.parametrize("body", ["OwnThing 1;", "own_flag := TRUE;", "IF di_ready = 1 TPErase;"])
 def test_a_lone_file_may_use_what_is_elsewhere(body):
-    assert found(module("a", body)) == []
+    assert [severity for severity, _ in found(module("a", body))] == ["info"]
+
+
+def test_a_note_says_what_a_name_may_be():
+    body = "SetDO doGrip, 1;\nMoveL p10, v100, fine, tGrip;\nIF found = 3 Helper;"
+    (data, calls) = check(module("a", body))
+    assert data.message == (
+        "not declared here: doGrip (signaldo), p10 (robtarget), tGrip (tooldata), found"
+    )
+    assert (calls.code, calls.message) == ("RG301", "not declared here: Helper")
+    assert "option" in calls.notes[0]
 
 
 @pytest.mark.parametrize(
@@ -49,18 +59,19 @@ def test_a_slip_in_a_lone_file_is_a_warning(body, code, suggestion):
 
 def test_siblings_of_a_slip_are_no_slips():
     text = module("a", "MoveJ p20, v100, fine, tool0;", "VAR robtarget p10;")
-    assert found(text) == []
+    assert found(text) == [("info", "RG302")]
 
 
-def test_a_folder_knows_its_routines_but_not_its_signals():
+def test_a_folder_may_lack_a_module():
+    """Of 59 errors in folders of public programs 34 were about names that something else had."""
     one = parse(module("a", "Helper;\nHelpr;\nIF di_ready = 1 TPErase;"), path="a.mod")
     two = parse("MODULE b\nPROC Helper()\nENDPROC\nENDMODULE\n", path="b.mod")
-    assert found([one, two]) == [("error", "RG301"), ("warning", "RG302")]
+    assert found([one, two]) == [("warning", "RG301"), ("info", "RG302")]
 
 
 def test_a_folder_without_an_entry_routine_is_a_part():
     one = parse(module("a", "Missing;", entry="part"), path="a.mod")
-    assert found([one]) == []
+    assert found([one]) == [("info", "RG301")]
 
 
 def test_modules_of_several_tasks_in_a_folder_do_not_clash():
@@ -74,21 +85,22 @@ def test_objects_that_differ_between_tasks_are_not_judged():
     assert found([one, two]) == []
 
 
-def test_a_whole_task_knows_its_data():
-    one = parse(module("a", "own_flag := TRUE;"), path="a.mod")
-    assert found([one], whole_task=True) == [("error", "RG302")]
-    assert found([one], whole_task=True, gaps=True) == []
+@pytest.mark.parametrize("body", ["WaitDI SENSOR, 1;", "n := Sensor + 1;", "WaitUntil pose = 1;"])
+def test_a_signal_may_have_the_name_of_a_predefined_type(body):
+    """[code] A program for RobotStudio has an input SENSOR, which is no record there."""
+    assert found(module("a", body, "VAR num n;")) == [("info", "RG302")]
+    assert "RG306" in {code for _, code in found(system(module("a", body, "VAR num n;")))}
 
 
 def test_a_module_that_cannot_be_read_may_declare_anything():
     one = parse(module("a", "Missing;"), path="a.mod")
     encoded = parse(b"\xfc\x00\x01", path="b.mod")
-    assert found([one, encoded]) == [("warning", "RG219")]
+    assert found([one, encoded]) == [("info", "RG301"), ("warning", "RG219")]
 
 
 def test_a_program_that_loads_modules_may_get_names_from_them():
-    one = parse(module("a", 'Load "HOME:/b.mod";\nMissing;'), path="a.mod")
-    assert found([one]) == []
+    text = module("a", 'Load "HOME:/b.mod";\nMissing;')
+    assert found(system(text)) == [("info", "RG301")]
 
 
 def test_names_of_other_tasks_are_not_called_unknown():

@@ -53,9 +53,11 @@ def test_tokens_tile_the_text(text):
     source = parse(text).source
     if source.text:
         pieces = [t + g for t, g in zip(source.tokens, source.gaps, strict=True)]
-        assert source.lead + "".join(pieces) == text
+        assert source.lead + "".join(pieces) == source.text
         found = zip(source.starts, source.tokens, strict=True)
-        assert all(text.startswith(token, start) for start, token in found)
+        assert all(source.text.startswith(token, start) for start, token in found)
+        pairs = zip(source.text, text, strict=True)
+        assert all(read == written or not written.isprintable() for read, written in pairs)
 
 
 def harmless(text):

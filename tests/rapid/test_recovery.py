@@ -39,6 +39,7 @@ def test_message_says_what_was_met_expected_and_what_is_open():
     assert len(found) == 1
     assert found[0].message == "met ';', expected an expression"
     assert "FOR (line 3), PROC (line 2), MODULE (line 1)" in found[0].notes[0]
+    assert found[0].help == "write an expression here, or take out what stands here"
     assert found[0].related[0].span.line == 3
 
 

@@ -4,6 +4,7 @@ import pytest
 
 from rapidgen.diagnostics import DiagnosticError, Severity
 from rapidgen.rapid import check, format_source, parse
+from rapidgen.system import ModuleFile, System, TaskSpec
 
 TEXT = 'MODULE größe\n    ! Maß\n    CONST string s := "Größe";\nENDMODULE\n'
 
@@ -116,12 +117,27 @@ def test_text_behind_the_module_is_told_and_left_as_it_is():
     assert format_source(formatted) == formatted
 
 
+def system(*texts):
+    files = tuple(ModuleFile(f"m{k}", f"m{k}.mod", t.encode()) for k, t in enumerate(texts))
+    return System("s", (TaskSpec("T_ROB1", modules=files),))
+
+
 def test_names_that_unread_text_could_declare_are_not_called_unknown():
     one = "MODULE a\nPROC main()\nelsewhere;\nENDPROC\nENDMODULE\n"
     behind = "MODULE b\nENDMODULE\nMODULE c\nPROC elsewhere()\nENDPROC\nENDMODULE\n"
     other = "MODULE b\nENDMODULE\n"
-    assert [d.code for d in check([parse(one), parse(other)])] == ["RG301"]
-    assert [d.code for d in check([parse(one), parse(behind)])] == ["RG217"]
+    found = [(d.code, d.severity) for d in check(system(one, other))]
+    assert found == [("RG301", Severity.ERROR)]
+    found = [(d.code, d.severity) for d in check(system(one, behind))]
+    assert found == [("RG301", Severity.INFO), ("RG217", Severity.WARNING)]
+
+
+@pytest.mark.parametrize("count", [1, 2])
+def test_a_stray_zero_byte_is_told_at_its_place(count):
+    text = b"MODULE m\nVAR num" + b"\0" * count + b"a;\nENDMODULE\n"
+    (found,) = parse(text, path="m.mod").diagnostics
+    assert (found.code, found.span.line, found.span.column) == ("RG204", 2, 8)
+    assert "U+0000" in found.message
 
 
 def test_comments_stand_as_deep_as_what_they_belong_to():

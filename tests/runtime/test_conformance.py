@@ -5,7 +5,8 @@ The head of a file names its source; comments tell the rest:
 `! dialect: SWITCH=VALUE` · `! signal: NAME TYPE [BITS]` · `! robot: SHIPPED NAME` ·
 `! cycle: N` main runs again, N lines are read · `! until: S` simulated seconds to run at most ·
 `! task: NAME ENTRY [TYPE]` one more task (a ROB in the name: it has a robot) ·
-`! hook: ROUTINE EVENT TASK` an event routine · `! case: SWITCH=VALUE` all that follows on a
+`! hook: ROUTINE EVENT TASK` an event routine · `! arc: USE SIGNAL` what welding has a signal for ·
+`! case: SWITCH=VALUE` all that follows on a
 controller of its own, with this switch (or motion setting) too.
 
 `! do: ACTION, ...` is what somebody does at the controller (`Run.act`); behind it stand, in this
@@ -27,7 +28,7 @@ from rapidgen.motion import MotionSettings
 from rapidgen.rapid.switches import parse_switches
 from rapidgen.runtime.task.pointer import CannotStep
 from rapidgen.runtime.text import value_text
-from rapidgen.system.model import EventRoutine, ModuleFile, SignalSpec, System, TaskSpec
+from rapidgen.system.model import ArcSignals, EventRoutine, ModuleFile, SignalSpec, System, TaskSpec
 
 HERE = Path(__file__).parent
 FILES = sorted(p for p in HERE.rglob("*.mod") if "conformance" in p.parts)
@@ -68,6 +69,7 @@ def system(path: Path, text: str) -> System:
             for name, kind, *size in words(text, "signal")
         ),
         events=tuple(EventRoutine(*line) for line in words(text, "hook")),
+        arc=(ArcSignals("stdIO_T_ROB1", tuple((use, s) for use, s in words(text, "arc"))),),
     )
 
 
@@ -83,7 +85,11 @@ class Run:
         cycles = words(text, "cycle")
         self.controller = VirtualController(
             whole,
-            [g for (name,) in words(text, "robot") for g in groups_for(whole, load_config(name))],
+            [
+                g
+                for (name,) in words(text, "robot")
+                for g in groups_for(whole, load_config(name).groups)
+            ],
             dialect=parse_switches(switches),
             cycle="forever" if cycles else "once",
             accounting=accounting,

@@ -1,8 +1,9 @@
-"""A name that nobody declares: the task stops with the name in the event [K §12]."""
+"""What nobody declares: found by the statement that needs it, when it is reached [K §12]."""
 
 import pytest
 
 from rapidgen.controller.controller import VirtualController
+from rapidgen.runtime.errors import errnum
 from rapidgen.system.model import ModuleFile, System, TaskSpec
 
 
@@ -23,3 +24,96 @@ def test_the_event_says_which(body, error):
         fault = controller.task("T_ROB1").fault
         assert fault is not None
         assert fault.arguments == (error, "nowhere")
+
+
+def printed(body: str, data: str = "", rest: str = "") -> tuple[list[str], VirtualController]:
+    """What a program prints whose errors are passed over, and how it ended."""
+    text = (
+        f"MODULE m\n{data}\nPROC main()\n{body}\nERROR\nTPWrite ValToStr(ERRNO);\nTRYNEXT;\n"
+        f"ENDPROC\n{rest}\nENDMODULE\n"
+    )
+    file = ModuleFile("m", "m.mod", text.encode())
+    out: list[str] = []
+    controller = VirtualController(
+        System("s", (TaskSpec("T_ROB1", modules=(file,)),)), cycle="once", autostart=False
+    )
+    with controller:
+        controller.operator.subscribe(lambda _task, text: out.append(text))
+        controller.start_program()
+        controller.run(max_time=10)
+    return out, controller
+
+
+UNKNOWN = str(errnum("ERR_REFUNKDAT"))
+
+
+@pytest.mark.parametrize(
+    "statement",
+    [
+        "SetDO nowhere, 1;",
+        "nowhere := 3;",
+        "nowhere.x := 3;",
+        "n := nowhere{3};",
+        'IF nowhere{2} = "a" TPWrite "no";',
+        'IF nowhere.trans.x > 2 THEN\nTPWrite "no";\nENDIF',
+        "MoveL nowhere, v100, fine, nowhere2 \\WObj:=nowhere3;",
+        'TPWrite ValToStr(nowhere.x + "a");',
+        "WHILE nowhere.x DO\nENDWHILE",
+        "FOR i FROM 1 TO nowhere{1} DO\nENDFOR",
+    ],
+)
+def test_other_statements_of_the_routine_are_executed(statement):
+    out, controller = printed(f'TPWrite "before";\n{statement}\nTPWrite "after";', "VAR num n;")
+    assert out == ["before", UNKNOWN, "after"]
+    assert controller.task("T_ROB1").fault is None
+
+
+def test_a_statement_that_breaks_a_rule_stops_the_task_when_it_is_reached():
+    out, controller = printed('TPWrite "before";\nIF n > 9 n := "a";\nn := "b";', "VAR num n;")
+    fault = controller.task("T_ROB1").fault
+    assert out == ["before"]
+    assert (fault.title, fault.arguments) == (
+        "Statement cannot be executed",
+        ("the value is string, not num",),
+    )
+    assert (fault.span.line, fault.span.column) == (6, 6)
+
+
+DATA = """PERS pm_info info := ["a", 1, [2, 3]];
+LOCAL PERS pm_info many{2} := [["b", 1, [2, 3]], ["c", 1, [2, 3]]];
+VAR pm_info other;"""
+USES = """PROC use(PERS pm_info p, PERS pm_info all{*}, VAR pm_info v)
+TPWrite "used";
+ENDPROC"""
+
+
+def test_data_of_types_that_lie_in_an_addin_are_handed_on():
+    """[backup] RobotWare 6: pm_projectinfo is in the add-in, not in the backup."""
+    out, controller = printed("use info, many, other;", DATA, USES)
+    assert out == ["used"]
+    assert [d.code for d in controller.diagnostics] == ["RG404"]
+
+
+@pytest.mark.parametrize(
+    "statement",
+    [
+        'IF info.x = 1 TPWrite "no";',
+        'IF info = other TPWrite "no";',
+        "TPWrite ValToStr(info);",
+        "other := info;",
+        "other := [1];",
+    ],
+)
+def test_a_statement_that_looks_into_them_says_what_it_needs(statement):
+    out, controller = printed(f'TPWrite "before";\n{statement}', DATA, USES)
+    fault = controller.task("T_ROB1").fault
+    assert out == ["before"]
+    assert fault.arguments[0].startswith("nothing declares pm_info, the type of ")
+
+
+@pytest.mark.parametrize("body", ["SetTmSignal n;"])
+def test_a_routine_of_an_option_is_missed_when_it_is_reached(body):
+    out, controller = printed(f'TPWrite "before";\n{body}', "VAR num n;")
+    assert out == ["before"]
+    assert [d.code for d in controller.diagnostics] == ["RG403"]
+    assert "option" in controller.task("T_ROB1").fault.arguments[0]

@@ -249,6 +249,12 @@ def test_a_generated_folder_must_be_whole(tmp_path):
     put(tmp_path / "HOME/a.sys", MODULE % b"Aye")
     robot, added = read_folder(tmp_path).tasks
     assert (robot.name, robot.motion, [m.name for m in robot.modules]) == ("T_ROB1", True, ["Aye"])
+    put(tmp_path / "HOME/b.sys", MODULE % b"aye")
+    with (tmp_path / "SYS.cfg").open("a") as cfg:
+        cfg.write('\n -File "HOME:/b.sys" -AllTask\n')
+    with pytest.raises(DiagnosticError) as caught:
+        read_folder(tmp_path)
+    assert code_of(caught) == ["RG714"]
     assert (added.name, added.type) == ("T_A", "SEMISTATIC")
 
 
@@ -389,3 +395,19 @@ def test_a_damaged_moc_is_a_note(backup):
     notes = []
     assert read_backup(backup, notes=notes).robot_types == ()
     assert ("RG702", Severity.WARNING) in [(note.code, note.severity) for note in notes]
+
+
+def test_two_files_of_one_module_in_a_task(backup):
+    """A note in a backup: the controller that it is of ran."""
+    put(backup / "HOME/old/shared.sys", MODULE % b"Shared")
+    for cfg in (backup / "SYSPAR").iterdir():
+        if b"CAB_TASK_MODULES" in cfg.read_bytes():
+            text = cfg.read_text(encoding="latin-1")
+            row = '\n -File "HOME:/old/shared.sys" -Task "T_ROB1"\n'
+            put(cfg, text.replace("CAB_TASK_MODULES:", "CAB_TASK_MODULES:" + row))
+    notes = []
+    system = read_backup(backup, notes=notes)
+    (note,) = [n for n in notes if n.code == "RG714"]
+    assert "'HOME:/old/shared.sys'" in note.message
+    assert "[mem]" in note.message
+    assert [m.name for m in system.tasks[0].modules] == ["user", "Work", "Shared"]

@@ -9,8 +9,16 @@ import numpy as np
 import numpy.typing as npt
 
 from rapidgen.axes.mapping import JointMap
-from rapidgen.client.errors import IncompatibleDriver
-from rapidgen.config.model import ExposedSignal, GroupConfig, Joint, RobotConfig, TrajectoryPolicy
+from rapidgen.client.core.frames import Frames, GroupFrames
+from rapidgen.client.errors import IncompatibleDriver, NotSupported
+from rapidgen.config.model import (
+    ExposedSignal,
+    GroupConfig,
+    Joint,
+    OwnRoutine,
+    RobotConfig,
+    TrajectoryPolicy,
+)
 from rapidgen.wire.simple_message.mapping import mapping_hash
 from rapidgen.wire.simple_message.messages import HelloReply
 
@@ -32,11 +40,22 @@ class Group:
     """False: neither a configuration nor the driver told the limits."""
     signals: tuple[ExposedSignal, ...] = ()
     """What the configuration exposes, in the order of their numbers."""
+    routines: tuple[OwnRoutine, ...] = ()
+    """Procedures that a program may call, in the order of their numbers."""
+    geometry: GroupFrames | None = None
+    """What poses mean; None where that is not known."""
 
     @classmethod
     def of(cls, config: RobotConfig, group: GroupConfig) -> "Group":
         """The group of a configuration."""
-        return cls(group.name, JointMap.of(group), config.trajectory, signals=tuple(config.signals))
+        return cls(
+            group.name,
+            JointMap.of(group),
+            config.trajectory,
+            signals=tuple(config.signals),
+            routines=group.routines,
+            geometry=GroupFrames.of(group),
+        )
 
     @classmethod
     def told(cls, hello: HelloReply) -> "Group":
@@ -69,6 +88,19 @@ class Group:
             for i, name in enumerate(names)
         )
         return cls("", JointMap(joints), TrajectoryPolicy(capacity=PLAIN_CAPACITY), False)
+
+    @property
+    def poses(self) -> Frames:
+        """The robot's geometry. Raises NotSupported where it is not known."""
+        frames = self.geometry.frames() if self.geometry is not None else None
+        if frames is None:
+            raise NotSupported.because(
+                "RG671",
+                "the poses of this robot are not known",
+                "connect with a configuration that has the robot's chain, its tool and its work "
+                "object",
+            )
+        return frames
 
     @property
     def names(self) -> tuple[str, ...]:

@@ -15,6 +15,7 @@ from rapidgen.client.core.motion import CommandedMotion
 from rapidgen.client.core.robot import Core
 from rapidgen.client.core.state import Progress, State
 from rapidgen.client.core.stream import PointStream
+from rapidgen.client.program import Program
 from rapidgen.client.trajectory import Trajectory
 from rapidgen.wire.simple_message.spec import TrajectoryState
 
@@ -31,6 +32,8 @@ class Job:
         self.motion: CommandedMotion | None = None
         self.stream: PointStream | None = None
         """The motion, where it goes by stream."""
+        self.program: Program | None = None
+        """What it executes, where that are instructions."""
         self.is_ended = False
         """Nothing follows, and all points are on their way."""
         self.last: LastPoint | None = None

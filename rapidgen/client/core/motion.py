@@ -51,6 +51,8 @@ class CommandedMotion(ABC):
     """A motion from its first byte to its end. Its owner holds a lock or a loop."""
 
     way: Way
+    noun = "point"
+    """What is counted."""
     starved = 0
     """How often it ran out of points."""
 
@@ -120,6 +122,11 @@ class CommandedMotion(ABC):
         """A STOP was confirmed and the robot stands."""
         self._end(MotionStopped, fault("RG631", "stopped on request"), Reason.STOPPED)
 
+    def done(self) -> None:
+        """The controller said in another way that all of it was executed."""
+        if not self.is_over:
+            self._succeed()
+
     def step(self) -> None:
         """Look at the newest state. Call after each message, and now and then without one."""
         if self.phase is not Phase.MOVING or self._is_silent():
@@ -172,10 +179,10 @@ class CommandedMotion(ABC):
                     self.stopped()
             case TrajectoryState.FAILED | TrajectoryState.REFUSED:
                 point = self._index(told.point)
+                place = place_of(self._group, point, told.joint, self.noun)
                 found = fault(
                     "RG630",
-                    "the controller ended the motion"
-                    f"{place_of(self._group, point, told.joint)}: {reason_text(told.reason)}",
+                    f"the controller ended the motion{place}: {reason_text(told.reason)}",
                     "look at the robot; what was executed is a prefix of what was asked",
                 )
                 reason = reason_of(told.reason)
@@ -241,13 +248,14 @@ def reason_text(number: int) -> str:
 
 
 def refused(
-    group: Group, state_port: StatePort, reason: int | None, point: int = -1, joint: int = 0
+    state_port: StatePort, reason: int | None, place: str = "", point: int = -1, joint: int = 0
 ) -> TrajectoryRefused:
-    """The controller took nothing, for a reason of the wire; None where it gave none."""
+    """The controller took nothing, for a reason of the wire (None where it gave none); `place` in
+    words."""
     text = "no reason given" if reason is None else reason_text(reason)
     return TrajectoryRefused.because(
         "RG620",
-        f"the controller refused{place_of(group, point, joint)}: {text}",
+        f"the controller refused{place}: {text}",
         "nothing moved",
         reason=None if reason is None else reason_of(reason),
         point=point,
@@ -256,9 +264,9 @@ def refused(
     )
 
 
-def place_of(group: Group, point: int, joint: int) -> str:
+def place_of(group: Group, point: int, joint: int, noun: str = "point") -> str:
     """` at point 3, joint_2`, as far as it is known; `point` from 0, `joint` from 1."""
-    found = f" at point {point}" if point >= 0 else ""
+    found = f" at {noun} {point}" if point >= 0 else ""
     if 1 <= joint <= len(group.names):
         found += f"{',' if found else ' at'} {group.names[joint - 1]}"
     return found

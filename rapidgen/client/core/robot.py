@@ -19,10 +19,11 @@ from rapidgen.client.core.checks import (
 from rapidgen.client.core.download import Download
 from rapidgen.client.core.group import PLAIN_CAPACITY, Group
 from rapidgen.client.core.heartbeat import HeartbeatSchedule
-from rapidgen.client.core.motion import refused
+from rapidgen.client.core.motion import place_of, refused
+from rapidgen.client.core.program_checks import CheckedProgram, check_program
 from rapidgen.client.core.request_port import PendingReply, RequestPort
 from rapidgen.client.core.state_port import Evidence, StatePort
-from rapidgen.client.core.stream import PointStream
+from rapidgen.client.core.stream import InstructionQueue, PointQueue, PointStream, SendQueue
 from rapidgen.client.errors import (
     ConnectionLost,
     NotReady,
@@ -32,11 +33,13 @@ from rapidgen.client.errors import (
     RobotTimeout,
     fault,
 )
+from rapidgen.client.program import Program
 from rapidgen.client.trajectory import Trajectory
 from rapidgen.wire.simple_message import ContentError, FramingError, decode, encode, messages
+from rapidgen.wire.simple_message.bulk import pack_points
 from rapidgen.wire.simple_message.codec import number_of
 from rapidgen.wire.simple_message.declaration import Content
-from rapidgen.wire.simple_message.messages import HEARTBEAT, JOINT_TRAJ_PT, POINTS, batch_points
+from rapidgen.wire.simple_message.messages import HEARTBEAT, JOINT_TRAJ_PT, batch_points
 from rapidgen.wire.simple_message.spec import (
     INDEX_WRAP,
     MAX_JOINTS,
@@ -252,7 +255,7 @@ class Core:
             return self._beat()
         run = self.motion
         if isinstance(run, PointStream) and run.has_due:
-            return run.next_frame(self.ports[port].request(POINTS.number))
+            return run.next_frame(self.ports[port].request(run.queue.number))
         return None
 
     def _beat(self) -> bytes | None:
@@ -376,6 +379,22 @@ class Core:
         whole = self.check_whole(trajectory, len(trajectory))
         return to_stream(whole, self.known_group, self.capacity)
 
+    def check_program(self, program: Program, way: Way | None = None) -> tuple[CheckedProgram, Way]:
+        """Check a program, and the way that it goes by: whole, where the driver's ring holds it.
+
+        Raises InvalidProgram, NotReady (no state yet), NotSupported.
+        """
+        hello = self.state_port.driver.hello
+        if hello is None or Feature.PROGRAMS not in Feature(hello.features):
+            raise NotSupported.because(
+                "RG624",
+                "the driver takes no programs",
+                "build and deploy one whose configuration has not `profile: basic`",
+            )
+        chosen = way or ("download" if len(program) <= hello.ring else "stream")
+        most = hello.ring if chosen == "download" else INDEX_WRAP - 1
+        return check_program(program, self.known_group, start=self.start, most=most), chosen
+
     def check_whole(self, trajectory: Trajectory, capacity: int | None = None) -> CheckedTrajectory:
         """Check what goes by download. Raises InvalidTrajectory, NotReady."""
         return check_trajectory(
@@ -445,18 +464,40 @@ class Core:
         """A stream that has these points first, from now on the motion under way."""
         hello = self.state_port.driver.hello
         assert hello is not None
+        motion = self._begin(PointQueue(hello.batch, len(self.known_group.names)))
+        motion.warnings = checked.warnings
+        self.go_on(motion, checked)
+        return motion
+
+    @staticmethod
+    def go_on(stream: PointStream, checked: CheckedPoints) -> None:
+        """More points of a stream."""
+        assert isinstance(stream.queue, PointQueue)
+        stream.queue.put(pack_points(checked.durations, checked.wire))
+        stream.goes_on(checked.durations.tolist(), checked.last.wire.tolist())
+
+    def begin_program(self, checked: CheckedProgram, way: Way) -> PointStream:
+        """A program, from now on the motion under way."""
+        motion = self._begin(InstructionQueue(checked.instructions, whole=way == "download"))
+        motion.way, motion.noun, motion.warnings = way, "instruction", checked.notes
+        motion.goes_on(checked.seconds, checked.goal)
+        motion.end()
+        return motion
+
+    def _begin(self, queue: SendQueue) -> PointStream:
+        hello = self.state_port.driver.hello
+        assert hello is not None
         self._streams = self._streams % (INDEX_WRAP - 1) + 1
         self.override = 1.0
         self.motion = motion = PointStream(
             self._streams,
+            queue,
             hello,
             self.known_group,
             self.state_port,
             silence=self.timeouts.silence,
             reply=self.timeouts.reply,
         )
-        motion.warnings = checked.warnings
-        motion.put(checked)
         return motion
 
     def answered(self, run: Download, reply: Content) -> None:
@@ -468,10 +509,11 @@ class Core:
             run.accepted(None)
             return
         if isinstance(reply, messages.Refused):
-            told = reply.reason, reply.point, reply.joint
-            error = refused(self.known_group, self.state_port, *told)
+            place = place_of(self.known_group, reply.point, reply.joint)
+            told = reply.reason, place, reply.point, reply.joint
+            error = refused(self.state_port, *told)
         else:
-            error = refused(self.known_group, self.state_port, None)
+            error = refused(self.state_port, None)
         run.failed(error)
         raise error
 

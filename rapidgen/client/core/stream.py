@@ -1,17 +1,20 @@
-"""A stream: points that are sent while the robot executes the ones before. Sans-IO.
+"""A stream: points or instructions, sent while the robot executes the ones before. Sans-IO.
 
 Its owner asks `has_due` and `next_frame` whenever something has changed, and sends. Nothing is
 sent that the controller has no room for, so that it never stops reading.
 """
 
 from collections import deque
+from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import islice
+from typing import Protocol
 
 import numpy as np
 
-from rapidgen.client.core.checks import CheckedPoints
+from rapidgen.client.core.checks import Way
 from rapidgen.client.core.group import Group
-from rapidgen.client.core.motion import CommandedMotion, refused
+from rapidgen.client.core.motion import CommandedMotion, place_of, refused
 from rapidgen.client.core.request_port import PendingReply
 from rapidgen.client.core.state import Progress, trajectory_state
 from rapidgen.client.core.state_port import StatePort
@@ -21,8 +24,10 @@ from rapidgen.client.errors import (
     TrajectoryRefused,
 )
 from rapidgen.wire.simple_message import messages
-from rapidgen.wire.simple_message.bulk import Words, pack_points, points_frame
+from rapidgen.wire.simple_message.bulk import Words, pack_points, points_frame, program_frame
 from rapidgen.wire.simple_message.declaration import Content
+from rapidgen.wire.simple_message.instructions import WORDS
+from rapidgen.wire.simple_message.messages import POINTS, PROGRAM
 from rapidgen.wire.simple_message.spec import INDEX_WRAP, StreamFlag, TrajectoryState, TriState
 
 
@@ -35,14 +40,93 @@ class _Flight:
     sent: float
 
 
-class PointStream(CommandedMotion):
-    """A stream from its first point to its end."""
+class SendQueue(Protocol):
+    """What waits to be sent, and how it goes into messages."""
 
-    way = "stream"
+    number: int
+    """Of the messages."""
+    flags: StreamFlag
+    """What each of them says."""
+    batch: int
+    """How many one message takes, more or less."""
+
+    def size(self, most: int) -> int:
+        """How many of the next go into one message, `most` at most."""
+
+    def frame(self, stream: int, first: int, size: int, flags: StreamFlag) -> bytes:
+        """The message with the next `size`, which are taken out."""
+
+
+class PointQueue:
+    """Points, packed."""
+
+    number = POINTS.number
+    flags = StreamFlag(0)
+
+    def __init__(self, batch: int, joints: int) -> None:
+        self.batch = max(1, batch)
+        self._queue: deque[Words] = deque()
+        self._no_points = pack_points(np.zeros(0), np.zeros((0, joints)))
+
+    def put(self, words: Words) -> None:
+        """Behind those that wait."""
+        self._queue.append(words)
+
+    def size(self, most: int) -> int:
+        """See SendQueue."""
+        return min(most, self.batch)
+
+    def frame(self, stream: int, first: int, size: int, flags: StreamFlag) -> bytes:
+        """See SendQueue."""
+        return points_frame(stream, first, self._take(size), flags=flags)
+
+    def _take(self, size: int) -> Words:
+        """Points from the queue; none as a row of no words."""
+        parts: list[Words] = [self._no_points]
+        while size:
+            some = self._queue.popleft()
+            parts.append(some[:size])
+            if len(some) > size:
+                self._queue.appendleft(some[size:])
+            size -= len(parts[-1])
+        return np.concatenate(parts) if len(parts) != 2 else parts[1]
+
+
+class InstructionQueue:
+    """Instructions of a program, packed: each as many words as it needs."""
+
+    number = PROGRAM.number
+    batch = 16
+
+    def __init__(self, instructions: Sequence[Sequence[int]], *, whole: bool) -> None:
+        self.flags = StreamFlag.WHOLE if whole else StreamFlag(0)
+        self._queue = deque(instructions)
+
+    def size(self, most: int) -> int:
+        """See SendQueue."""
+        words = count = 0
+        for one in islice(self._queue, most):
+            words += len(one)
+            if words > WORDS:
+                break
+            count += 1
+        return count
+
+    def frame(self, stream: int, first: int, size: int, flags: StreamFlag) -> bytes:
+        """See SendQueue."""
+        some = [self._queue.popleft() for _ in range(size)]
+        return program_frame(stream, first, some, flags=flags)
+
+
+class PointStream(CommandedMotion):
+    """A stream from its first point, or instruction, to its end."""
+
+    way: Way = "stream"
 
     def __init__(
         self,
         number: int,
+        queue: SendQueue,
         hello: messages.HelloReply,
         group: Group,
         state_port: StatePort,
@@ -57,12 +141,11 @@ class PointStream(CommandedMotion):
         """The caller said that nothing follows."""
         self.refusal: messages.PointsRefused | messages.Failure | None = None
         """From one point on the controller takes nothing more; what it has it executes."""
-        self.batch = max(1, hello.batch)
+        self.queue = queue
+        self.batch = queue.batch
         """Points of one message."""
         self._least = min(self.batch, max(1, hello.ring // 2))
         self._patience = reply
-        self._queue: deque[Words] = deque()
-        self._no_points = pack_points(np.zeros(0), np.zeros((0, len(group.names))))
         self._sent = 0
         self._accepted = 0
         self._planned = 0
@@ -91,13 +174,12 @@ class PointStream(CommandedMotion):
 
     # What the caller gives
 
-    def put(self, piece: CheckedPoints) -> None:
-        """Points to be sent, checked before."""
-        self._queue.append(pack_points(piece.durations, piece.wire))
-        self.goal = piece.last.wire.tolist()
-        self.total += len(piece.wire)
-        self.planned_seconds += float(piece.durations.sum())
-        self.longest = max(self.longest, float(piece.durations.max()))
+    def goes_on(self, durations: Sequence[float], goal: Sequence[float]) -> None:
+        """So many more wait in the queue, for so many s each, up to this posture."""
+        self.goal = goal
+        self.total += len(durations)
+        self.planned_seconds += float(sum(durations))
+        self.longest = max(self.longest, *map(float, durations))
 
     def flush(self) -> None:
         """The controller shall start with what it has, once all points are there."""
@@ -129,9 +211,10 @@ class PointStream(CommandedMotion):
 
     def next_frame(self, pending: PendingReply) -> bytes:
         """The batch that is due, whose reply is `pending`."""
-        size = min(self.backlog, self.batch, self._room_until - self._sent)
-        words = self._take(size)
-        flags = StreamFlag.BEGIN if self._sent == 0 else StreamFlag(0)
+        size = self.queue.size(min(self.backlog, self._room_until - self._sent))
+        flags = self.queue.flags
+        if self._sent == 0:
+            flags |= StreamFlag.BEGIN
         if size == self.backlog:
             if self.is_ended:
                 flags |= StreamFlag.END
@@ -142,21 +225,10 @@ class PointStream(CommandedMotion):
         elif size < self._least:
             flags |= StreamFlag.FLUSH
             self._is_filled = True
-        frame = points_frame(self.stream, self._sent, words, flags=flags)
+        frame = self.queue.frame(self.stream, self._sent, size, flags)
         self._sent += size
         self._flights.append(_Flight(pending, self._sent, self._state_port.clock()))
         return frame
-
-    def _take(self, size: int) -> Words:
-        """Points from the queue; none as a row of no words."""
-        parts: list[Words] = [self._no_points]
-        while size:
-            some = self._queue.popleft()
-            parts.append(some[:size])
-            if len(some) > size:
-                self._queue.appendleft(some[size:])
-            size -= len(parts[-1])
-        return np.concatenate(parts) if len(parts) != 2 else parts[1]
 
     # What comes in
 
@@ -182,7 +254,7 @@ class PointStream(CommandedMotion):
     def _answered(self, end: int, reply: Content) -> None:
         match reply:
             case messages.PointsAccepted() if reply.stream == self.stream:
-                if self.number is None:
+                if self.number is None and (self.way == "stream" or end == self.total):
                     self.accepted(reply.trajectory)
                 self._accepted = end
                 self._has_room(end + max(0, reply.room))
@@ -212,12 +284,13 @@ class PointStream(CommandedMotion):
     ) -> None:
         if self.refusal is None:
             self.refusal = reply
-        if self.number is not None or accepted:
+        if self.way == "stream" and (self.number is not None or accepted):
             # What was accepted is executed, and PROGRESS says how that ends.
             if self.number is None and isinstance(reply, messages.PointsRefused):
                 self.accepted(reply.trajectory)
             return
-        self.failed(refused(self._group, self._state_port, reason or None, point, joint))
+        place = place_of(self._group, point, joint, self.noun)
+        self.failed(refused(self._state_port, reason or None, place, point, joint))
 
     def _by_progress(self, told: messages.ProgressReport) -> None:
         if self._state_port.progresses != self._looked_at:

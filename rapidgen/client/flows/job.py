@@ -33,7 +33,7 @@ def execute(core: Core, trajectory: Trajectory, way: Way | None) -> Flow[Job]:
     stream.trajectory = checked.trajectory
     stream.end()
     job.is_ended = True
-    yield from _taken(core, stream)
+    yield from taken(core, stream)
     return job
 
 
@@ -62,11 +62,11 @@ def append(job: Job, times: npt.ArrayLike, positions: npt.ArrayLike) -> Flow[Non
         core.ready()
         checked = check_points(points, core.known_group, before=None, start=core.start)
         stream = job.begin(checked)
-        yield from _taken(core, stream)
+        yield from taken(core, stream)
     else:
         yield from _going_on(core, stream)
         checked = check_points(points, core.known_group, before=job.last, start=None)
-        stream.put(checked)
+        core.go_on(stream, checked)
         job.last = checked.last
     yield from _going_on(core, stream)
 
@@ -128,8 +128,8 @@ def cancel(job: Job) -> Flow[State | None]:
     return job.stopped
 
 
-def _taken(core: Core, stream: PointStream) -> Flow[None]:
-    """Until the controller took the first points, or refused them."""
+def taken(core: Core, stream: PointStream) -> Flow[None]:
+    """Until the controller took the first points, or the whole program, or refused them."""
     yield from _until(core, stream, lambda: stream.number is not None)
 
 

@@ -1,6 +1,7 @@
 """What a client of Robot Web Services knows and decides: no I/O, no thread, no loop."""
 
 import socket
+import time
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -62,6 +63,8 @@ class RwsCore:
     held: set[str] = field(default_factory=set)
     """Domains of mastership that this session has."""
     requests: int = 0
+    clock: Callable[[], float] = time.monotonic
+    """s; what waits measures by it."""
 
     @property
     def where(self) -> str:

@@ -48,8 +48,8 @@ def same(one: RapidValue, other: RapidValue) -> bool:
         return abs(one - other) <= 1e-6 * max(1.0, abs(one))
     if isinstance(one, str) or isinstance(other, str):
         return one == other
-    assert isinstance(one, Sequence)
-    assert isinstance(other, Sequence)
+    if not isinstance(one, Sequence) or not isinstance(other, Sequence):
+        return False
     return len(one) == len(other) and all(same(a, b) for a, b in zip(one, other, strict=True))
 
 

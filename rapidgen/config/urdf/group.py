@@ -156,15 +156,23 @@ def _map(
         return found
     if any(not joint.axis for joint in draft.joints):
         mapping, found = infer(graph, candidates, place)
-        for joint in draft.joints:
-            joint.axis = joint.axis or mapping.get(joint.name, "")
-        if found:
+        if any(d.severity is Severity.ERROR for d in found):
             return found
+        _complete(draft, mapping)
     mapped = {joint.name for joint in draft.joints}
     left = [j for j in candidates if j.name not in mapped]
     if left:
-        return [unmapped(graph, left, place)]
-    return _order(draft, graph, place)
+        return [*found, unmapped(graph, left, place)]
+    return [*found, *_order(draft, graph, place)]
+
+
+def _complete(draft: GroupDraft, mapping: dict[str, str]) -> None:
+    """Axes of joints that are given figures only; with them the joints that are not named."""
+    for joint in draft.joints:
+        joint.axis = joint.axis or mapping.get(joint.name, "")
+    if all(mapping.get(joint.name) == joint.axis for joint in draft.joints):
+        own = {joint.name: joint for joint in draft.joints}
+        draft.joints = [own.get(name) or JointDraft(name, axis) for name, axis in mapping.items()]
 
 
 def _rename(draft: GroupDraft, mapping: dict[str, str], place: Span | None) -> Iterator[Diagnostic]:

@@ -34,7 +34,7 @@ def fill(draft: JointDraft, joint: UrdfJoint, place: Span | None) -> list[Diagno
     draft.unit = unit
     needs_range = draft.lower is None or draft.upper is None
     if joint.kind == "continuous" and needs_range:
-        found.append(_continuous(draft, span))
+        found.append(_continuous(draft, joint, span))
     elif needs_range:
         found += _range(draft, joint, span)
     if draft.speed is None:
@@ -54,7 +54,18 @@ def fill(draft: JointDraft, joint: UrdfJoint, place: Span | None) -> list[Diagno
     return found
 
 
-def _continuous(draft: JointDraft, span: Span | None) -> Diagnostic:
+def _open(draft: JointDraft, joint: UrdfJoint, *, of_range: bool = True) -> str:
+    """Lines for the range of a joint, and for its speed where the description has none either."""
+    figures = {} if draft.axis else {"axis": OPEN}
+    if of_range:
+        figures |= {"lower": OPEN, "upper": OPEN}
+    if draft.speed is None and not (joint.velocity or 0.0) > 0.0:
+        figures["speed"] = OPEN
+    shown = ", ".join(f"{key}: {value}" for key, value in figures.items())
+    return f"joints:\n  {quoted(joint.name)}: {{{shown}}}"
+
+
+def _continuous(draft: JointDraft, joint: UrdfJoint, span: Span | None) -> Diagnostic:
     name, axis = draft.name, draft.axis
     if axis.startswith("eax"):
         draft.lower, draft.upper = -INDEPENDENT, INDEPENDENT
@@ -72,8 +83,7 @@ def _continuous(draft: JointDraft, span: Span | None) -> Diagnostic:
         "RG040",
         span,
         f"joint '{name}' is continuous; {axis or 'a controller axis'} has limits",
-        "add the range of the axis from the robot's data sheet:\njoints:\n  "
-        f"{quoted(name)}: {{axis: {axis or OPEN}, lower: {OPEN}, upper: {OPEN}}}",
+        f"add the range of the axis from the robot's data sheet:\n{_open(draft, joint)}",
         label="turns without end",
     )
 
@@ -83,10 +93,7 @@ def _range(draft: JointDraft, joint: UrdfJoint, span: Span | None) -> Iterator[D
     linear = joint.kind == "prismatic"
     widest = max(abs(lower or 0.0), abs(upper or 0.0))
     if lower is None or upper is None:
-        mend = (
-            f"add\njoints:\n  {quoted(name)}: "
-            f"{{axis: {draft.axis or OPEN}, lower: {OPEN}, upper: {OPEN}}}"
-        )
+        mend = f"add, from the robot's data sheet\n{_open(draft, joint)}"
         yield error("RG038", span, f"joint '{name}' has no limits", mend)
     elif lower > upper:
         yield error("RG053", span, f"joint '{name}': lower {lower:g} is above upper {upper:g}")
@@ -95,7 +102,7 @@ def _range(draft: JointDraft, joint: UrdfJoint, span: Span | None) -> Iterator[D
             "RG039",
             span,
             f"joint '{name}' has the range {lower:g}..{upper:g}",
-            f"add its range under joints.{name}, or name it under urdf.ignore_joints",
+            f"name it under urdf.ignore_joints, or add its range\n{_open(draft, joint)}",
             label="a placeholder",
         )
     elif not linear and widest > DEGREES_AS_RADIANS:
@@ -146,6 +153,8 @@ def _speed(draft: JointDraft, joint: UrdfJoint, span: Span | None) -> Iterator[D
     name, velocity = joint.name, joint.velocity
     linear = joint.kind == "prismatic"
     mend = f"add joints.{name}.speed, from the robot's data sheet"
+    if velocity is None or velocity <= 0:
+        mend = f"add, from the robot's data sheet\n{_open(draft, joint, of_range=False)}"
     if velocity is None:
         yield error("RG038", span, f"joint '{name}' has no velocity", mend)
         return

@@ -6,6 +6,7 @@ RWS 1.0 is plain HTTP, 2.0 is HTTPS with a certificate that the controller signe
 import asyncio
 import threading
 from collections.abc import Callable
+from contextlib import suppress
 from itertools import count
 
 from aiohttp import WSCloseCode, WSMsgType, web
@@ -19,6 +20,8 @@ from rapidgen.faces.service import Service, in_use, loopback
 from rapidgen.wire.rws.bodies import Generation
 from rapidgen.wire.rws.events import PROTOCOLS
 
+KNOWN = "robotics"
+"""The password that controllers are delivered with."""
 LARGEST_BODY = 64 * 1024 * 1024
 _RESTARTING = HttpReply(503, (("Retry-After", "1"),))
 _UNREAD = 1000
@@ -30,23 +33,22 @@ def serve_rws(
     generation: Generation,
     host: str = "127.0.0.1",
     port: int = 0,
-    login: Accounts | None = None,
+    accounts: Accounts | None = None,
     *,
     strict: bool = True,
-    beyond_loopback: bool = False,
 ) -> Service:
     """Serve Robot Web Services of a cabinet in a thread.
 
-    Without a login it is ABB's own, which everybody knows: on loopback only. `host_key` of the
+    Without accounts they are ABB's own, which everybody knows: on loopback only. `host_key` of the
     handle is the certificate's fingerprint. Raises DiagnosticError RG560 (not loopback), RG561.
     """
-    if login is None or not beyond_loopback:
+    if accounts is None or KNOWN in accounts.users.values():
         host = loopback(host)
-    login = login or Accounts({"Default User": "robotics", "Admin": "robotics"})
+    accounts = accounts or Accounts({"Default User": KNOWN, "Admin": KNOWN})
     certificate = None if generation is Generation.ONE else self_signed(host)
-    server = _Server(Desk(cabinet, generation, login, strict=strict), certificate)
+    server = _Server(Desk(cabinet, generation, accounts, strict=strict), certificate)
     server.start(host, port)
-    user, password = next(iter(login.users.items()))
+    user, password = next(iter(accounts.users.items()))
     fingerprint = certificate.fingerprint if certificate else ""
     return Service(host, server.port, user, password, fingerprint, server.stop)
 
@@ -109,7 +111,12 @@ class _Server:
         await self._runner.cleanup()
 
     def _restarting(self) -> None:
-        self._loop.call_soon_threadsafe(self._give_up)
+        self._soon(self._give_up)
+
+    def _soon(self, function: Callable[[], None]) -> None:
+        """Run a function on the loop; nobody is there to hear of it once that is closed."""
+        with suppress(RuntimeError):
+            self._loop.call_soon_threadsafe(function)
 
     def _give_up(self) -> None:
         """Nobody will answer what was asked: the controller restarts."""
@@ -152,7 +159,7 @@ class _Server:
             try:
                 reply = function()
             finally:
-                self._loop.call_soon_threadsafe(settle, reply)
+                self._soon(lambda: settle(reply))
 
         self._pending.add(future)
         try:
@@ -174,7 +181,7 @@ class _Server:
         events: asyncio.Queue[bytes | None] = asyncio.Queue()
 
         def send(event: bytes | None) -> None:
-            self._loop.call_soon_threadsafe(events.put_nowait, event)
+            self._soon(lambda: events.put_nowait(event))
 
         def listen() -> HttpReply:
             session = self._desk.session_of(got)
@@ -194,29 +201,36 @@ class _Server:
             protocols=(protocol,), autoping=self._desk.is_one, autoclose=True, max_msg_size=4096
         )
         await socket.prepare(request)
-        sender = asyncio.ensure_future(self._send(socket, events))
+        both = {
+            asyncio.ensure_future(self._send(socket, events)),
+            asyncio.ensure_future(self._hear(socket)),
+        }
         try:
-            await self._hear(socket)
+            done, _ = await asyncio.wait(both, return_when=asyncio.FIRST_COMPLETED)
+            codes = [task.result() for task in done if task.exception() is None]
         finally:
-            sender.cancel()
+            # Nobody may read or write beside the close.
+            for task in both:
+                task.cancel()
+            await asyncio.gather(*both, return_exceptions=True)
             self._desk.office.cabinet.post(lambda: self._desk.groups.leave(number))
+        await socket.close(code=codes[0] if codes else WSCloseCode.GOING_AWAY)
         return socket
 
     async def _send(
         self, socket: web.WebSocketResponse, events: "asyncio.Queue[bytes | None]"
-    ) -> None:
-        while (event := await events.get()) is not None:
-            if events.qsize() > _UNREAD:
-                break
+    ) -> WSCloseCode:
+        """Send events until there are no more, or too many; how to close then."""
+        while (event := await events.get()) is not None and events.qsize() <= _UNREAD:
             await socket.send_str(event.decode())
-        await socket.close(code=WSCloseCode.GOING_AWAY)
+        return WSCloseCode.GOING_AWAY
 
-    async def _hear(self, socket: web.WebSocketResponse) -> None:
+    async def _hear(self, socket: web.WebSocketResponse) -> WSCloseCode:
         """RWS 2.0: a client that sends anything is cut off, pings are not answered [VC 7.21]."""
         async for message in socket:
             if message.type in (WSMsgType.TEXT, WSMsgType.BINARY) and not self._desk.is_one:
-                await socket.close(code=WSCloseCode.POLICY_VIOLATION)
-                return
+                return WSCloseCode.POLICY_VIOLATION
+        return WSCloseCode.OK
 
 
 def _response(reply: HttpReply) -> web.Response:

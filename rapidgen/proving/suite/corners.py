@@ -87,7 +87,7 @@ def _corner(bench: Bench, arriving: _Leg, leaving: _Leg) -> Zone:
 
     tcp = max(arriving.tcp, leaving.tcp)
     size = between(_SMALLEST, tcp, largest.tcp)
-    beyond = min(largest.orientation, 1.5 * size)
+    beyond = largest.orientation * size / largest.tcp
     zone = replace(largest, tcp=size, orientation=beyond, external=beyond)
     if tcp > _RESTING:
         return zone

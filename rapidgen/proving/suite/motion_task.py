@@ -10,7 +10,7 @@ from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.instructions import at_call, fails
 from rapidgen.proving.link import STOP, RawLink
-from rapidgen.proving.messages import RawComm, RawMode, RawReason, RawTrajectoryState
+from rapidgen.proving.messages import RawMode, RawReason, RawTrajectoryState
 from rapidgen.proving.model import Broken
 from rapidgen.proving.stream import BEGIN, END, FLUSH, Streamer
 from rapidgen.proving.track import Point, distance, inward
@@ -257,64 +257,6 @@ def _stream_by_step(bench: Bench) -> None:
     failed = (number, RawTrajectoryState.FAILED, 2, 2, 2, RawReason.JOINT_LIMIT, 2, 1)
     if progress != failed or (status.in_error, status.error_code, status.in_motion) != (1, 104, 0):
         raise Broken(f"a stream was cut behind two points, but {progress} and {status}")
-
-
-@case("speed-by-step", "a speed is for one trajectory, from the reply on", needs="control")
-def _speed_by_step(bench: Bench) -> None:
-    """Half the speed from the reply on, for this trajectory alone."""
-    control, link, unit = bench.control(), bench.motion(), unit_of(bench)
-    # Some controllers do not slow down what was given its time.
-    slower = 2.0 if bench.setting.motion.refresh_timed else 1.0
-
-    def takes(factor: float) -> None:
-        bench.wait_until_at(points[-1][0], 20)
-        taken = (bench.now - begun) / unit
-        late = 2 * (_CLOSE + bench.setting.motion.settle + bench.setting.motion.servo_lag) / unit
-        if not 2 * factor - 0.1 * factor <= taken <= 2 * factor + late:
-            raise Broken(f"two units of motion took {taken:.2f}, wanted {2 * factor:.2f}")
-
-    for percent in (100, 50, 0, 50, 0):
-        if percent == 50 and slower == 1.0:
-            continue
-        points = bench.wave(3, duration=unit)
-        begun = begins(bench, link, points)
-        if percent:
-            for _ in range(2):
-                asked = bench.now
-                told = control.ask(messages.RawSpeed(percent))
-                if told != messages.RawAcknowledged() or bench.now - asked > soon(bench):
-                    raise Broken(f"SPEED is answered by {told} after {bench.now - asked:.3f} s")
-        takes(slower if percent == 50 else 1.0)
-        bench.run(0.3)
-
-
-@case("speed-at-start", "a speed that comes at the beginning of a trajectory")
-def _speed_at_the_start(bench: Bench) -> None:
-    """SPEED comes just when the motion task takes back that of the trajectory before."""
-    if not bench.group.ports.control or not bench.setting.motion.refresh_timed:
-        return
-    control, link, unit = bench.control(), bench.motion(), unit_of(bench)
-    speed = messages.RawSpeed(50)
-    task = bench.rapid_task("ROS_motion")
-
-    def ask() -> None:
-        control.at_once(messages.encode(speed, RawComm.REQUEST))
-        # Long enough for the control server and an interrupt.
-        task.sleep(0.05)
-
-    begins(bench, link, bench.wave(2, duration=unit))
-    control.ask(speed)
-    bench.wait_until_standing(3 * unit)
-    at_call(bench, "ROS_motion", "SpeedRefresh", 1, ask)
-    points = bench.wave(3, duration=unit)
-    bench.sets_off(link, points)
-    begun = bench.now
-    told = control.reply(messages.SPEED, soon(bench))
-    if told != messages.RawAcknowledged():
-        raise Broken(f"SPEED at the beginning of a trajectory is answered by {told}")
-    bench.wait_until_at(points[2][0], 10 * unit)
-    if bench.now - begun < 3.6 * unit:
-        raise Broken(f"{2 * unit:.2f} s of motion at half the speed took {bench.now - begun:.2f} s")
 
 
 def _cycles(bench: Bench) -> int:

@@ -31,9 +31,10 @@ def _zigzag(bench: Bench, count: int, seconds: float) -> list[Point]:
             found.append((joint.upper + joint.lower) / 2 + away)
         return tuple(found)
 
-    one, other = corner(0), corner(1)
-    seconds = max(seconds, 1.01 * bench.tcp_seconds(one, other))
-    return [(corner(number % 2), seconds) for number in range(count)]
+    # Both before `seconds` changes: a TCP below a ceiling takes longer, and goes no further for it.
+    ends = corner(0), corner(1)
+    seconds = max(seconds, 1.1 * bench.tcp_seconds(*ends))
+    return [(ends[number % 2], seconds) for number in range(count)]
 
 
 def _speed(bench: Bench) -> float:
@@ -56,8 +57,11 @@ def _stopped_at_speed(bench: Bench, action: str, quick: float, seconds: float) -
         other.wait_until_at(way[0][0], 2 * to_it + 5)
         other.run(0.3 + 2 * motion.settle)
         other.sets_off(link, [(other.position, 10.0), *way[1:]])
-        slowed = way[0][1] > seconds
-        other.until(lambda: slowed or _speed(other) >= _FAST, 5, f"an axis runs at {_FAST:.0%}")
+        if way[0][1] > seconds:
+            # A ceiling of the TCP keeps the axes slower; in the middle they are fastest.
+            other.run(0.5 * way[0][1])
+        else:
+            other.until(lambda: _speed(other) >= _FAST, 5, f"an axis runs at {_FAST:.0%}")
         last = other.last_event
         other.controller.perform(action)
         other.wait_until_standing(20)

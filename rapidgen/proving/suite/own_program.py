@@ -7,13 +7,15 @@ from rapidgen.generate import build, make_system
 from rapidgen.proving import messages
 from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
+from rapidgen.proving.instructions import fails
 from rapidgen.proving.link import RawLink
 from rapidgen.proving.messages import RawReason
 from rapidgen.proving.model import Broken
+from rapidgen.proving.suite.control import done
 from rapidgen.proving.suite.motion_task import patience
 from rapidgen.proving.suite.supervisor import end_as_request
 from rapidgen.proving.track import distance
-from rapidgen.system.model import ModuleFile, System
+from rapidgen.system.model import ModuleFile, SignalSpec, System
 
 case = Theme("own program")
 
@@ -45,16 +47,38 @@ ENDMODULE
 """
 
 
-def _system(bench: Bench) -> System:
+_MAIN_SIGNAL = b"""MODULE cell
+    PERS num stage := 0;
+
+    PROC main()
+        WHILE TRUE DO
+            VelSet 50, 5000;
+            stage := 1;
+            ROS_run \\UntilDI:=diLeave;
+            stage := 2;
+            WaitUntil DInput(diLeave) = 0;
+        ENDWHILE
+    ENDPROC
+ENDMODULE
+"""
+
+
+def _system(bench: Bench, main: bytes = _MAIN) -> System:
     """The driver of `main: own`, with a main that does something else, too."""
     config = replace(bench.config, call_main=False)
     system = make_system(config, build(config))
-    cell = ModuleFile("cell", "cell.mod", _MAIN)
+    cell = ModuleFile("cell", "cell.mod", main)
     tasks = tuple(
         replace(task, modules=(*task.modules, cell)) if task.name == bench.group.task else task
         for task in system.tasks
     )
-    return in_its_cell(replace(system, tasks=tasks), config)
+    signals = (*system.signals, SignalSpec("diLeave", "DI"))
+    return in_its_cell(replace(system, tasks=tasks, signals=signals), config)
+
+
+def _served(bench: Bench, link: RawLink) -> RawLink:
+    """The same client; while commissioning a server that was stopped has closed its link."""
+    return bench.motion() if link.lost and bench.config.commissioning else link
 
 
 def _refused(bench: Bench, link: RawLink, when: str) -> None:
@@ -79,6 +103,7 @@ def _own_main(bench: Bench) -> None:
         other.wait_until_standing(3)
         other.start_again()
         other.stays(patience(other), "it was stopped, and nobody asked for motion")
+        link = _served(other, link)
         for _ in range(2):
             points, since = other.wave(5), other.now
             other.sets_off(link, points, 0.4)
@@ -119,6 +144,40 @@ def _moves_by_itself(bench: Bench, link: RawLink, state: RawLink) -> None:
     bench.until(lambda: stage["cell:stage"] == 3, 6, "the program's own moves come to their end")
 
 
+@case("own-main-signal", "ROS_run returns at a signal, and leaves speeds as it found them")
+def _until_a_signal(bench: Bench) -> None:
+    """VelSet is the program's; a client's speed is over. A signal may be out of reach."""
+    with bench.beside(_system(bench, _MAIN_SIGNAL)) as other:
+        view, group = other.controller.task(other.group.task), other.motion_group
+        link = other.motion()
+        control = other.control() if other.group.ports.control else None
+        other.until(lambda: view["cell:stage"] == 1, 2, "the program serves")
+        for _ in range(2):
+            other.run(patience(other) + 0.3)
+            ends = fails(other, "cell", "DInput", "ERR_NORUNUNIT", 1000)
+            other.run(1.5)
+            if view["cell:stage"] != 1:
+                raise Broken("ROS_run returns at a signal whose unit is not there")
+            points, since = other.wave(6), other.now
+            other.sets_off(link, points, 0.4)
+            if control is not None:
+                done(control.ask(messages.RawSpeed(50)), "SPEED")
+            other.run(0.8)
+            ends()
+            other.controller.signals["diLeave"] = 1
+            other.wait_until_at(points[-1][0], 30)
+            other.executed(points, since)
+            other.until(lambda: view["cell:stage"] == 2, 2, "ROS_run returns")
+            _refused(other, link, "behind ROS_run")
+            if (group.modal.speed_override, group.refresh) != (0.5, 1.0):
+                raise Broken(
+                    f"VelSet is {group.modal.speed_override}, SpeedRefresh {group.refresh}"
+                )
+            other.controller.signals["diLeave"] = 0
+            other.until(lambda: view["cell:stage"] == 1, 2, "the program serves again")
+        other.healthy()
+
+
 def _begun_anew(bench: Bench, link: RawLink) -> None:
     """Stop in a trajectory, then another beginning, without ROS_run at first: nothing holds it."""
     view = bench.controller.task(bench.group.task)
@@ -138,7 +197,7 @@ def _begun_anew(bench: Bench, link: RawLink) -> None:
         raise Broken(f"begun {view['cell:starts']} times, {bench.motion_group.stop_reasons}")
     view["cell:leave"] = False
     bench.run(patience(bench) + 0.3)
-    bench.moves_through(link, bench.wave(3))
+    bench.moves_through(_served(bench, link), bench.wave(3))
 
 
 _FOREIGN = b"""MODULE foreign

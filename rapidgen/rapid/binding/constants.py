@@ -171,10 +171,10 @@ def _aggregate(node: Aggregate, want: str | None, scope: Scope, depth: int) -> _
     components = scope.module.components(want)
     if components is None:
         raise NotConstant(f"an aggregate is no {want}", node)
-    if len(members) != len(components):
+    if not scope.module.takes(want, len(members)):
         raise NotConstant(f"{want} has {len(components)} components", node)
     kinds = components.values()
-    return tuple(_member(m, k, scope, depth) for m, k in zip(members, kinds, strict=True)), want
+    return tuple(_member(m, k, scope, depth) for m, k in zip(members, kinds, strict=False)), want
 
 
 def _member(node: Expression, want: str | None, scope: Scope, depth: int) -> Value:

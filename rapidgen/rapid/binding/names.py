@@ -281,6 +281,14 @@ class ModuleScope:
             self.task.records[symbol] = found
         return found
 
+    def takes(self, type_name: str, members: int) -> bool:
+        """Whether an aggregate of so many members is a value of a record type."""
+        symbol = self.find(type_name)
+        if not isinstance(symbol, TypeSymbol) or symbol.components is None:
+            return False
+        most = len(symbol.components)
+        return most - symbol.newer <= members <= most
+
     def type_class(self, type_name: str) -> TypeClass | None:
         """Value class of a type behind aliases; an array has that of its element [K §2.16]."""
         if type_name in self.classes:
@@ -373,7 +381,9 @@ def builtin(key: str) -> Symbol | None:
         return TypeSymbol(key, "ALIAS", base=base)
     if signatures.type_class(key) is not None or key in ("anytype", "switch"):
         record = signatures.record(key)
-        return TypeSymbol(key, "TYPE", components=record.components if record else None)
+        if record is None:
+            return TypeSymbol(key, "TYPE")
+        return TypeSymbol(key, "TYPE", components=record.components, newer=record.newer)
     routine = signatures.routine(key)
     if routine is not None:
         return RoutineSymbol(routine.name, routine.kind, type=routine.type, signature=routine)

@@ -136,6 +136,8 @@ class TypeSymbol(Symbol):
     """Of an alias: the type that it names."""
     components: Sequence[tuple[str, str]] | None = None
     """(type, name) of a record's components in order, as declared; None for what is no record."""
+    newer: int = 0
+    """So many of the last components are missing in values that older releases saved."""
 
     @property
     def token(self) -> int:

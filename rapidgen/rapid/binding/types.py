@@ -56,4 +56,6 @@ def arithmetic(operator: str, left: str, right: str) -> str | None:
             return left
         if "pos" in (left, right) and {left, right} & {NUMBER, "num"}:
             return "pos"
+    if operator == "/" and left == "pos" and right in (NUMBER, "num"):
+        return "pos"  # in no manual; programs of running cells have it [backup]
     return None

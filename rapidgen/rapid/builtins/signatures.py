@@ -18,9 +18,11 @@ Marks behind a header say what its parameters do not:
     !lazy Cond                looks at this argument again and again, not at its first value
     !index FromIndex          the place of a byte in raw data
 
-and a line `!readonly ERRNO` beside data names those that a program cannot write. Alternatives of
-*required* parameters (`VAR signaldi Signal | PERS bool PersBool`) exist in built-ins only, and so
-does an optional one in place of a required one (`string Message | \\string MsgArray{*}`).
+and lines beside declarations: `!readonly ERRNO` names data that a program cannot write, `!writable
+vmax` constants that it can, `!newer accdata finepramp` the last components of a record, which are
+missing in values of older releases. Alternatives of *required* parameters (`VAR signaldi Signal |
+PERS bool PersBool`) exist in built-ins only, and so does an optional one in place of a required one
+(`string Message | \\string MsgArray{*}`).
 """
 
 import re
@@ -52,11 +54,15 @@ Version = tuple[int, int]
 Value = float | bool | str | tuple["Value", ...]
 """A RAPID value that is known before the run: records and arrays are tuples."""
 
-_ROUTINE_FILES: Final = ("communication", "io", "motion", "options", "tasks", "values")
+_WITHOUT_ROUTINES: Final = frozenset(("constants", "data", "names", "types"))
 _HEADER: Final = re.compile(
     r"^(PROC|FUNC (\w+)) (\w+)(\(.*?\))(?:[ ]+!([^\n]*))?$", re.MULTILINE | re.DOTALL
 )
 _CLASSES: Final = re.compile(r"^!(value|nonvalue|semivalue) (.*)$", re.MULTILINE)
+_DECLARATION: Final = re.compile(
+    r"^(?:RECORD\b.*?^ENDRECORD$|(?:ALIAS|CONST|PERS|VAR)\b[^;]*;|!\w+value [^\n]*$)",
+    re.MULTILINE | re.DOTALL,
+)
 _NAMES: Final = re.compile(r"^!(procedures|functions|types|values) (.*)$", re.MULTILINE)
 _MARKS: Final = frozenset(
     (
@@ -65,6 +71,8 @@ _MARKS: Final = frozenset(
     )
 )
 _READ_ONLY: Final = re.compile(r"^!readonly (.*)$", re.MULTILINE)
+_WRITABLE: Final = re.compile(r"^!writable (.*)$", re.MULTILINE)
+_NEWER: Final = re.compile(r"^!newer (\w+) (.*)$", re.MULTILINE)
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,6 +110,8 @@ class PredefinedRecord:
 
     name: str
     components: tuple[tuple[str, str], ...]
+    newer: int = 0
+    """So many of the last components are missing in values that older releases saved."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -124,10 +134,18 @@ def _read(name: str) -> str:
 
 
 @cache
+def _themes() -> tuple[str, ...]:
+    """The files with routines; one of a family has its types and data, too."""
+    found = (files("rapidgen.rapid") / "builtins").iterdir()
+    names = sorted(file.name for file in found if file.name.endswith(".rapid"))
+    return tuple(n for name in names if (n := name.removesuffix(".rapid")) not in _WITHOUT_ROUTINES)
+
+
+@cache
 def _headers() -> dict[str, tuple[str, str | None, str, str | None]]:
     """Lower-case name to (name, type, parameters as text, marks)."""
     found: dict[str, tuple[str, str | None, str, str | None]] = {}
-    for file in _ROUTINE_FILES:
+    for file in _themes():
         for _, type_name, name, parameters, marks in _HEADER.findall(_read(file)):
             found[name.lower()] = (name, type_name or None, parameters, marks or None)
     return found
@@ -202,6 +220,12 @@ class _Types:
     records: Mapping[str, PredefinedRecord]
 
 
+@cache
+def _declared() -> str:
+    """What the files of families declare beside their routines."""
+    return "\n".join(found for name in _themes() for found in _DECLARATION.findall(_read(name)))
+
+
 def _declarations(text: str) -> list[RecordDeclaration | AliasDeclaration | DataDeclaration]:
     tokens = lexer.tokenize(
         f"MODULE builtins\n{text}\nENDMODULE", "<builtins>", "utf-8", radix=False
@@ -214,11 +238,12 @@ def _declarations(text: str) -> list[RecordDeclaration | AliasDeclaration | Data
 
 @cache
 def _types() -> _Types:
-    text = _read("types")
+    text = _read("types") + _declared()
     classes: dict[str, TypeClass] = {}
     names: dict[str, str] = {}
     aliases: dict[str, str] = {}
     records: dict[str, PredefinedRecord] = {}
+    newer = {name: len(listed.split()) for name, listed in _NEWER.findall(text)}
     for kind, listed in _CLASSES.findall(text):
         for name in listed.split():
             classes[name] = kind
@@ -231,7 +256,7 @@ def _types() -> _Types:
             aliases[key] = declaration.type
         elif isinstance(declaration, RecordDeclaration):
             components = tuple((c.type, c.name) for c in declaration.components)
-            records[key] = PredefinedRecord(declaration.name, components)
+            records[key] = PredefinedRecord(declaration.name, components, newer.get(key, 0))
     return _Types(classes, names, aliases, records)
 
 
@@ -269,12 +294,15 @@ def records() -> Mapping[str, PredefinedRecord]:
 def predefined() -> Mapping[str, Predefined]:
     """All predefined constants, persistents and variables by lower-case name."""
     found: dict[str, Predefined] = {}
-    text = _read("constants") + _read("data")
-    read_only = {name for names in _READ_ONLY.findall(text) for name in names.split()}
+    text = _read("constants") + _read("data") + _declared()
+    read_only, writable = (
+        {name for names in listed.findall(text) for name in names.split()}
+        for listed in (_READ_ONLY, _WRITABLE)
+    )
     for d in _declarations(text):
         if isinstance(d, DataDeclaration):
             value = None if d.initial is None else _value(d.initial)
-            readonly = d.kind == "CONST" or d.name in read_only
+            readonly = d.name not in writable if d.kind == "CONST" else d.name in read_only
             found[d.name.lower()] = Predefined(d.name, d.kind, d.type, value, readonly)
     return MappingProxyType(found)
 

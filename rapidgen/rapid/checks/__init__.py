@@ -1,11 +1,10 @@
 """The checker: what a program means, as far as that is known before it runs.
 
 `check` takes a module, modules that belong together, or a `System`. What is unknown is judged
-by what was given: see `given.Extent`.
+by what was given: see `given.Given`.
 """
 
 from collections.abc import Collection, Iterable, Iterator, Sequence
-from dataclasses import replace
 
 from rapidgen.diagnostics import Diagnostic, Severity, Span, error
 from rapidgen.rapid.binding import (
@@ -18,7 +17,7 @@ from rapidgen.rapid.binding import (
 )
 from rapidgen.rapid.checks.declarations import check_module
 from rapidgen.rapid.checks.findings import Findings
-from rapidgen.rapid.checks.given import Extent, Given
+from rapidgen.rapid.checks.given import Given
 from rapidgen.rapid.dialect import Dialect
 from rapidgen.rapid.syntax.nodes import Module
 from rapidgen.rapid.syntax.parser import parse
@@ -42,18 +41,14 @@ def check(
     *,
     dialect: Dialect | None = None,
     path: str | None = None,
-    whole_task: bool = False,
     gaps: bool = False,
     elsewhere: Collection[str] = frozenset(),
 ) -> list[Diagnostic]:
     """Everything wrong with a text, a module, modules that belong together, or a system.
 
-    A text or one module is judged as a lone file: what it does not declare may be anywhere.
-    An iterable of modules is a folder; where it has an entry routine `main`, routines and types
-    must be in it. With `whole_task` they are all modules of one task (or of several), and only
-    what the configuration installs may be unknown. `gaps` says that something is missing that
-    a name could come from; `elsewhere` are lower-case names that are declared in modules which
-    were given too, but do not belong to these. A system's own RobotWare decides unless
+    What modules do not declare may be anywhere; `elsewhere` are lower-case names that other
+    modules declare which were given too. A system declares everything, unless `gaps` says that
+    something is missing that a name could come from. A system's own RobotWare decides unless
     `dialect` is given. Findings of the parser are included. Sorted by place.
     """
     if isinstance(given, System):
@@ -62,18 +57,12 @@ def check(
     if isinstance(given, str | bytes):
         given = parse(given, path=path, dialect=dialect)
     if isinstance(given, Module):
-        return _check_modules([given], Given(dialect, Extent.FILE, gaps))
-    modules = list(given)
-    extent = Extent.TASK if whole_task else Extent.FOLDER
-    if not whole_task and not any(r.name.lower() == "main" for m in modules for r in m.routines):
-        gaps = True
-    return _check_modules(modules, Given(dialect, extent, gaps, elsewhere))
+        given = [given]
+    return _check_modules(list(given), Given(dialect, elsewhere=elsewhere))
 
 
 def _check_modules(modules: Sequence[Module], given: Given) -> list[Diagnostic]:
     """Modules of one folder: they may belong to several tasks, so equal names do not clash."""
-    if _any_unreadable(modules) or _loads(modules):
-        given = replace(given, gaps=True)
     task = TaskScope()
     scopes = [task.add(module) for module in modules]
     for clash in task.clashes:
@@ -82,9 +71,12 @@ def _check_modules(modules: Sequence[Module], given: Given) -> list[Diagnostic]:
 
 
 def _check_module(
-    scope: ModuleScope, given: Given, clashes: Sequence[tuple[Symbol, Symbol]] = ()
+    scope: ModuleScope,
+    given: Given,
+    clashes: Sequence[tuple[Symbol, Symbol]] = (),
+    entry: str = "",
 ) -> list[Diagnostic]:
-    """One module; `clashes` are those with other modules of its task."""
+    """One module; `clashes` are those with other modules of its task, which starts in `entry`."""
     findings = Findings(scope, given)
     for first, second in scope.clashes:
         _clash(findings, first, second, "in this module")
@@ -93,19 +85,23 @@ def _check_module(
         check_module(findings)
     for first, second in clashes:
         if second.module is scope:
-            _clash(findings, first, second, "in this task")
+            _clash(findings, first, second, "in this task", entry)
     return [*diagnostics, *findings.found]
 
 
-def _clash(findings: Findings, first: Symbol, second: Symbol, where: str) -> None:
+def _clash(findings: Findings, first: Symbol, second: Symbol, where: str, entry: str = "") -> None:
     named = isinstance(second, DataSymbol | RoutineSymbol)
     head = second.node.first if second.node is not None else 0
+    # RobotWare 7.21 loads such modules: "Global routine name main ambiguous" comes at the start.
+    starts = second.name.lower() == entry.lower() and isinstance(second, RoutineSymbol)
+    notes = ("only the start of this task is refused",) if starts else ()
     findings.report(
         "RG305",
         f"'{second.name}' is declared twice {where}",
         second.token if named else head,
-        notes=("objects of one scope differ in name [K §2.12, 9.1]",),
+        notes=("objects of one scope differ in name [K §2.12, 9.1]", *notes),
         related=findings.declared(first),
+        severity=Severity.WARNING if starts else Severity.ERROR,
     )
 
 
@@ -126,9 +122,9 @@ def _check_system(system: System, dialect: Dialect, gaps: bool) -> list[Diagnost
                 module = parsed[key] = parse(file.data, path=file.path, dialect=dialect)
             scopes.append(task.add(module, installed=file.installed or file.shared))
         modules = [scope.tree for scope in scopes]
-        given = Given(dialect, Extent.SYSTEM, gaps or _loads(modules) or _any_unreadable(modules))
+        given = Given(dialect, True, gaps or _loads(modules) or _any_unreadable(modules))
         for scope in scopes:
-            found += _check_module(scope, given, task.clashes)
+            found += _check_module(scope, given, task.clashes, spec.entry)
         found += _entry(spec, task, given)
     return _sorted(dict.fromkeys(found))  # a module may be in several tasks
 

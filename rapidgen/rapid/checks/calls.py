@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Final
 
+from rapidgen.diagnostics import Severity
 from rapidgen.rapid.binding import (
     DataSymbol,
     Misfit,
@@ -19,6 +20,7 @@ from rapidgen.rapid.binding import (
 )
 from rapidgen.rapid.binding.names import called
 from rapidgen.rapid.binding.types import array
+from rapidgen.rapid.builtins.signatures import Version
 from rapidgen.rapid.checks.findings import Findings
 from rapidgen.rapid.checks.given import closest
 from rapidgen.rapid.syntax.nodes import (
@@ -28,6 +30,7 @@ from rapidgen.rapid.syntax.nodes import (
     LateCall,
     Member,
     Name,
+    Node,
     Parameter,
     Placeholder,
     ProcedureCall,
@@ -38,6 +41,8 @@ if TYPE_CHECKING:
     from rapidgen.rapid.checks.typing import TypeChecker
 
 _Call = FunctionCall | ProcedureCall | LateCall
+_ANY_MINOR: Final = 99
+"""Minor release that stands for a whole line of them."""
 _RAW_BYTES: Final = 1024
 """Bytes of a rawbytes."""
 _MODES: Final = {
@@ -61,8 +66,7 @@ class CallChecker:
         findings = self.findings
         symbol = called(findings.find(node.name))
         if symbol is None:
-            certain = findings.given.judges_routines
-            findings.unknown("procedure", node.name, node.first, certain=certain)
+            findings.unknown("procedure", node.name, node.first)
             self.loose_arguments(node.arguments)
             return
         if isinstance(symbol, RoutineSymbol) and symbol.kind == "PROC":
@@ -96,8 +100,11 @@ class CallChecker:
         self._version(symbol, node)
         arguments = _up_to_placeholder(node.arguments)
         found = match(parameters, arguments, lambda a, these: self._fitting(parameters, a, these))
+        surplus = False
         for pair in found.pairs:
-            if pair.misfits:
+            again = surplus and Misfit.SURPLUS in pair.misfits
+            surplus = surplus or Misfit.SURPLUS in pair.misfits
+            if pair.misfits and not again:  # one argument too many says it all
                 self._misfits(symbol, parameters, pair)
             if pair.parameter < 0:
                 self.loose_arguments([pair.argument])
@@ -117,30 +124,35 @@ class CallChecker:
         signature = symbol.signature
         if signature is None:
             return
-        robotware = self.findings.given.dialect.robotware
-        since, until = signature.since, signature.until
-        if since is not None and robotware < since:
-            self.report(
-                "RG325",
-                f"{symbol.name} came with RobotWare {since[0]}.{since[1]}",
-                node.first,
-                help=f"this is checked for {robotware[0]}.{robotware[1]}; see --robotware",
-            )
-        if until is not None and robotware >= until:
-            self.report(
-                "RG325", f"{symbol.name} went with RobotWare {until[0]}.{until[1]}", node.first
-            )
+        self._release(symbol.name, signature.since, signature.until, node.first)
         for argument in node.arguments:
             name = argument.name or ""
             came = signature.argument_version("came", name)
             went = signature.argument_version("went", name)
-            if came is not None and robotware < came:
-                what = f"came with RobotWare {came[0]}.{came[1]}"
-            elif went is not None and robotware >= went:
-                what = f"went with RobotWare {went[0]}.{went[1]}"
-            else:
-                continue
-            self.report("RG325", f"\\{name} of {symbol.name} {what}", argument)
+            self._release(f"\\{name} of {symbol.name}", came, went, argument)
+
+    def _release(
+        self, what: str, since: Version | None, until: Version | None, node: Node | int
+    ) -> None:
+        """Say what the release lacks: a fault, or a note where the release is not told."""
+        dialect = self.findings.given.dialect
+        if since is not None and dialect.robotware < since:
+            message = f"{what} came with RobotWare {since[0]}.{since[1]}"
+        elif until is not None and dialect.robotware >= until:
+            message = f"{what} went with RobotWare {until[0]}.{until[1]}"
+        else:
+            return
+        major, minor = dialect.robotware
+        shown = f"{major}" if minor >= _ANY_MINOR else f"{major}.{minor:02d}"
+        self.report(
+            "RG325",
+            message,
+            node,
+            help=f"this is checked for RobotWare {shown}"
+            if dialect.told
+            else "say for which RobotWare this is: --robotware",
+            severity=Severity.ERROR if dialect.told else Severity.INFO,
+        )
 
     def _fitting(
         self, parameters: Sequence[Parameter], argument: Argument, these: Sequence[int]
@@ -255,11 +267,10 @@ class CallChecker:
             )
             return
         found = self.types.datum(value, wanted)
-        self._mode(parameter, argument, value)
-        if found is None or wanted is None or base == "anytype":
-            return
-        if found != wanted:
-            self.types.mismatch(value, wanted, found, place)
+        if base != "anytype" and None not in (found, wanted) and found != wanted:
+            self.types.mismatch(value, wanted or "", found or "", place)
+        else:
+            self._mode(parameter, argument, value)
 
     def _mode(self, parameter: Parameter, argument: Argument, value: Name | Index | Member) -> None:
         datum = root(value, self.findings.here)

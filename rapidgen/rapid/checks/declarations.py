@@ -2,6 +2,7 @@
 
 from typing import Final
 
+from rapidgen.diagnostics import Severity
 from rapidgen.rapid.binding import DataSymbol, RoutineScope, Symbol, TypeSymbol
 from rapidgen.rapid.binding.names import datum_symbol, parameter_symbol
 from rapidgen.rapid.binding.types import array
@@ -60,12 +61,13 @@ class _ModuleChecker:
             elif isinstance(declaration, AliasDeclaration):
                 self._alias(declaration)
         self._unused_local()
+        self.findings.tell_elsewhere()
 
     def _type(self, name: str, at: int) -> str | None:
         """Base of a declared type; reports a name that is no type."""
         symbol = self.findings.find(name)
         if symbol is None:
-            self.findings.unknown("type", name, at, certain=self.findings.given.judges_routines)
+            self.findings.unknown("type", name, at)
             return None
         if not isinstance(symbol, TypeSymbol) or symbol.name == "anytype":
             self.report(
@@ -324,13 +326,15 @@ class _ModuleChecker:
                 node.name_token,
                 help=f"return a value of type {node.type}",
                 notes=("without RETURN a call ends in ERR_FNCNORET [K §5.4, 12]",),
+                severity=Severity.WARNING,
             )
         else:
-            self.warn(
+            self.report(
                 "RG322",
-                f"the end of the function '{node.name}' can be reached without RETURN",
+                f"the end of the function '{node.name}' can perhaps be reached without RETURN",
                 node.name_token,
-                help=f"return a value of type {node.type} on every way",
+                notes=("a call that does so ends in ERR_FNCNORET [K §5.4, 12]",),
+                severity=Severity.INFO,
             )
 
     def _unused_local(self) -> None:

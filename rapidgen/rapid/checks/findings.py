@@ -1,6 +1,7 @@
 """Findings of the checker: places, severities, and what is said about unknown names."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
+from dataclasses import replace
 from typing import Final, Literal
 
 from rapidgen.diagnostics import Diagnostic, Label, Severity, error
@@ -28,6 +29,19 @@ _ROLES: Final[dict[str, tuple[str, frozenset[str], _Options]]] = {
     "datum": ("RG302", DATA, "values"),
 }
 """Code, kinds of symbols that fit, and the names of options that may be there or not."""
+_MAY_COME: Final = {
+    "RG301": "another module may bring them, or an option or add-in of RobotWare",
+    "RG302": "they may be signals or mechanical units of the configuration, or data of another"
+    " module",
+    "RG303": "another module may bring them, or an option or add-in of RobotWare",
+}
+"""What may bring a name that nothing at hand declares."""
+HARDWARE: Final = frozenset(
+    ("signaldi", "signaldo", "signalgi", "signalgo", "signalai", "signalao", "mecunit", "taskid")
+)
+"""Types whose objects the configuration installs."""
+_LISTED: Final = 8
+"""Unknown names that a note shows."""
 
 
 class Findings:
@@ -41,6 +55,8 @@ class Findings:
         self.used: set[Symbol] = set()
         self.found: list[Diagnostic] = []
         self._unknown: set[tuple[str, str]] = set()
+        self._elsewhere: dict[str, list[tuple[str, Node | int]]] = {}
+        """Names that may be declared elsewhere, with their type where it is known, by code."""
 
     def report(
         self,
@@ -76,6 +92,17 @@ class Findings:
         """Add a warning."""
         self.report(code, message, node, label=label, help=help, severity=Severity.WARNING)
 
+    def doubted(self, judge: Callable[[], None], note: str) -> None:
+        """Add as warnings what is found in addition: faults that only execution meets."""
+        mark = len(self.found)
+        judge()
+        known, more = self.found[:mark], self.found[mark:]
+        self.found = known + [
+            replace(d, severity=Severity.WARNING, notes=(note,))
+            for d in more
+            if not any(d.code == k.code and d.span == k.span for k in known)
+        ]
+
     def find(self, name: str) -> Symbol | None:
         """What a name means here; it counts as used."""
         symbol = self.here.find(name)
@@ -99,10 +126,11 @@ class Findings:
             return ()
         return (Label(source.span(at, at), f"'{symbol.name}' is declared here"),)
 
-    def unknown(self, role: str, name: str, node: Node | int, *, certain: bool) -> None:
-        """A name that nothing declares: an error where it is `certain` that nothing can.
+    def unknown(self, role: str, name: str, node: Node | int, wanted: str | None = None) -> None:
+        """A name that nothing declares: an error where it is certain that nothing can.
 
-        Elsewhere only a name that looks like a slip is worth a warning. Once a name.
+        Elsewhere a name that looks like a slip is worth a warning, any other one a place in the
+        module's note (`tell_elsewhere`). `wanted` is the type of a datum. Once a name.
         """
         code, kinds, options = _ROLES[role]
         key = (role, name.lower())
@@ -113,10 +141,27 @@ class Findings:
         self._unknown.add(key)
         likely = closest(name, self._candidates(kinds))
         help = f"did you mean '{likely}'?" if likely else ""
-        if certain:
+        if self.given.knows_all and wanted != "mecunit":
             self.report(code, f"there is no {role} '{name}'", node, label="not declared", help=help)
-        elif likely or self.given.judges_routines:
+        elif likely and wanted not in HARDWARE:
             self.warn(code, f"no {role} '{name}' is declared here or built in", node, help=help)
+        else:
+            known = role if role in ("function", "trap") else wanted
+            told = f"{name} ({known})" if known not in (None, "anytype") else name
+            self._elsewhere.setdefault(code, []).append((told, node))
+
+    def tell_elsewhere(self) -> None:
+        """Notes of the names that other modules, the configuration or an option may bring."""
+        for code, names in self._elsewhere.items():
+            listed = [name for name, _ in names]
+            more = f" and {len(listed) - _LISTED} more" if len(listed) > _LISTED else ""
+            self.report(
+                code,
+                f"not declared here: {', '.join(listed[:_LISTED])}{more}",
+                names[0][1],
+                notes=(_MAY_COME[code],),
+                severity=Severity.INFO,
+            )
 
     def _candidates(self, kinds: frozenset[str]) -> Iterable[str]:
         task = self.module.task

@@ -6,6 +6,7 @@ Each statement function says whether execution can go on behind the statement.
 from collections.abc import Callable, Sequence
 from typing import Final, cast
 
+from rapidgen.diagnostics import Severity
 from rapidgen.rapid.binding import DataSymbol, RoutineScope, RoutineSymbol, Symbol
 from rapidgen.rapid.binding.types import AGGREGATE, degree
 from rapidgen.rapid.builtins import signatures
@@ -110,7 +111,7 @@ class FlowChecker:
         return "robtarget" if isinstance(node.value, Aggregate) else None
 
     def _writable(self, target: Expression, root: Symbol) -> None:
-        if root.kind == "CONST":
+        if root.kind == "CONST" and isinstance(root, DataSymbol) and root.readonly:
             why = f"'{root.name}' is a constant"
         elif root.kind == "LOOP":
             why = f"the loop variable '{root.name}' is read-only"
@@ -137,11 +138,15 @@ class FlowChecker:
         known = name.removeprefix(":") if isinstance(name, str) else ""
         symbol = self.findings.find(known) if known and ":" not in known else None
         if isinstance(symbol, RoutineSymbol) and symbol.kind == "PROC":
-            self.calls.check_arguments(symbol, node)
+            self.calls.loose_arguments(node.arguments)
+            self.findings.doubted(
+                lambda: self.calls.check_arguments(symbol, node),
+                "the call ends in ERR_CALLPROC when it is reached [K §4.5]",
+            )
             return True
         if symbol is not None:
             self.warn("RG306", f"'{symbol.name}' is no procedure", node.procedure)
-        elif known and ":" not in known and self.findings.given.judges_routines:
+        elif known and ":" not in known and self.findings.given.knows_all:
             self.warn(
                 "RG301",
                 f"there is no procedure '{known}'",
@@ -195,12 +200,13 @@ class FlowChecker:
         else:
             self.types.expect(node.number, "num", "the error number")
             if self.part == "ERROR":
-                # K forbids it, public programs do it: not an error here.
-                self.warn(
+                # ABB's own modules for RobotWare 7 do it: no error, no fault.
+                self.report(
                     "RG321",
-                    "RAISE with a number does not belong in a handler [K §4.8]",
+                    "RAISE with a number in a handler gives the caller that error",
                     node,
-                    help="RAISE; hands the same error on",
+                    notes=("[K §4.8] has it in bodies only; controllers load and execute it",),
+                    severity=Severity.INFO,
                 )
             value = self.types.constant(node.number)
             if (
@@ -255,9 +261,7 @@ class FlowChecker:
                 )
         trap = self.findings.find(node.trap)
         if trap is None:
-            self.findings.unknown(
-                "trap", node.trap, node.last - 1, certain=self.findings.given.judges_routines
-            )
+            self.findings.unknown("trap", node.trap, node.last - 1)
         elif trap.kind != "TRAP":
             self.report(
                 "RG306", f"'{trap.name}' is no trap", node.last - 1, related=self.declared(trap)

@@ -2,7 +2,6 @@
 
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass
-from enum import IntEnum
 from typing import Final
 
 from rapidgen.rapid.dialect import Dialect
@@ -11,38 +10,23 @@ _SHORT: Final = 3
 _LONG: Final = 7
 
 
-class Extent(IntEnum):
-    """How much of a controller is there to be judged."""
-
-    FILE = 0
-    """One module: its siblings and the configuration are not known."""
-    FOLDER = 1
-    """Modules with an entry routine: routines and types are known, data may lie elsewhere."""
-    TASK = 2
-    """All modules of a task: only what the configuration installs may be unknown."""
-    SYSTEM = 3
-    """A whole system with its configuration."""
-
-
 @dataclass(frozen=True, slots=True)
 class Given:
-    """Dialect and extent. `gaps` is set where parts of a task are not there to be read."""
+    """Dialect and extent."""
 
     dialect: Dialect
-    extent: Extent
+    system: bool = False
+    """A task of a system with its configuration. Else modules: what they do not declare may lie
+    elsewhere, and hide what is predefined."""
     gaps: bool = False
+    """Parts of the task are not there to be read."""
     elsewhere: Collection[str] = ()
     """Lower-case names that modules of other tasks declare: not known here, nor unknown."""
 
     @property
-    def judges_routines(self) -> bool:
-        """Whether an unknown routine or type is an error."""
-        return self.extent >= Extent.FOLDER and not self.gaps
-
-    @property
-    def judges_data(self) -> bool:
-        """Whether an unknown datum is an error wherever it stands."""
-        return self.extent == Extent.SYSTEM and not self.gaps
+    def knows_all(self) -> bool:
+        """Whether nothing else can declare a name: then an unknown one is an error."""
+        return self.system and not self.gaps
 
 
 def closest(word: str, known: Iterable[str]) -> str:

@@ -8,7 +8,16 @@ from collections.abc import Callable, Sequence
 from typing import Final, cast
 
 from rapidgen.diagnostics import Severity
-from rapidgen.rapid.binding import DATA, DataSymbol, RoutineSymbol, Symbol, constant, root, sizes_of
+from rapidgen.rapid.binding import (
+    DATA,
+    DataSymbol,
+    RoutineSymbol,
+    Symbol,
+    TypeSymbol,
+    constant,
+    root,
+    sizes_of,
+)
 from rapidgen.rapid.binding.names import called
 from rapidgen.rapid.binding.types import (
     AGGREGATE,
@@ -27,7 +36,7 @@ from rapidgen.rapid.binding.types import (
 from rapidgen.rapid.builtins.signatures import Value
 from rapidgen.rapid.checks.calls import CallChecker
 from rapidgen.rapid.checks.findings import Findings
-from rapidgen.rapid.checks.given import Extent, closest
+from rapidgen.rapid.checks.given import closest
 from rapidgen.rapid.numbers import MAX_STRING, is_exact_single, is_single
 from rapidgen.rapid.syntax.nodes import (
     Aggregate,
@@ -48,10 +57,6 @@ from rapidgen.rapid.syntax.nodes import (
 )
 
 _MAX_DEPTH: Final = 50
-_HARDWARE: Final = frozenset(
-    ("signaldi", "signaldo", "signalgi", "signalgo", "signalai", "signalao", "mecunit", "taskid")
-)
-"""Types whose objects the configuration installs."""
 
 
 class TypeChecker:
@@ -128,9 +133,7 @@ class TypeChecker:
     def _call(self, node: FunctionCall) -> str | None:
         symbol = called(self.findings.find(node.name))
         if symbol is None:
-            self.findings.unknown(
-                "function", node.name, node.first, certain=self.findings.given.judges_routines
-            )
+            self.findings.unknown("function", node.name, node.first)
             self.calls.loose_arguments(node.arguments)
             return None
         if not isinstance(symbol, RoutineSymbol) or symbol.kind != "FUNC":
@@ -167,7 +170,7 @@ class TypeChecker:
                 self._unknown_datum(node, wanted)
                 return None
             if symbol.kind not in DATA:
-                self._no_datum(symbol, node)
+                self._no_datum(symbol, node, wanted)
                 return None
             return self.findings.module.type_of(symbol)
         if isinstance(node, Index):
@@ -193,21 +196,18 @@ class TypeChecker:
         return components[node.component.lower()]
 
     def _unknown_datum(self, node: Name, wanted: str | None) -> None:
-        given = self.findings.given
-        certain = given.judges_data and wanted != "mecunit"
-        if given.extent == Extent.TASK and not given.gaps and wanted not in _HARDWARE:
-            certain = wanted is not None and wanted not in ("num", "dnum", "anytype")
-        if wanted in _HARDWARE and not given.judges_data:
-            return
-        self.findings.unknown("datum", node.name, node, certain=certain)
+        self.findings.unknown("datum", node.name, node, wanted)
 
-    def _no_datum(self, symbol: Symbol, node: Name) -> None:
+    def _no_datum(self, symbol: Symbol, node: Name, wanted: str | None) -> None:
+        if symbol.module is None and isinstance(symbol, TypeSymbol) and self._may_be_hidden:
+            self._unknown_datum(node, wanted)  # WaitDI SENSOR, 1;
+            return
         help = ""
         if symbol.kind == "FUNC":
             help = f"a function is called with parentheses: {symbol.name}()"
         # A module that is not here may declare a datum that hides the built-in routine.
         hidden = isinstance(symbol, RoutineSymbol) and symbol.node is None
-        hidden = hidden and self.findings.given.extent < Extent.TASK
+        hidden = hidden and self._may_be_hidden
         self.report(
             "RG306",
             f"'{symbol.name}' is no datum",
@@ -217,6 +217,12 @@ class TypeChecker:
             related=self.declared(symbol),
             severity=Severity.WARNING if hidden else Severity.ERROR,
         )
+
+    @property
+    def _may_be_hidden(self) -> bool:
+        """Whether something that is not here, as a signal, may have the name of a predefined
+        object."""
+        return not self.findings.given.system
 
     def _indexed(self, node: Index) -> str | None:
         for index in node.indices:
@@ -449,7 +455,7 @@ class TypeChecker:
                     "RG330", f"{place} is an aggregate, but {wanted} has no components", node
                 )
             return
-        if len(members) != len(components):
+        if not self.findings.module.takes(wanted, len(members)):
             names = ", ".join(components)
             self.report(
                 "RG330",
@@ -459,7 +465,7 @@ class TypeChecker:
                 notes=("an aggregate has a member for each component [K §3.9]",),
             )
             return
-        for member, (name, type_name) in zip(members, components.items(), strict=True):
+        for member, (name, type_name) in zip(members, components.items(), strict=False):
             if type(member) is NumberLiteral and type_name == "num":
                 if member.value > 8_388_608:
                     self._single(member)

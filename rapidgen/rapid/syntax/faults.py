@@ -85,7 +85,7 @@ def met(source: Source, kinds: Sequence[str], at: int) -> str:
         return lexer.EOF
     text = source.tokens[at]
     shown = text if len(text) <= 40 else text[:37] + "..."
-    return f"'{shown}'"
+    return f"'{shown}'" if len(text) > 1 or text.isascii() else f"'{shown}' (U+{ord(text):04X})"
 
 
 def still_open(source: Source, blocks: Sequence[Block]) -> tuple[tuple[Label, ...], str]:
@@ -118,11 +118,17 @@ def unexpected(
         "RG201",
         span,
         f"met {met(source, kinds, at)}, expected {expected}",
-        help,
+        help or _mend(expected),
         label=f"expected {expected}",
         notes=(note,) if note else (),
         related=related,
     )
+
+
+def _mend(expected: str) -> str:
+    if "';'" in expected:
+        return "a statement or declaration ends with ';': perhaps the one before has none"
+    return f"write {expected} here, or take out what stands here"
 
 
 def unclosed(

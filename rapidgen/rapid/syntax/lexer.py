@@ -5,7 +5,7 @@ younger than K and known from public code. Each distinct spelling is classified 
 """
 
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from typing import Final
 
 from rapidgen.rapid.syntax.scan import HEADER, LEAD, TOKENS
@@ -91,6 +91,10 @@ class Tokens:
     source: Source
     kinds: list[str]
     spellings: Kinds
+    blanks: list[int] = field(default_factory=list)
+    """Offsets of characters that nobody sees and RAPID does not have; they were read as blanks."""
+    unread: str = ""
+    """The text with them."""
 
 
 def decode(data: bytes) -> tuple[str, Encoding]:
@@ -117,6 +121,14 @@ def tokenize(text: str, path: str, encoding: Encoding, *, radix: bool) -> Tokens
     source = Source(text, path, encoding, text[:start], found)
     spellings = Kinds()
     kinds = list(map(spellings.__getitem__, source.tokens))
+    unseen = {t for t, k in spellings.items() if k is BAD_CHARACTER and not t.isprintable()}
+    if unseen:
+        places = [at for at, t in zip(source.starts, found, strict=True) if t in unseen]
+        letters = list(text)
+        for at in places:
+            letters[at] = " "
+        again = tokenize("".join(letters), path, encoding, radix=radix)
+        return replace(again, blanks=places, unread=text)
     if radix and BAD_RADIX in spellings.values():
         kinds = [NUMBER if kind is BAD_RADIX else kind for kind in kinds]
     kinds += (EOF, EOF, EOF, EOF)

@@ -16,11 +16,18 @@ from rapidgen.rapid.syntax.lexer import (
     Tokens,
     number_value,
 )
+from rapidgen.rapid.syntax.nodes import Module
 from rapidgen.rapid.syntax.source import Source
 
 MAX_BYTES: Final = 8_000_000
 _HEAD: Final = 4096
 _BINARY: Final = re.compile(r"[\x00-\x08\x0e-\x1f]")
+_CONTROLS, _ONE_IN = 2, 1000
+"""Control characters that a text may have: so many, and one in so many characters."""
+_TELLING: Final = frozenset(
+    ["ENDMODULE", "PROC", "ENDPROC", "ENDFUNC", "TRAP", "ENDTRAP", "PERS", "CONST"]
+)
+"""Words that only RAPID has."""
 _ENCODED: Final = b"\xfc\xfe"
 """First byte of encoded modules in public backups [code]."""
 _UTF16: Final = (b"\xff\xfe", b"\xfe\xff")
@@ -40,15 +47,16 @@ def refuse(source: str | bytes, path: str) -> Diagnostic | None:
         return error("RG208", span, "the file is empty", "a module is MODULE name ... ENDMODULE")
     if isinstance(source, bytes) and source.startswith(_UTF16):
         return error("RG218", span, "the file is UTF-16 text", "save it as UTF-8 or Latin-1")
-    # Binary files show it early, or have a zero byte somewhere; other control characters in
-    # the midst of a text are errors of their own places.
-    if isinstance(source, bytes):
-        binary = b"\0" in source or bool(_BINARY.search(source[:_HEAD].decode("latin-1")))
-    else:
-        binary = "\0" in source or bool(_BINARY.search(source[:_HEAD]))
-    if not binary:
+    # Binary files show it early, or have many zero bytes; a few control characters in a text are
+    # errors of their own places.
+    head = source[:_HEAD].decode("latin-1") if isinstance(source, bytes) else source[:_HEAD]
+    zeros = source.count(b"\0") if isinstance(source, bytes) else source.count("\0")
+    controls = len(_BINARY.findall(head))
+    encoded = isinstance(source, bytes) and source[0] in _ENCODED and controls > 0
+    few = _CONTROLS + len(head) // _ONE_IN
+    if not encoded and controls <= few and zeros <= _CONTROLS + len(source) // _ONE_IN:
         return None
-    if isinstance(source, bytes) and source[0] in _ENCODED:
+    if encoded:
         return error(
             "RG219",
             span,
@@ -77,9 +85,29 @@ def no_module(source: Source, kinds: Sequence[str]) -> Diagnostic:
     )
 
 
+def is_rapid(module: Module) -> bool:
+    """Whether a text looks like RAPID at all: other languages have files named .mod, too."""
+    return any(t.upper() in _TELLING for t in module.source.tokens)
+
+
+def _unseen(tokens: Tokens) -> Diagnostic:
+    """Characters that look like nothing, or like a blank: told once."""
+    source, places = tokens.source, tokens.blanks
+    named = sorted({f"U+{ord(tokens.unread[at]):04X}" for at in places})
+    line, column = source.position(places[0])
+    more = f", in {len(places)} places" if len(places) > 1 else ""
+    return error(
+        "RG204",
+        Span(source.path, line, column),
+        f"this character has no meaning in RAPID: {' and '.join(named[:3])}{more}",
+        "put a blank in its place",
+        notes=("nobody sees it: it looks like a blank, or like nothing",),
+    )
+
+
 def spellings(tokens: Tokens) -> list[Diagnostic]:
     """Names too long, strings with a tab, numbers beyond any type: each at its first place."""
-    found = []
+    found = [_unseen(tokens)] if tokens.blanks else []
     folded = set()
     for text, kind in tokens.spellings.items():
         if kind in (NUMBER, BAD_RADIX) and isinf(number_value(text)):

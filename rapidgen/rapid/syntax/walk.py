@@ -1,7 +1,7 @@
 """Going through a tree without knowing each kind of node."""
 
 from collections.abc import Iterator
-from typing import Final
+from typing import Final, get_args
 
 from rapidgen.rapid.syntax import nodes
 from rapidgen.rapid.syntax.nodes import Node
@@ -52,6 +52,7 @@ _CHILDREN: Final[dict[type, tuple[str, ...]]] = {
     nodes.Module: ("declarations",),
 }
 """Fields that hold a node, a list of nodes or None, in the order of the source."""
+_STATEMENTS: Final = get_args(nodes.Statement)
 
 
 def children(node: Node) -> list[Node]:
@@ -75,3 +76,11 @@ def walk(node: Node) -> Iterator[Node]:
         yield node
         if _CHILDREN[type(node)]:
             stack += reversed(children(node))
+
+
+def walk_own(node: Node) -> Iterator[Node]:
+    """A node and all nodes below it, but no statement inside another one."""
+    yield node
+    for child in children(node):
+        if not isinstance(child, _STATEMENTS):
+            yield from walk_own(child)

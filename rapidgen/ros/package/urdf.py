@@ -122,7 +122,7 @@ class _Drawer:
             self._joint(f"{child}_joint", "fixed", parent, child, step.xyz, step.rpy)
             return [child]
         # A passive joint may follow several: one mimicking joint for each, about one axis.
-        made = []
+        made: list[str] = []
         xyz, rpy = step.xyz, step.rpy
         for number, (followed, factor) in enumerate(step.follows, 1):
             link = f"{child}_{number}"

@@ -7,6 +7,7 @@ from rapidgen.runtime.errors import FIRST_BOOKED_ERROR, ExitCycle, FatalError, R
 from rapidgen.runtime.registry import builtin, builtins
 from rapidgen.runtime.task.errors import RETRIES, Errors
 from rapidgen.runtime.task.task import Task
+from rapidgen.runtime.text import value_text
 from rapidgen.runtime.values import Ref, Value
 
 POLL_RATE = 0.1
@@ -132,24 +133,42 @@ def wait_until(
     """
     if in_pos:
         wait_standing(task)
-    scheduler = task.scheduler
-    end = None if max_time is None else scheduler.now + round(max_time * 1e9)
+    end = None if max_time is None else task.scheduler.now + round(max_time * 1e9)
     rate = max(0.004, poll_rate if poll_rate is not None else POLL_RATE)
+    said = task.waits_for
+    if task.controller.io.on_awaited is not None:
+        for awaited in condition.signals():
+            task.controller.io.await_value(awaited)
+    try:
+        task.waits_for = lambda: _until(condition)
+        in_time = _hold(task, condition, end, rate)
+    finally:
+        task.waits_for = said
+    if not in_time and time_flag is None:
+        raise RapidError("ERR_WAIT_MAXTIME")
+    if time_flag is not None:
+        time_flag.set(not in_time)
+
+
+def _until(condition: Condition) -> str:
+    now = ", ".join(f"{name} is {value_text(value)}" for name, value in condition.reads())
+    return f"WaitUntil waits{'; ' if now else ' for good'}{now}"
+
+
+def _hold(task: Task, condition: Condition, end: int | None, rate: float) -> bool:
+    """Wait until the condition holds; False: `end` (ns) came first."""
+    scheduler = task.scheduler
     woken = task.controller.dialect.wait_until == "event" and bool(condition.watched)
     while not condition():
         left = None if end is None else (end - scheduler.now) / 1e9
         if left is not None and left <= 0:
-            if time_flag is None:
-                raise RapidError("ERR_WAIT_MAXTIME")
-            time_flag.set(True)
-            return
+            return False
         if woken:
             task.wait_for(condition, on=condition.watched, timeout=left)
         else:
             task.sleep(rate if left is None else min(rate, left))
         task.charge(condition.cost)
-    if time_flag is not None:
-        time_flag.set(False)
+    return True
 
 
 @builtin("TestAndSet")
@@ -166,7 +185,9 @@ def test_and_set(task: Task, flag: Ref) -> bool:
 def wait_test_and_set(task: Task, flag: Ref) -> None:
     """WaitTestAndSet: waits for FALSE, then sets TRUE in the same step."""
     watched = (flag.cell,) if flag.cell is not None else ()
-    task.wait_for(lambda: not flag.get(), on=watched)
+    task.wait_for(
+        lambda: not flag.get(), on=watched, why=lambda: "WaitTestAndSet waits for its flag"
+    )
     flag.set(True)
 
 

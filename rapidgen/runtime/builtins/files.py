@@ -232,26 +232,24 @@ def _line(file: IO[bytes], delimiters: bytes, *, skip: bool = False) -> str | No
 
 @builtin("ReadStr", cost="socket")
 def read_str(
-    _task: Task,
+    task: Task,
     device: IODevice,
     delimiters: str | None,
     remove_cr: bool | None,
     discard: bool | None,
     _time: float | None,
     line_number: float | None,
-    status: Ref | None,
 ) -> str:
-    r"""The next line, or the string EOF; \Status is then -1, else 0."""
+    """The next line, or the string EOF."""
     file = _reader(device)
-    ends = (delimiters or "\n").encode("latin-1")
+    alone = task.controller.dialect.delimiters == "alone"
+    ends = (delimiters + "\n" * (not alone) if delimiters else "\n").encode("latin-1")
     skipped: str | None = ""
     if line_number is not None:
         file.seek(0)
         for _ in range(1, whole(line_number, "ERR_ARGVALERR")):
             skipped = _line(file, ends)
     text = None if skipped is None else _line(file, ends, skip=bool(discard))
-    if status is not None:
-        status.set(-1 if text is None else 0)
     if text is None:
         return _EOF_TEXT
     return text.rstrip("\r") if remove_cr else text
@@ -366,15 +364,21 @@ def fs_size(
 
 
 @builtin("FileTime", cost="socket")
-def file_time(
+def file_time(task: Task, path: str, *parts: Value) -> float:
+    """Seconds since 1970; a num resolves 128 s today, \\StrDig every one."""
+    return single(file_time_dnum(task, path, *parts))
+
+
+@builtin("FileTimeDnum", cost="socket")
+def file_time_dnum(
     task: Task,
     path: str,
     _modify: bool | None,
     access: bool | None,
     status: bool | None,
     digits: Ref | None,
-) -> float:
-    """Seconds since 1970; a num resolves 128 s today, \\StrDig every one."""
+) -> int:
+    """Seconds since 1970."""
     found = _status(task, path)
     seconds = int(found.st_atime if access else found.st_ctime if status else found.st_mtime)
     if status and task.scheduler.clock == "virtual":
@@ -382,7 +386,7 @@ def file_time(
         seconds = int(found.st_mtime)
     if digits is not None:
         digits.set(str(seconds))
-    return single(seconds)
+    return seconds
 
 
 def _status(task: Task, path: str) -> os.stat_result:

@@ -6,7 +6,7 @@ Sources: [manual] S4 reference (dionum is 0 or 1, pulses invert, time-outs and \
 
 from collections.abc import Callable
 
-from rapidgen.machine.io import Signal
+from rapidgen.machine.io import Awaited, Relation, Signal
 from rapidgen.rapid.numbers import single
 from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.registry import builtin, builtins
@@ -148,6 +148,17 @@ def alias_io(task: Task, source: Ref | AnySignal, target: SignalAlias) -> None:
     target.target = found
 
 
+@builtin("GetSignalOrigin")
+def get_signal_origin(_task: Task, signal: AnySignal, name: Ref) -> int:
+    """Whether a signal is the configuration's (1), an alias of one (2), or none (0) [mem]; its
+    name there."""
+    if isinstance(signal, Signal):
+        name.set(signal.name)
+        return 1
+    name.set(signal.target.name if signal.target is not None else "")
+    return 2 if signal.target is not None else 0
+
+
 @builtin("AliasIOReset")
 def alias_io_reset(_task: Task, target: SignalAlias) -> None:
     """Take the connection of an alias away."""
@@ -160,13 +171,16 @@ def alias_io_reset(_task: Task, target: SignalAlias) -> None:
 
 def _wait(
     task: Task,
-    signal: Signal,
-    predicate: Callable[[], bool],
+    awaited: Awaited,
     max_time: float | None,
     time_flag: Ref | None = None,
     at_timeout: Ref | None = None,
 ) -> None:
-    there = task.wait_for(predicate, on=(signal.changed,), timeout=max_time)
+    signal = awaited.signal
+    task.controller.io.await_value(awaited)
+    there = task.wait_for(
+        awaited.holds, on=(signal.changed,), timeout=max_time, why=lambda: f"waits for {awaited}"
+    )
     if max_time is None:
         return
     if time_flag is not None:
@@ -187,8 +201,7 @@ def _wait_digital(name: str) -> None:
         time_flag: Ref | None,
         *_visual: object,
     ) -> None:
-        signal, wanted = target.signal, dionum(task, value)
-        _wait(task, signal, lambda: signal.value == wanted, max_time, time_flag)
+        _wait(task, Awaited(target.signal, "=", dionum(task, value)), max_time, time_flag)
 
 
 _wait_digital("WaitDI")
@@ -207,14 +220,8 @@ def _wait_analogue(name: str) -> None:
         at_timeout: Ref | None,
         *_visual: object,
     ) -> None:
-        signal = target.signal
-        _wait(
-            task,
-            signal,
-            _comparison(signal, value, less=less, greater=greater),
-            max_time,
-            at_timeout=at_timeout,
-        )
+        awaited = Awaited(target.signal, _relation(less=less, greater=greater), value)
+        _wait(task, awaited, max_time, at_timeout=at_timeout)
 
 
 _wait_analogue("WaitAI")
@@ -236,34 +243,18 @@ def _wait_group(name: str) -> None:
         dnum_at_timeout: Ref | None,
         *_visual: object,
     ) -> None:
-        signal = target.signal
         wanted = value if value is not None else dnum_value
         assert wanted is not None
-        _wait(
-            task,
-            signal,
-            _comparison(signal, wanted, different=different, less=less, greater=greater),
-            max_time,
-            at_timeout=at_timeout if at_timeout is not None else dnum_at_timeout,
-        )
+        relation = _relation(different=different, less=less, greater=greater)
+        place = at_timeout if at_timeout is not None else dnum_at_timeout
+        _wait(task, Awaited(target.signal, relation, wanted), max_time, at_timeout=place)
 
 
 _wait_group("WaitGI")
 _wait_group("WaitGO")
 
 
-def _comparison(
-    signal: Signal,
-    value: float,
-    *,
-    different: bool | None = None,
-    less: bool | None = None,
-    greater: bool | None = None,
-) -> Callable[[], bool]:
-    if different:
-        return lambda: signal.value != value
-    if less:
-        return lambda: signal.value < value
-    if greater:
-        return lambda: signal.value > value
-    return lambda: signal.value == value
+def _relation(
+    *, different: bool | None = None, less: bool | None = None, greater: bool | None = None
+) -> Relation:
+    return "<>" if different else "<" if less else ">" if greater else "="

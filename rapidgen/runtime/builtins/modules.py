@@ -113,10 +113,16 @@ def mod_exist(task: Task, module: str) -> bool:
 @builtin("ModTime", cost="string")
 def mod_time(task: Task, module: str, digits: Ref | None) -> float:
     """Time of a module's file; a num resolves 128 s today, \\StrDig every one."""
+    return single(mod_time_dnum(task, module, digits))
+
+
+@builtin("ModTimeDnum", cost="string")
+def mod_time_dnum(task: Task, module: str, digits: Ref | None) -> int:
+    """Time of a module's file."""
     seconds = loading.time(task, module)
     if digits is not None:
         digits.set(str(seconds))
-    return single(seconds)
+    return seconds
 
 
 @builtin("CheckProgRef", cost="socket")

@@ -130,6 +130,7 @@ def _ask(
             lambda: question.answered or _reason(given) is not None,
             on=(question.changed, *_sources(given)),
             timeout=given["MaxTime"],
+            why=lambda: operator.waits(task.name),
         )
     finally:
         operator.withdraw(question)
@@ -244,7 +245,7 @@ def _else(value: Value, default: float | None) -> float:
     return 0 if default is None else default
 
 
-@by_name("UINumEntry", "UIDnumEntry", "UINumTune", cost="string")
+@by_name("UINumEntry", "UIDnumEntry", "UINumTune", "UIDnumTune", cost="string")
 def ui_num_entry(task: Task, dialog: str, given: Arguments) -> float:
     """Ask for a number, which may be tuned from an initial one."""
     initial, low, high = given["InitValue"], given["MinValue"], given["MaxValue"]
@@ -326,3 +327,10 @@ def err_log(
     if not (4800 <= number <= 4814 or 5000 <= number <= 9999):
         raise RapidError("ERR_ARGVALERR", f"{number:g} is no ErrorId")
     _logged(task, _PROCESS_DOMAIN + int(number), warning, info, "ErrLog", arguments)
+
+
+@builtin("EventLog", cost="string")
+def event_log(task: Task, domain: float, number: float, kind: float, *arguments: str) -> None:
+    """The same for any domain and type, as ABB's own drivers call it [code HandDriver.sys]."""
+    code = int(domain) * 10_000 + int(number)
+    _logged(task, code, kind == EventType.WARNING, kind == EventType.INFO, "EventLog", arguments)

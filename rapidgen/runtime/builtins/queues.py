@@ -77,7 +77,10 @@ def rmq_send_wait(
 
     patience = _DEFAULT_TIME if task.controller.dialect.queue_patience else None
     if not task.wait_for(
-        lambda: answer() is not None, on=(own.changed,), timeout=_time(timeout, patience)
+        lambda: answer() is not None,
+        on=(own.changed,),
+        timeout=_time(timeout, patience),
+        why=lambda: f"RMQSendWait waits for an answer of {slot.name}",
     ):
         raise RapidError("ERR_RMQ_TIMEOUT")
     found = answer()
@@ -106,7 +109,10 @@ def rmq_read_wait(task: Task, box: MessageBox, timeout: float | None) -> None:
     """Wait for a message."""
     own = _own(task)
     if not task.wait_for(
-        lambda: bool(own.messages), on=(own.changed,), timeout=_time(timeout, None)
+        lambda: bool(own.messages),
+        on=(own.changed,),
+        timeout=_time(timeout, None),
+        why=lambda: "RMQReadWait waits for a message",
     ):
         raise RapidError("ERR_RMQ_TIMEOUT")
     box.message = own.messages.popleft()

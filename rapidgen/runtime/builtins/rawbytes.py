@@ -39,6 +39,7 @@ def pack_raw_bytes(
     int_type: float | None,
     float4: bool | None,
     ascii_: bool | None,
+    utf8: bool | None,
 ) -> None:
     """Write one value into a container."""
     value, _ = value_of(argument)
@@ -46,9 +47,9 @@ def pack_raw_bytes(
     if index > len(raw.data) + 1 and task.controller.dialect.pack_beyond == "error":
         raise RapidError("ERR_OUTOFBND", f"{index} lies behind a gap after {len(raw.data)} bytes")
     if isinstance(value, str):
-        if not ascii_ or not value:
+        if not (ascii_ or utf8) or not value:
             raise RapidError("ERR_ARGVALERR", "a string is packed with \\ASCII, and not empty")
-        raw.put(index, value.encode("latin-1"))
+        raw.put(index, value.encode("utf-8" if utf8 else "latin-1"))
     elif int_type is not None:
         raw.put(index, integer_bytes(value, int_type, network=bool(network)))
     elif float4:

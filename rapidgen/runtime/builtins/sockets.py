@@ -11,6 +11,7 @@ from collections.abc import Callable
 from rapidgen.machine.network.interface import (
     BUFFER,
     Endpoint,
+    Network,
     NetworkFault,
     NetworkReason,
 )
@@ -152,7 +153,12 @@ def socket_accept(
         return endpoint is not None
 
     try:
-        there = task.wait_for(try_it, on=(listener.changed,), timeout=_seconds(time))
+        there = task.wait_for(
+            try_it,
+            on=(listener.changed,),
+            timeout=_seconds(time),
+            why=lambda: f"SocketAccept waits for a client on port {_asked(network, listener)}",
+        )
     except NetworkFault as fault:
         raise _lost(task, socket, fault) from fault
     if not there:
@@ -189,6 +195,7 @@ def socket_connect(
             lambda: endpoint.connected or network.send(endpoint, b"") > 0,
             on=(endpoint.changed,),
             timeout=_seconds(time),
+            why=lambda: f"SocketConnect waits for {address}:{port:g}",
         )
     except NetworkFault as fault:
         if fault.reason is NetworkReason.REFUSED:
@@ -248,7 +255,12 @@ def socket_send(task: Task, socket: SocketDevice, *content: Value) -> None:
         if not task.controller.dialect.send_attends:
             interrupts.disabled = True
         while left:
-            if not task.wait_for(some_go, on=(endpoint.changed,), timeout=DEFAULT_TIME):
+            if not task.wait_for(
+                some_go,
+                on=(endpoint.changed,),
+                timeout=DEFAULT_TIME,
+                why=lambda: f"SocketSend waits for {_peer(endpoint)} to read",
+            ):
                 raise RapidError("ERR_SOCK_TIMEOUT", "the peer does not read")
     except NetworkFault as fault:
         raise _lost(task, socket, fault) from fault
@@ -292,7 +304,12 @@ def _wait_for_bytes(
         return result is not None
 
     try:
-        there = task.wait_for(try_it, on=(endpoint.changed,), timeout=_seconds(given["Time"]))
+        there = task.wait_for(
+            try_it,
+            on=(endpoint.changed,),
+            timeout=_seconds(given["Time"]),
+            why=lambda: f"waits for bytes from {_peer(endpoint)}",
+        )
     except NetworkFault as fault:
         raise _lost(task, socket, fault) from fault
     if not there or result is None:
@@ -302,6 +319,16 @@ def _wait_for_bytes(
     if not result and not socket.udp:
         raise _lost(task, socket, NetworkFault(NetworkReason.CLOSED, "the peer has closed"))
     return result
+
+
+def _asked(network: Network, listener: Endpoint) -> int:
+    """The port that a program asked for, wherever the system put it."""
+    ports = (port for port, at in network.listeners.items() if at == listener.local)
+    return next(ports, listener.local[1])
+
+
+def _peer(endpoint: Endpoint) -> str:
+    return "{}:{}".format(*endpoint.peer) if endpoint.peer else f"port {endpoint.local[1]}"
 
 
 def _limit(

@@ -96,3 +96,4 @@ _TOLD: dict[str, Callable[..., Value]] = {
 }
 builtins(_TOLD, cost="string")
 builtin("RobOS")(lambda _task: False)
+builtin("IsBrakeCheckActive")(lambda _task: False)  # no brake is checked here

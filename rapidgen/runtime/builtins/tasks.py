@@ -52,6 +52,10 @@ def _moves(task: Task) -> bool:
     return task.controller.motion.is_motion_task(task.name)
 
 
+_CHECKED = {"NORMAL": 14, "STATIC": 15, "SEMISTATIC": 16}
+"""TSP_NORMAL_CHECKED, TSP_STATIC_CHECKED, TSP_SEMISTATIC_CHECKED [mem]."""
+
+
 # Programs run continuously here, and no task is switched off; \\Main changes neither.
 _TOLD: dict[str, Callable[..., Value]] = {
     "OpMode": lambda task: OP_MODES.get(task.controller.mode, OP_MAN_TEST),
@@ -60,6 +64,7 @@ _TOLD: dict[str, Callable[..., Value]] = {
     "TaskRunRob": _moves,
     "TaskRunMec": _moves,
     "GetMecUnitName": lambda _task, unit: str(unit.value or ""),
+    "GetTSPStatus": lambda task, *which: _CHECKED[_task(task, *which).spec.type],
     "TaskIsActive": lambda task, *which: _task(task, *which).state != "empty",
     "TaskIsExecuting": lambda task, *which: _task(task, *which).state == "running",
 }

@@ -1,7 +1,8 @@
 """Calls: matching arguments to parameters, and passing them by value or by reference [K §5.1]."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
+from rapidgen.machine.io import Relation
 from rapidgen.rapid.binding.arguments import Misfit, match
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.rapid.syntax.walk import walk
@@ -10,7 +11,7 @@ from rapidgen.runtime.compiler.references import place_of, reference
 from rapidgen.runtime.compiler.storing import by_value
 from rapidgen.runtime.compiler.symbols import CannotCompile, FormalParameter, Routine
 from rapidgen.runtime.registry import COSTS
-from rapidgen.runtime.values import NUM
+from rapidgen.runtime.values import BOOL, NUM, STRING
 
 _FAULTS = {
     Misfit.SURPLUS: "too many arguments for {0}",
@@ -129,18 +130,65 @@ def call(unit: Unit, routine: Routine, node: n.FunctionCall | n.ProcedureCall) -
 
 def _condition_code(unit: Unit, node: n.Expression | None, e: E) -> str:
     """WaitUntil looks at its condition again: it gets a function, and what it reads."""
-    watched = []
+    watched, reads = [], []
     for part in walk(node) if node is not None else ():
-        data = unit.data(part.name) if isinstance(part, n.Name) else None
+        if not isinstance(part, n.Name):
+            continue
+        data = unit.data(part.name)
         if data is None:
             continue
         if data.storage == "cell":
             watched.append(data.code)
         elif data.type.kind == "semivalue":
             watched.append(f"{data.code}.signal.changed")
+        if data.kind != "CONST" and not data.dims and data.type in (NUM, BOOL, STRING):
+            reads.append(f"({data.name!r}, {unit.expression(part).code})")
+        elif data.type.kind == "semivalue":
+            reads.append(f"({data.name!r}, {data.code}.signal.value)")
     sets = "".join(f"{code}, " for code in dict.fromkeys(watched))
     cost = e.ops * unit.options.operator + e.cost
-    return f"CONDITION(lambda: {e.code}, ({sets}), {cost})"
+    values = "".join(f"{code}, " for code in dict.fromkeys(reads))
+    signals = "".join(f"{code}, " for code in _awaited(unit, node, holds=True))
+    own = any(
+        isinstance(part, n.FunctionCall)
+        and (routine := unit.routine_named(part.name)) is not None
+        and routine.node is not None
+        for part in (walk(node) if node is not None else ())
+    )
+    told = f"lambda: ({values}), lambda: ({signals})"
+    return f"CONDITION(lambda: {e.code}, ({sets}), {cost}, {told}, {own})"
+
+
+_INVERSE: dict[str, Relation] = {"=": "<>", "<>": "=", "<": ">=", ">=": "<", ">": "<=", "<=": ">"}
+_READING = frozenset(("dinput", "doutput", "ginput", "goutput", "ainput", "aoutput", "testdi"))
+
+
+def _awaited(unit: Unit, node: n.Expression | None, *, holds: bool) -> Iterator[str]:
+    """Comparisons of signals in a condition that is to hold, or not to."""
+    match node:
+        case n.Parenthesis():
+            yield from _awaited(unit, node.inner, holds=holds)
+        case n.Unary(operator="NOT"):
+            yield from _awaited(unit, node.operand, holds=not holds)
+        case n.Binary(operator="AND" | "OR" | "XOR"):
+            yield from _awaited(unit, node.left, holds=holds)
+            yield from _awaited(unit, node.right, holds=holds)
+        case n.Binary() if node.operator in _INVERSE:
+            signal = _signal(unit, node.left)
+            if signal:
+                relation = node.operator if holds else _INVERSE[node.operator]
+                value = unit.expression(node.right).code
+                yield f"AWAITED({signal}, {relation!r}, {value})"
+        case n.FunctionCall() if node.name.lower() == "testdi":
+            yield f"AWAITED({_signal(unit, node)}, '=', {int(holds)})"
+
+
+def _signal(unit: Unit, node: n.Expression) -> str:
+    """The signal that an expression reads; empty: none."""
+    if isinstance(node, n.FunctionCall) and node.name.lower() in _READING and node.arguments:
+        node = node.arguments[0].value or node
+    data = unit.data(node.name) if isinstance(node, n.Name) else None
+    return f"{data.code}.signal" if data is not None and data.type.kind == "semivalue" else ""
 
 
 def _builtin_call(unit: Unit, routine: Routine, found: list[n.Argument | None]) -> E:
@@ -161,8 +209,9 @@ def _builtin_call(unit: Unit, routine: Routine, found: list[n.Argument | None]) 
     if binding.cost != "call":
         cost = int(cost * unit.options.builtin_scale)
     kind = routine.type or NUM
+    code = f"{routine.code}({', '.join(codes)})"
     result = E(
-        f"{routine.code}({', '.join(codes)})",
+        f"WHOLE({code})" if kind.kind == "dnum" else code,
         kind,
         cost=cost if binding.cost != "call" else unit.options.call,
         fresh=True,

@@ -7,8 +7,9 @@ from typing import TypeAlias
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.rapid.syntax.walk import walk
 from rapidgen.runtime.compiler.compiled import CodeRole
-from rapidgen.runtime.compiler.context import CALLS, SILENT, E, Unit
-from rapidgen.runtime.compiler.symbols import CannotCompile
+from rapidgen.runtime.compiler.context import CALLS, SILENT, E, Unit, calling, failing
+from rapidgen.runtime.compiler.references import undeclared, unknown_type
+from rapidgen.runtime.compiler.symbols import CannotCompile, NoWay
 from rapidgen.runtime.compiler.writer import CodeLine, Writer
 from rapidgen.runtime.values import NUM
 
@@ -40,6 +41,17 @@ class PythonFunction:
     apart: list[CodeLine] = field(default_factory=list)
     """Functions for its statements that are nested too deeply."""
 
+    def state(self) -> tuple[int, dict[str, tuple[str, int]], int, bool, int]:
+        """What a statement changes, for `go_back`."""
+        labels = dict(self.label_states)
+        return len(self.nesting), labels, self.jumps_out, self.uses_jump, len(self.apart)
+
+    def go_back(self, state: tuple[int, dict[str, tuple[str, int]], int, bool, int]) -> None:
+        """Forget a statement that could not be written."""
+        nesting, self.label_states, self.jumps_out, self.uses_jump, apart = state
+        del self.nesting[nesting:]
+        del self.apart[apart:]
+
 
 CompileStatement: TypeAlias = "Callable[[Emitter, n.Statement], None]"
 
@@ -69,10 +81,32 @@ class Emitter:
             point = self.unit.linker.trace_point(self.unit.routine, node)
             w.close()
             w.emit(f"R.b = b; R.trace({point}); b = R.b")
-        if self._too_deep(node):
-            self._set_apart(node)
+        written, names, state = w.mark(), self.unit.names, self.function.state()
+        function = self.function
+        try:
+            if self._too_deep(node):
+                self._set_apart(node)
+            else:
+                self._compile(self, node)
+        except NoWay:
+            raise
+        except CannotCompile as fault:
+            w.back_to(written)
+            self.unit.names, self.function = names, function
+            function.go_back(state)
+            w.token = node.first
+            self._refuse(node, fault)
+
+    def _refuse(self, node: n.Statement, fault: CannotCompile) -> None:
+        """In place of a statement that breaks a rule: the fault, when it is reached."""
+        name = undeclared(self.unit, node)
+        if name:
+            self.simple(failing("ERR_REFUNKDAT", name))
             return
-        self._compile(self, node)
+        about = unknown_type(self.unit, node)
+        reason = f"nothing declares {about}" if about else str(fault)
+        span = self.unit.linker.keep(self.unit.module.span(fault.node))
+        self.simple(calling(f"R.refuse({reason!r}, {span})", NUM))
 
     def pay(self, e: E) -> None:
         """Charge a statement whose expressions cost what `e` says."""
@@ -255,9 +289,7 @@ class Emitter:
         loops = len(function.nesting)
         inside = next((i for i in reversed(range(loops)) if label in function.nesting[i]), None)
         if found is None or inside is None:
-            raise CannotCompile(
-                f"there is no label {node.name} that can be reached from here", node
-            )
+            raise NoWay(f"there is no label {node.name} that can be reached from here", node)
         self.pay(E("", NUM))
         w.close()
         state, number = found

@@ -41,10 +41,10 @@ def _aggregate(node: n.Aggregate, kind: Type, dims: tuple[int, ...], scope: Scop
     if kind.kind != "record" or kind.make is None:
         raise CannotCompile(f"an aggregate is no {kind.name}", node)
     components = kind.components
-    if len(members) != len(components):
+    if len(members) != len(components) and not scope.module.takes(kind.name, len(members)):
         raise CannotCompile(f"{kind.name} has {len(components)} components", node)
     return kind.make(
-        *[evaluate(m, inner, (), scope) for m, (_, inner) in zip(members, components, strict=True)]
+        *[evaluate(m, inner, (), scope) for m, (_, inner) in zip(members, components, strict=False)]
     )
 
 
@@ -56,7 +56,7 @@ def build(kind: Type, value: signatures.Value | None, degree: int = 0) -> Value:
         if degree:
             return {i: build(kind, v, degree - 1) for i, v in enumerate(value, start=1)}
         assert kind.make is not None
-        return kind.make(*[build(t, v) for (_, t), v in zip(kind.components, value, strict=True)])
+        return kind.make(*[build(t, v) for (_, t), v in zip(kind.components, value, strict=False)])
     if kind.kind == "num" and isinstance(value, int | float):
         return single(value)
     return value

@@ -1,11 +1,11 @@
 """Expressions: typed Python source, with what it costs and touches."""
 
-from rapidgen.rapid.numbers import single
+from rapidgen.rapid.numbers import dnum, single
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.compiler.context import E, Unit, failing
 from rapidgen.runtime.compiler.inline import function_call
 from rapidgen.runtime.compiler.operators import binary, unary
-from rapidgen.runtime.compiler.references import read
+from rapidgen.runtime.compiler.references import read, undeclared
 from rapidgen.runtime.compiler.storing import by_value
 from rapidgen.runtime.compiler.symbols import CannotCompile
 from rapidgen.runtime.values import BOOL, DNUM, NUM, STRING, Type, attribute
@@ -25,9 +25,9 @@ def compile_expression(
         case n.Name():
             return _name(unit, node, want)
         case n.Index():
-            return _index(unit, node)
+            return _index(unit, node, want)
         case n.Member():
-            return _member(unit, node)
+            return _member(unit, node, want)
         case n.FunctionCall():
             return function_call(unit, node, want)
         case n.Aggregate():
@@ -46,15 +46,19 @@ def compile_expression(
 def _number(unit: Unit, node: n.NumberLiteral, want: Type | None) -> E:
     value = node.value
     if want is not None and want.kind == "dnum":
-        code = repr(value)
-        return E(code, DNUM, literal=True, whole=isinstance(value, int))
+        return _double(unit, value)
     try:
         value = single(value)
     except OverflowError:
-        return E(repr(node.value), DNUM, literal=True)
+        return _double(unit, node.value)
     if isinstance(value, int):
         return E(repr(value), NUM, literal=True, whole=True, exact=True, range=(value, value))
     return E(repr(value), NUM, literal=True, exact=True)
+
+
+def _double(unit: Unit, value: float) -> E:
+    held = dnum(value, int(unit.options.dialect.dnum_whole))
+    return E(repr(held), DNUM, literal=True, whole=isinstance(held, int))
 
 
 def _name(unit: Unit, node: n.Name, want: Type | None) -> E:
@@ -64,7 +68,9 @@ def _name(unit: Unit, node: n.Name, want: Type | None) -> E:
     return read(unit, data)
 
 
-def _index(unit: Unit, node: n.Index) -> E:
+def _index(unit: Unit, node: n.Index, want: Type | None) -> E:
+    if name := undeclared(unit, node):
+        return failing("ERR_REFUNKDAT", name, want or NUM)
     base = compile_expression(unit, node.base, None, ())
     if len(base.dims) != len(node.indices):
         raise CannotCompile("the number of indices is not the number of dimensions", node)
@@ -74,7 +80,9 @@ def _index(unit: Unit, node: n.Index) -> E:
     return e.take(base, *indices)
 
 
-def _member(unit: Unit, node: n.Member) -> E:
+def _member(unit: Unit, node: n.Member, want: Type | None) -> E:
+    if name := undeclared(unit, node):
+        return failing("ERR_REFUNKDAT", name, want or NUM)
     base = compile_expression(unit, node.base, None, ())
     kind = base.type.component(node.component.lower())
     if kind is None or base.dims:
@@ -93,14 +101,11 @@ def _aggregate(unit: Unit, node: n.Aggregate, want: Type | None, dims: tuple[int
         return E(f"{{{inside}}}", want, (len(parts), *dims[1:]), fresh=True).take(*parts)
     if want.kind != "record" or want.make is None:
         raise CannotCompile(f"an aggregate is no {want.name}", node)
-    if len(want.components) != len(node.members):
+    if not unit.module.scope.takes(want.name, len(node.members)):
         raise CannotCompile(f"{want.name} has {len(want.components)} components", node)
-    parts = [
-        unit.value_of(m, kind, (), "component")
-        for m, (_, kind) in zip(node.members, want.components, strict=True)
-    ]
-    inside = ", ".join(
-        by_value(p, kind) for p, (_, kind) in zip(parts, want.components, strict=True)
-    )
+    kinds = [kind for _, kind in want.components]
+    members = list(zip(node.members, kinds, strict=False))
+    parts = [unit.value_of(m, kind, (), "component") for m, kind in members]
+    inside = ", ".join(by_value(p, kind) for p, kind in zip(parts, kinds, strict=False))
     cls = unit.linker.keep(want.make)
     return E(f"{cls}({inside})", want, fresh=True).take(*parts)

@@ -4,6 +4,7 @@ from collections.abc import Callable
 from typing import TypeAlias
 
 from rapidgen.rapid.syntax import nodes as n
+from rapidgen.runtime import unsupported
 from rapidgen.runtime.compiler.calls import call, pass_argument
 from rapidgen.runtime.compiler.context import E, Unit, calling, failing
 from rapidgen.runtime.compiler.references import place_of
@@ -180,6 +181,8 @@ def function_call(unit: Unit, node: n.FunctionCall, want: Type | None) -> E:
     """Compile the call of a function; one that does not exist fails when it is reached."""
     routine = unit.routine_named(node.name)
     if routine is None or routine.kind != "FUNC":
+        if node.name.lower() in unsupported.option_routines():
+            return calling(f"R.missing({node.name!r})", want or NUM)
         return failing("ERR_REFUNKFUN", node.name, want or NUM)
     inline = _INLINE.get(routine.name.lower()) if routine.node is None else None
     done = inline(unit, node) if inline is not None else None

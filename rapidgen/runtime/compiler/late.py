@@ -52,7 +52,7 @@ def _argument(unit: Unit, argument: n.Argument) -> tuple[str, list[E]]:
 def _reference(unit: Unit, place: DataPlace) -> str:
     """A lambda that makes a Ref to a place, or None for what cannot be one."""
     data, e = place.data, place.e
-    if data.kind == "CONST" or data.readonly or e.type.kind in ("nonvalue", "semivalue"):
+    if data.readonly or e.type.kind in ("nonvalue", "semivalue"):
         return "None"
     if not place.holder and data.storage in ("box", "cell", "ref"):
         return f"lambda: {data.code}"

@@ -4,7 +4,10 @@ Modules are linked into one Python namespace. Persistents, data of shared module
 classes are common to all tasks.
 """
 
-from rapidgen.diagnostics import Diagnostic, error
+from collections import Counter
+from math import prod
+
+from rapidgen.diagnostics import Diagnostic, Severity, error
 from rapidgen.rapid.binding.names import (
     ModuleScope,
     Scope,
@@ -20,6 +23,7 @@ from rapidgen.rapid.binding.symbols import (
     Symbol,
     TypeSymbol,
 )
+from rapidgen.rapid.builtins import signatures
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.compiler import predefined
 from rapidgen.runtime.compiler.evaluate import evaluate
@@ -39,17 +43,24 @@ from rapidgen.system.model import ModuleFile
 Typed = tuple[Type, tuple[int, ...], Value]
 """Type, sizes and value of a datum."""
 
+MOST_ELEMENTS = 4_000_000
+"""Of an array: about 400 MB here. The program memory of a controller ends before that [mem]."""
+
 
 class Shared:
     """What the programs of all tasks share: persistents, record classes, configured objects."""
 
     def __init__(self, configured: dict[str, tuple[Type, Value]] | None = None) -> None:
         self.cells: dict[str, PersistentCell] = {}
+        self.declared: Counter[str] = Counter()
+        """So many loaded modules declare the persistent of a cell: with the last one it goes."""
         self.bare: set[str] = set()
         """Cells whose declarations so far had no initial value."""
         self.common: dict[tuple[str, str], Value] = {}
         """Data of shared modules by module and name: cells of atoms, else the object itself."""
         self.records: dict[tuple[object, ...], Type] = {}
+        self.unknown: dict[str, Type] = {}
+        """Types that nothing declares, by lower-case name."""
         self.configured = configured if configured is not None else {}
         """Signals, mechanical units and taskids by lower-case name."""
         self.names = installed_objects((k, t.name) for k, (t, _) in self.configured.items())
@@ -65,6 +76,7 @@ class Linker:
         self.names = TaskScope(shared.names)
         self.modules: dict[str, LoadedModule] = {}
         self.faults: list[Diagnostic] = []
+        """Errors, and warnings of types that nothing declares."""
         self.trace_points: list[tuple[Routine, n.Statement]] = []
         self._kept: dict[int, str] = {}
         self._loaded: dict[ModuleScope, LoadedModule] = {}
@@ -131,29 +143,62 @@ class Linker:
             if isinstance(symbol, TypeSymbol):
                 self._types.pop(symbol, None)
             elif isinstance(symbol, DataSymbol):
-                self._data.pop(symbol, None)
+                self._forget(self._data.pop(symbol, None))
             elif isinstance(symbol, RoutineSymbol):
                 self._routines.pop(symbol, None)
         for module in self.modules.values():
             module.types.clear()
+
+    def _forget(self, data: Data | None) -> None:
+        """A declaration is gone; a system-global persistent goes with its last one [K §14.4]."""
+        if data is None or data.kind != "PERS":
+            return
+        key = data.name.lower()
+        if self.shared.cells.get(key) is self.space.get(data.code):
+            self.shared.declared[key] -= 1
+            if not self.shared.declared[key]:
+                del self.shared.cells[key]
+                self.shared.bare.discard(key)
 
     def _fault(self, module: LoadedModule, message: str, node: n.Node) -> None:
         self.faults.append(error("RG401", module.span(node), message))
 
     # -- types -----------------------------------------------------------------------------------
 
-    def find_type(self, module: LoadedModule, name: str) -> Type | None:
-        """What a name of a type means in a module."""
+    def find_type(self, module: LoadedModule, name: str, node: n.Node) -> Type | None:
+        """What a name of a type means in a module; `node` is where it stands.
+
+        One that nothing declares may be of an option or add-in: statements stop, which need to
+        know more of it, when they are reached. None: a record that holds itself.
+        """
         if name in module.types:
             return module.types[name]
         symbol = module.scope.type_symbol(name)
-        found = module.types[name] = None if symbol is None else self._type(symbol)
+        found = self._unknown(module, name, node) if symbol is None else self._type(symbol)
+        module.types[name] = found
+        return found
+
+    def _unknown(self, module: LoadedModule, name: str, node: n.Node) -> Type:
+        found = self.shared.unknown.get(name.lower())
+        if found is None:
+            found = self.shared.unknown[name.lower()] = predefined.unknown_type(name)
+            option = name.lower() in signatures.option_names("types")
+            self.faults.append(
+                error(
+                    "RG404",
+                    module.span(node),
+                    f"the type {name} is not declared in any module, nor built in",
+                    "" if option else "load the module that declares it",
+                    label="statements that look into it stop the task",
+                    notes=("it belongs to an option or add-in of RobotWare",) if option else (),
+                    severity=Severity.WARNING,
+                )
+            )
         return found
 
     def _check_type(self, module: LoadedModule, symbol: TypeSymbol) -> None:
-        found = self.find_type(module, symbol.name)
-        if found is None and isinstance(symbol.node, n.AliasDeclaration):
-            self._fault(module, f"type {symbol.node.type} is not known", symbol.node)
+        assert symbol.node is not None
+        self.find_type(module, symbol.name, symbol.node)
 
     def _type(self, symbol: TypeSymbol) -> Type | None:
         if symbol.module is None:
@@ -167,7 +212,7 @@ class Linker:
         assert isinstance(symbol.node, n.RecordDeclaration)
         components = []
         for component in symbol.node.components:
-            kind = self.find_type(module, component.type)
+            kind = self.find_type(module, component.type, component)
             if kind is None:
                 self._fault(module, f"type {component.type} is not known", component)
                 return None
@@ -203,12 +248,12 @@ class Linker:
         parameters = []
         for p in d.parameters:
             switch = p.type.lower() == "switch"
-            kind = None if switch else self.find_type(module, p.type)
+            kind = None if switch else self.find_type(module, p.type, p)
             if kind is None and not switch:
                 self._fault(module, f"type {p.type} is not known", p)
                 kind = NUM
             parameters.append(formal(p, kind))
-        result = self.find_type(module, d.type) if d.type else None
+        result = self.find_type(module, d.type, d) if d.type else None
         if d.type and result is None:
             self._fault(module, f"type {d.type} is not known", d)
         code = f"m{module.index}_{d.name.lower()}"
@@ -241,7 +286,7 @@ class Linker:
             kind, dims, value = self.evaluate(module, module.scope, d)
         except CannotCompile as fault:
             self._fault(module, str(fault), fault.node)
-            found = self.find_type(module, d.type)
+            found = self.find_type(module, d.type, d)
             if found is None:
                 return None
             kind, dims, value = found, (), found.default()
@@ -292,6 +337,8 @@ class Linker:
             return PersistentCell(d.name, kind, dims, value)
         key = d.name.lower()
         cell = self.shared.cells.get(key)
+        if cell is None or (cell.type.name == kind.name and cell.dims == dims):
+            self.shared.declared[key] += 1
         if cell is None:
             cell = self.shared.cells[key] = PersistentCell(d.name, kind, dims, value)
             if d.initial is None:
@@ -309,15 +356,28 @@ class Linker:
 
     def evaluate(self, module: LoadedModule, scope: Scope, d: n.DataDeclaration) -> Typed:
         """Type, sizes and initial value of a declaration. CannotCompile."""
-        kind = self.find_type(module, d.type)
+        kind = self.find_type(module, d.type, d)
         if kind is None:
             raise CannotCompile(f"type {d.type} is not known", d)
         dims = tuple(_dimension(x, scope) for x in d.dimensions)
-        if d.initial is not None:
-            return kind, dims, evaluate(d.initial, kind, dims, scope)
+        if prod(dims) > MOST_ELEMENTS:
+            raise CannotCompile(
+                f"{d.name} would have {prod(dims):,} elements, there is room for {MOST_ELEMENTS:,}",
+                d,
+            )
+        if d.initial is not None and kind.name not in self.shared.unknown:
+            return kind, dims, self._counted(evaluate(d.initial, kind, dims, scope), kind)
         if dims:
             return kind, dims, make_array(dims, kind.default)
         return kind, dims, kind.default()
+
+    def _counted(self, value: Value, kind: Type) -> Value:
+        """An initial value with its dnums as they are held."""
+        if kind.kind != "dnum":
+            return value
+        if value.__class__ is dict:
+            return {i: self._counted(part, kind) for i, part in value.items()}
+        return self.space["WHOLE"](value)
 
     def _predefined(self, symbol: DataSymbol) -> Data | None:
         key = symbol.name.lower()

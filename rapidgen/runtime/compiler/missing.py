@@ -64,13 +64,13 @@ def _diagnostic(
     program: Program, module: LoadedModule, node: n.ProcedureCall | n.FunctionCall
 ) -> Diagnostic:
     routine = program.find_routine(module, node.name.lower())
-    if routine is not None:
+    if routine is not None or node.name.lower() in unsupported.option_routines():
         return error(
             "RG403",
             module.span(node),
-            f"{routine.name} is not available on the virtual controller",
+            f"{routine.name if routine else node.name} is not available on the virtual controller",
             label="the task stops here",
-            notes=(unsupported.reason(routine.name),),
+            notes=(unsupported.reason(node.name),),
             severity=Severity.WARNING,
         )
     return error(

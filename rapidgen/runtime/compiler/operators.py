@@ -64,6 +64,7 @@ def binary(unit: Unit, node: n.Binary, want: Type | None) -> E:
         ("*", "pos", "pos"): "PCROSS",
         ("*", "pos", "num"): "PMUL",
         ("*", "num", "pos"): "PMUL",
+        ("/", "pos", "num"): "PDIV",
         ("*", "orient", "orient"): "QMUL",
     }.get((operator, a.name, b.name))
     if function is None:

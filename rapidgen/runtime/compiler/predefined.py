@@ -19,6 +19,11 @@ class Opaque:
         self.value: Value = None
 
 
+def unknown_type(name: str) -> Type:
+    """A type that nothing at hand declares: data of it are kept, and only handed on."""
+    return Type(name.lower(), "nonvalue", (), lambda: Opaque(name))
+
+
 @cache
 def find_type(name: str) -> Type | None:
     """A predefined type by lower-case name, aliases resolved."""
@@ -59,7 +64,7 @@ def datum(key: str) -> Data | None:
     kind = _needed(found.type)
     if found.kind == "PERS":
         return Data(found.name, "PERS", kind, (), "cell", f"p_{key}")
-    readonly = found.kind == "CONST"
+    readonly = found.readonly
     if readonly and kind.kind != "record":
         return Data(
             found.name, "CONST", kind, (), "inline", "", value=value(key), readonly=readonly

@@ -175,8 +175,8 @@ class Program:
         file = self.code_name(routine)
         return self._known(*compile_backward(self._linker, routine, self.options, file))
 
-    def value(self, module: LoadedModule, key: str) -> Value:
-        """Current value of a module datum. KeyError: there is none."""
+    def value(self, module: LoadedModule | None, key: str) -> Value:
+        """Current value of a datum, as seen from a module. KeyError: there is none."""
         data = self.find_data(module, key)
         if data is None:
             raise KeyError(key)

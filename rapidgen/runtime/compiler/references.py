@@ -3,7 +3,8 @@
 from dataclasses import dataclass
 
 from rapidgen.rapid.syntax import nodes as n
-from rapidgen.runtime.compiler.context import CALLS, SHARED, E, Unit, same_type
+from rapidgen.rapid.syntax.walk import walk_own
+from rapidgen.runtime.compiler.context import CALLS, SHARED, E, Unit, failing, same_type
 from rapidgen.runtime.compiler.storing import by_value
 from rapidgen.runtime.compiler.symbols import CannotCompile, Data, FormalParameter
 from rapidgen.runtime.values import NUM, attribute
@@ -62,6 +63,26 @@ def _kept(data: Data) -> tuple[str, int, bool]:
     return data.code, effect, False
 
 
+def undeclared(unit: Unit, node: n.Node) -> str:
+    """The first name of a datum in an expression or statement that nothing declares, or "".
+
+    Statements inside are left out: each finds its own.
+    """
+    for part in walk_own(node):
+        if isinstance(part, n.Name) and unit.names.find(part.name) is None:
+            return part.name
+    return ""
+
+
+def unknown_type(unit: Unit, node: n.Node) -> str:
+    """The first datum in a statement whose type nothing declares, as text, or ""."""
+    for part in walk_own(node):
+        data = unit.data(part.name) if isinstance(part, n.Name) else None
+        if data is not None and data.type.name in unit.linker.shared.unknown:
+            return f"{data.type.name}, the type of {data.name}"
+    return ""
+
+
 def place_of(unit: Unit, node: n.Expression) -> DataPlace | None:
     """The data reference that `node` is; None for any other expression."""
     match node:
@@ -107,12 +128,14 @@ def reference(unit: Unit, node: n.Expression, parameter: FormalParameter, *, bui
     place = place_of(unit, node)
     mode = parameter.mode
     if place is None:
+        if isinstance(node, n.Name | n.Index | n.Member) and (name := undeclared(unit, node)):
+            return failing("ERR_REFUNKDAT", name, parameter.type or NUM, (0,) * parameter.dims)
         if mode in ("REF", ""):
             return _boxed(unit, node, parameter)
-        if isinstance(node, n.Name):
-            raise CannotCompile(f"{node.name} is not declared ({parameter.type_name})", node)
         raise CannotCompile(f"parameter {parameter.name} takes a datum, not an expression", node)
     data, kind = place.data, place.e.type
+    if builtin and kind.name in unit.linker.shared.unknown:
+        raise CannotCompile(f"{parameter.name} takes no {kind.name}", node)
     if parameter.type is not None:
         if not same_type(kind, parameter.type):
             raise CannotCompile(
@@ -131,7 +154,7 @@ def _check_mode(data: Data, mode: n.Mode, node: n.Expression) -> None:
     """The table of K §5.1; what only run time knows is left to ASVAR and ASPERS."""
     if mode in ("REF", ""):
         return
-    if data.kind == "CONST" or data.readonly:
+    if data.readonly:
         raise CannotCompile(f"{data.name} cannot be changed", node)
     if mode == "VAR" and (data.kind == "PERS" or data.mode == "PERS"):
         raise CannotCompile(f"{data.name} is a persistent: a VAR parameter takes a variable", node)

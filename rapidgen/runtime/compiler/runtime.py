@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from typing import NoReturn
 
+from rapidgen.machine.io import Awaited
 from rapidgen.machine.scheduler import WaitSet
 from rapidgen.rapid.numbers import EXACT, MAX_STRING, single
 from rapidgen.runtime.errors import RapidError
@@ -97,6 +98,11 @@ def pos_negate(a: Value) -> Value:
 def pos_scale(a: Value, k: float) -> Value:
     """pos * num."""
     return Pos(single(a.x * k), single(a.y * k), single(a.z * k))
+
+
+def pos_divide(a: Value, k: float) -> Value:
+    """pos / num. ERR_DIVZERO."""
+    return Pos(single(a.x / k), single(a.y / k), single(a.z / k))
 
 
 def pos_cross(a: Value, b: Value) -> Value:
@@ -367,6 +373,12 @@ class Condition:
     watched: tuple[WaitSet, ...]
     """Persistents and signals in it."""
     cost: int
+    reads: Callable[[], tuple[tuple[str, Value], ...]]
+    """Names in it, and what they are worth now."""
+    signals: Callable[[], tuple[Awaited, ...]]
+    """Comparisons of signals, with which it may hold."""
+    calls: bool = False
+    """It calls a function of the program."""
 
     def __call__(self) -> bool:
         return self.look()
@@ -382,6 +394,7 @@ NAMESPACE: dict[str, Callable[..., Value]] = {
     "PSUB": pos_subtract,
     "PNEG": pos_negate,
     "PMUL": pos_scale,
+    "PDIV": pos_divide,
     "PCROSS": pos_cross,
     "QMUL": orient_multiply,
     "STEPS": count_steps,
@@ -401,5 +414,6 @@ NAMESPACE: dict[str, Callable[..., Value]] = {
     "PART": part,
     "LATE": LateArgument,
     "CONDITION": Condition,
+    "AWAITED": Awaited,
 }
 """Names that compiled code finds among its globals."""

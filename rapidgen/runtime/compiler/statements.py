@@ -2,6 +2,7 @@
 
 from rapidgen.rapid.builtins.signatures import marked
 from rapidgen.rapid.syntax import nodes as n
+from rapidgen.runtime import unsupported
 from rapidgen.runtime.compiler.calls import call
 from rapidgen.runtime.compiler.compiled import CodeRole
 from rapidgen.runtime.compiler.context import CALLS, E, calling, failing
@@ -59,7 +60,9 @@ def _procedure(emitter: Emitter, node: n.ProcedureCall) -> None:
     routine = emitter.unit.routine_named(node.name)
     key = node.name.lower()
     if routine is None or routine.kind != "PROC":
-        emitter.simple(failing("ERR_REFUNKPRC", node.name))
+        option = key in unsupported.option_routines()
+        missing = calling(f"R.missing({node.name!r})", NUM)
+        emitter.simple(missing if option else failing("ERR_REFUNKPRC", node.name))
         return
     if routine.node is None and key in marked("steps"):
         step(emitter, key, node)

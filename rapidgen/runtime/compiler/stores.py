@@ -15,10 +15,8 @@ def _target(unit: Unit, node: n.Expression) -> DataPlace:
         raise CannotCompile("a placeholder is no datum", node)
     place = place_of(unit, node)
     if place is None:
-        if isinstance(node, n.Name) and unit.data(node.name) is None:
-            raise CannotCompile(f"{node.name} is not declared", node)
         raise CannotCompile("only variables, persistents and parameters can be assigned", node)
-    if place.data.kind == "CONST" or place.data.readonly:
+    if place.data.readonly:
         raise CannotCompile(f"{place.data.name} cannot be changed", node)
     return place
 
@@ -154,6 +152,8 @@ def step(emitter: Emitter, key: str, node: n.ProcedureCall) -> None:
             whole=current.whole and by.whole,
             risky=not (by.literal or (current.whole and by.whole)),
         ).take(current, by)
+    if kind.kind == "dnum" and key != "clear":
+        value.code, value.fails = f"WHOLE{value.code}", True
     value.cost += emitter.options.call
     _store(emitter, place, value)
 

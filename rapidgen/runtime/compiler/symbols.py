@@ -20,6 +20,10 @@ class CannotCompile(Exception):
         self.node = node
 
 
+class NoWay(CannotCompile):
+    """A jump has no way to its label: not a matter of one statement."""
+
+
 Storage: TypeAlias = Literal["inline", "global", "cell", "local", "box", "ref", "object"]
 """How a datum is kept:
 

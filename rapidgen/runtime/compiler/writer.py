@@ -41,6 +41,17 @@ class CodeLine:
     """Of a charge: how RETURN of an ERROR (list) leaves, where a long jump may end here."""
 
 
+@dataclass(frozen=True, slots=True)
+class Mark:
+    """How far a writer is."""
+
+    lines: int
+    depth: int
+    leave: str
+    block: Block | None
+    costs: int
+
+
 class Writer:
     """Collects lines."""
 
@@ -61,6 +72,18 @@ class Writer:
         block = self._block
         paid = len(block.costs) if block is not None else 0
         self.lines.append(CodeLine(self.depth, text, self.token, block, paid, False, self.synced))
+
+    def mark(self) -> "Mark":
+        """What is written so far, for `back_to`."""
+        costs = len(self._block.costs) if self._block is not None else 0
+        return Mark(len(self.lines), self.depth, self.leave, self._block, costs)
+
+    def back_to(self, mark: "Mark") -> None:
+        """Forget what was written since."""
+        del self.lines[mark.lines :]
+        self.depth, self.leave, self.synced, self._block = mark.depth, mark.leave, False, mark.block
+        if mark.block is not None:
+            del mark.block.costs[mark.costs :]
 
     def cut(self, mark: int) -> list[CodeLine]:
         """Take off the lines from a place on."""

@@ -82,6 +82,11 @@ class Errors:
             raise known
         elif self._stops:
             self._stop_at_bare_callee(known, traceback)
+        elif listed is None and self._came_out_of_bare(traceback):
+            # A recovery point further out comes before a plain handler nearer by [K §7.2].
+            known.target = self._recovery_point(frame, number)
+            if known.target is not None:
+                raise known
         if way is None:
             if not retries:
                 self.retry_base = 0
@@ -152,14 +157,18 @@ class Errors:
 
     def _stop_at_bare_callee(self, error: RapidError, traceback: TracebackType | None) -> None:
         """Switch: an error that came out of a routine without ERROR is nobody's."""
+        if self._came_out_of_bare(traceback):
+            raise self.unhandled(error) from None
+
+    def _came_out_of_bare(self, traceback: TracebackType | None) -> bool:
+        """Whether an error was raised by a call of a routine without ERROR."""
         at = traceback.tb_next if traceback is not None else None
         while at is not None:
             compiled = self._task.program.codes.get(at.tb_frame.f_code.co_filename)
             if compiled is not None:
-                if not compiled.handled:
-                    raise self.unhandled(error) from None
-                return
+                return not compiled.handled
             at = at.tb_next
+        return False
 
     def _settled(
         self,
@@ -209,6 +218,12 @@ class Errors:
         if self._switches.raise_in_handler == "error":
             raise FatalError(40001, "RAISE with a number may not stand in a handler", "[K §4.8]")
         self._instead = self._own_error(number)
+
+    def retry_here(self) -> NoReturn:
+        """RETRY, asked for by an instruction. FatalError: outside an ERROR handler."""
+        if not self.handler_level:
+            raise FatalError(40001, "RETRY stands only in an error handler", "[K §4.10]")
+        raise ResumeInside(RETRY)
 
     def _own_error(self, number: float) -> RapidError:
         """1 to 90, a booked number or an ERR_ constant; else ERR_ILLRAISE [K §4.8]."""
@@ -309,6 +324,8 @@ class Errors:
         if isinstance(leaving, RECOVERABLE):
             known = as_rapid_error(leaving)
             frame = sys._getframe(1)
+            if known.target is None and not self._stops:
+                known.target = self._recovery_point(frame, known.number)
             if known.target is None and self._has_handler_above(frame):
                 return
             if known.target is None and self._keep_undo(handler):

@@ -94,6 +94,12 @@ class Pointer:
 
     # -- where it stands -------------------------------------------------------------------------
 
+    @property
+    def begun(self) -> bool:
+        """Whether a statement of the program is being executed, or was when it was stopped."""
+        codes = self._task.program.codes
+        return any(f.f_code.co_filename in codes for f in outwards(self._task.frame))
+
     def stack(self) -> list[Standing]:
         """Every routine of a stopped program. CannotStep: inside what cannot be left."""
         if self.place is not None:

@@ -30,8 +30,8 @@ class Run:
     """PP was set to main: variables are to be initialised."""
     routine: Routine | None = None
     """Where PP was set instead of main."""
-    start_asked: bool = False
-    """A start came while routines were still being left for PP to main."""
+    start_asked: Callable[[], None] | None = None
+    """What to do about a start or a step that came while routines were left for PP to main."""
 
     def body(self) -> None:
         """The greenlet of one run."""
@@ -73,6 +73,7 @@ class Run:
         task.errno = task.intno = 0
         controller = task.controller
         drop_dynamic(task)
+        task.cyclic.clear()
         controller.sockets.close_task(task.name)
         controller.files.close_task(task.name)
         group = controller.motion.moved_by(task.name)
@@ -168,10 +169,9 @@ class Run:
         task = self.task
         if not self.fresh:
             task.enter("finished")
-        elif self.start_asked:
-            self.start_asked = False
-            self.events.due.append("START")
-            task.enter("running")
+        elif self.start_asked is not None:
+            begin, self.start_asked = self.start_asked, None
+            begin()
             return True
         else:
             task.enter("ready")

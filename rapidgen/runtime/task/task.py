@@ -8,6 +8,7 @@ event routines, and the run, which is what its greenlet executes.
 import sys
 from collections.abc import Callable, Iterable, Iterator
 
+from rapidgen.diagnostics import Span
 from rapidgen.machine.process import Process
 from rapidgen.machine.scheduler import Scheduler, WaitSet
 from rapidgen.motion.faults import MotionFault
@@ -16,6 +17,7 @@ from rapidgen.runtime.compiler.linking import Shared
 from rapidgen.runtime.compiler.program import Program
 from rapidgen.runtime.compiler.runtime import LateArgument
 from rapidgen.runtime.compiler.symbols import Data, LoadedModule, Routine
+from rapidgen.runtime.cyclic import CyclicBools
 from rapidgen.runtime.errors import EndOfRun, EventStopped, FatalError, Location, PointerMoved
 from rapidgen.runtime.host import Host, TaskState
 from rapidgen.runtime.motion_faults import in_rapid
@@ -57,6 +59,8 @@ class Task(Process):
         self.spec = spec
         self.controller = controller
         self.state: TaskState = "empty"
+        self.no_start = ""
+        """Why the task has no program that could be started."""
         self.fault: FatalError | None = None
         self.cycles = 0
         """How often the program came to the end of its entry routine."""
@@ -67,9 +71,11 @@ class Task(Process):
         self.intno = 0
         self.ret: Value = None
         """Value of RETURN in a handler."""
-        self.waiting_for: Callable[[], bool] | None = None
+        self.waits_for: Callable[[], str] | None = None
+        """What it waits for, in words; None: it does not wait, or for time alone."""
         self.found: Iterator[tuple[LoadedModule | None, Data]] = iter(())
         """What SetDataSearch has found and GetNextSym has not given yet."""
+        self.cyclic = CyclicBools()
         self._order: BaseException | None = None
         self._holds = 0
 
@@ -103,7 +109,7 @@ class Task(Process):
         """Start from where the task stopped, or from main."""
         self.stepper.forget()
         if self.leaving:
-            self.run.start_asked = True
+            self.run.start_asked = self._asked_to_start
         elif self.state == "stopped":
             self.events.due.append("RESTART")
             self.enter("running")
@@ -123,12 +129,16 @@ class Task(Process):
             self.enter("running")
             self._run()
 
+    def _asked_to_start(self) -> None:
+        self.events.due.append("START")
+        self.enter("running")
+
     def stop(self, event: StopEvent = "STOP") -> None:
         """Stop before the next statement or in the wait; `start()` goes on there.
 
         The routines of `event` run when the task stands.
         """
-        self.run.start_asked = False
+        self.run.start_asked = None
         if self.state == "running":
             self.enter("stopped")
             if event:
@@ -142,12 +152,24 @@ class Task(Process):
             stepper.begin(over)
             self._run()
             return
-        if self.state not in ("stopped", "error") or self.leaving or self.events.while_stopped:
-            raise CannotStep(f"the task is {self.state}")
+        if self.state == "running":
+            raise CannotStep("the program runs: stop it first")
+        if self.leaving and not back:
+            self.run.start_asked = lambda: stepper.begin(over)
+            return
+        if self.state not in ("stopped", "error") or self.leaving:
+            raise CannotStep(f"the task is {'at main' if self.leaving else self.state}")
+        if self.events.while_stopped:
+            raise CannotStep("the routines of STOP still run: let time pass")
         if self.state == "error" and self.pointer.place is None:
             raise CannotStep("the program pointer is lost: PP to main first")
         if stepper.at_point >= 0 and not back:
             stepper.begin(over, stepper.at_point)
+            self.release()
+            return
+        if self.alive and self.pointer.place is None and not self.pointer.begun and not back:
+            # Stopped before its first statement.
+            stepper.begin(over)
             self.release()
             return
         self.pointer.place = self.pointer.stack()
@@ -204,7 +226,7 @@ class Task(Process):
         run, events = self.run, self.events
         run.routine = routine
         run.fresh = True
-        run.start_asked = False
+        run.start_asked = None
         events.due = [e for e in events.due if e == "POWER_ON"]
         if routine is None:
             events.due.append("RESET")
@@ -264,11 +286,13 @@ class Task(Process):
         *,
         on: Iterable[WaitSet] = (),
         timeout: float | None = None,
+        why: Callable[[], str] | None = None,
     ) -> bool:
         """Wait until `predicate()`, looked at now and whenever a member of `on` changes.
 
         False when `timeout` seconds passed first. Traps are served meanwhile. After a program
-        stop the time counts from its beginning again [S4 overview 5-23].
+        stop the time counts from its beginning again [S4 overview 5-23]. `why` says in words
+        what for, when somebody asks.
         """
         if predicate():
             return True
@@ -286,7 +310,9 @@ class Task(Process):
         for wait_set in watched:
             wait_set.add(self.wake)
         holds = self._holds
-        self.waiting_for = predicate
+        before = self.waits_for
+        if why is not None:
+            self.waits_for = why
         try:
             while True:
                 self.block()
@@ -300,7 +326,7 @@ class Task(Process):
                 if expired:
                     return False
         finally:
-            self.waiting_for = None
+            self.waits_for = before
             if timer is not None:
                 timer.cancel()
             for wait_set in watched:
@@ -444,6 +470,10 @@ class Task(Process):
         raise FatalError(
             40001, f"{name} is not available on the virtual controller", unsupported.reason(name)
         )
+
+    def refuse(self, reason: str, span: Span) -> None:
+        """A statement that breaks a rule of the language, which nothing found before."""
+        raise FatalError(40001, "Statement cannot be executed", reason, span=span)
 
     def late(
         self, name: str, module: LoadedModule | None, arguments: tuple[LateArgument | None, ...]

@@ -3,6 +3,7 @@
 Shapes are those that three generations of controllers really gave [VC 6.16, VC 7.21, real 7.21].
 """
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import IntEnum
@@ -19,6 +20,11 @@ class Generation(IntEnum):
 
 Syntax = Literal["xhtml", "json", "hal"]
 """XHTML of either generation, JSON of RWS 1.0, HAL of RWS 2.0."""
+
+
+def whole(text: str) -> int:
+    """A whole number of at most 18 digits; 0 where the text is none."""
+    return int(text) if re.fullmatch(r"[+-]?[0-9]{1,18}", text) else 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,6 +44,10 @@ class Item:
     def text(self, name: str, default: str = "") -> str:
         """A field, or `default`."""
         return self.fields.get(name, default)
+
+    def whole(self, name: str) -> int:
+        """A field as a whole number; 0 where it is none."""
+        return whole(self.fields.get(name, ""))
 
 
 @dataclass(frozen=True, slots=True)

@@ -25,7 +25,7 @@ def write_hal(body: Body) -> bytes:
     links = _links(body)
     if body.fault is not None:
         status: _Object = {"code": body.fault.code, "msg": body.fault.message}
-        return json.dumps({"_links": {"base": links["base"]}, "status": status}).encode()
+        return json.dumps({"_links": {"base": links.get("base", {})}, "status": status}).encode()
     whole: _Object = {"_links": links, "status": {"code": OK}}
     items = [_item(item) for item in body.items]
     if body.collection:

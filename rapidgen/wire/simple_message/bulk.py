@@ -75,9 +75,9 @@ def decode_points(data: bytes) -> npt.NDArray[np.void]:
 
 
 _WORD = np.dtype("<i4")
-_POINTS_HEAD = Struct("<8i")
+_BATCH_HEAD = Struct("<8i")
 _CHECKSUM = Struct("<i")
-_POINTS = messages.POINTS.number
+_POINTS, _PROGRAM = messages.POINTS.number, messages.PROGRAM.number
 _REQUEST, _TOPIC, _NONE = int(Comm.REQUEST), int(Comm.TOPIC), int(ReplyCode.NONE)
 _HEAD = (spec.PREFIX_BYTES + spec.HEADER_BYTES) // _WORD.itemsize
 """Words before the data."""
@@ -174,14 +174,28 @@ def encode_points(
 
 def _unsealed(stream: int, first: int, words: Words, flags: int, request: bool) -> bytes:
     """A POINTS frame without its checksum."""
+    comm = _REQUEST if request else _TOPIC
+    return _batch(_POINTS, comm, (stream, flags, first % INDEX_WRAP, len(words)), words)
+
+
+def program_frame(
+    program: int, first: int, instructions: Rows[Rows[int]], *, flags: int = 0
+) -> bytes:
+    """Instructions `first`, `first` + 1, ... of a program, as one PROGRAM frame.
+
+    With BEGIN the first of them has where the program begins before its own words.
+    """
+    words = np.array([word for one in instructions for word in one], dtype=_WORD)
+    head = (program, flags, first % INDEX_WRAP, len(instructions))
+    return _sealed([_batch(_PROGRAM, _REQUEST, head, words)])[0]
+
+
+def _batch(number: int, comm: int, head: tuple[int, int, int, int], words: Words) -> bytes:
+    """A batch without its checksum; `head` has whose it is, flags, first and how many."""
     length = messages.POINTS.length + words.nbytes
     if length > spec.MAX_LENGTH:
-        raise ValueError(f"{len(words)} points do not fit in one message")
-    comm = _REQUEST if request else _TOPIC
-    head = _POINTS_HEAD.pack(
-        length, _POINTS, comm, _NONE, stream, flags, first % INDEX_WRAP, len(words)
-    )
-    return head + words.tobytes()
+        raise ValueError(f"{head[-1]} points or instructions do not fit in one message")
+    return _BATCH_HEAD.pack(length, number, comm, _NONE, *head) + words.tobytes()
 
 
 def _sealed(frames: Rows[bytes]) -> list[bytes]:

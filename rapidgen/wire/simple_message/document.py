@@ -9,6 +9,7 @@ from enum import IntEnum, IntFlag
 
 from rapidgen.wire.simple_message import messages, spec
 from rapidgen.wire.simple_message.declaration import ANY, Field, MessageType
+from rapidgen.wire.simple_message.instructions import MODALS, OPERANDS
 from rapidgen.wire.simple_message.spec import Port
 
 _INTRODUCTION = """\
@@ -74,6 +75,28 @@ reply says that the stop was taken, STOPPED where the robot stands then. PAUSE k
 everything that halts a motion halts a paused one. Nothing starts again by itself.
 """
 
+_PROGRAMS = """\
+## Programs
+
+A program counts among the trajectories: it has a number and PROGRESS, and everything halts it that
+halts one. Where HELLO tells PROGRAMS, a PROGRAM carries a batch of its instructions as POINTS does
+points, with the same rules for BEGIN, END, `first`, checksum, room and order. Besides:
+
+- Its words are int32. The first batch begins with where the robot stands, a word for each joint:
+  from there the client has checked it, and elsewhere it does not begin (START_TOO_FAR).
+- An instruction is a first word, a whole number: what it does, and bits for what it changes, which
+  then follows and holds until it is changed again; then its operands. All other words are `fixed`.
+  The first instruction brings speed and zone.
+- Whoever says WHOLE in every batch gets a program that is checked whole: nothing moves before END,
+  and it is refused whole. It may have as many instructions as the ring holds. Otherwise the robot
+  moves as soon as the first batch is accepted, and what is executed is a prefix.
+- A move to a pose says the joints at its end, too: the driver asks the controller what pose they
+  reach, and refuses a pose more than 1 mm or 0.2 degrees away (POSE_MISMATCH). So their limits are
+  checked, and the configuration is theirs by the controller's own word.
+- Without a next instruction the robot stops at the end of the last one that came (STARVED).
+
+{}"""
+
 
 def protocol_markdown() -> str:
     """The whole page."""
@@ -88,6 +111,7 @@ def protocol_markdown() -> str:
         _reserved(),
         _RULES,
         _STREAMS,
+        _programs(),
         _enum_section("Special sequence numbers", spec.Sequence),
         _enum_section("Tri-states", spec.TriState),
         _enum_section("Modes", spec.Mode),
@@ -170,6 +194,14 @@ def _fields(fields: Sequence[Field]) -> str:
     return _table(("byte", "field", "type", "unit", "meaning"), rows)
 
 
+def _programs() -> str:
+    rows = [
+        *((int(i), i.name, text) for i, text in OPERANDS.items()),
+        *((f"+ {int(m)}", m.name, text) for m, text in MODALS.items()),
+    ]
+    return _PROGRAMS.format(_table(("first word", "name", "words behind it"), rows))
+
+
 def _reserved() -> str:
     standard = _table(("number", "name"), [(number, name) for name, number in spec.RESERVED])
     ranges = _table(("from", "to", "whose"), [(a, b, name) for name, a, b in spec.VENDOR_RANGES])
@@ -204,7 +236,7 @@ def _versions() -> str:
         ),
         (
             "3",
-            "none",
+            f"{_new(3)}, where HELLO tells PROGRAMS; reasons 28 to 35, 50 and 51",
             "values and checksum of POINTS are int32, no number of eight bytes is left; refused as "
             "between 1 and 2",
         ),

@@ -15,7 +15,13 @@ from rapidgen.wire.simple_message.declaration import (
     float32,
     int32,
 )
-from rapidgen.wire.simple_message.spec import MAX_JOINTS, MAX_LENGTH, Port, ReplyCode
+from rapidgen.wire.simple_message.spec import (
+    MAX_JOINTS,
+    MAX_LENGTH,
+    MOST_ARGUMENTS,
+    Port,
+    ReplyCode,
+)
 
 Joints = tuple[float, ...]
 """Ten controller axis values in wire order, rad or m, padded with zeros."""
@@ -391,6 +397,68 @@ class EventReport(NamedTuple):
 
 
 EVENT = MessageType("EVENT", 1308, EventReport, _CONTROLLER, (Port.STATE,), since=2)
+
+
+class Instructions(NamedTuple):
+    """Instructions of a program: moves to joints and to poses. As a topic it is not answered."""
+
+    # `instructions` makes the words of one, `bulk` the frames.
+    program: Annotated[int, int32("the client's number of the program, 1 to 2^23 - 1")]
+    flags: Annotated[int, int32("bits: 1 BEGIN, 2 END, 8 WHOLE")]
+    first: Annotated[int, int32("index of the first instruction, from 0, modulo 2^23")]
+    instructions: Annotated[int, int32("how many follow, from 0")]
+    values: Annotated[
+        tuple[float, ...],
+        Field(Wire.FIXED, ANY, "s, rad, m", "the instructions, see below"),
+    ]
+    checksum: Annotated[int, int32("as of POINTS")]
+
+
+PROGRAM = MessageType(
+    "PROGRAM",
+    1309,
+    Instructions,
+    _CLIENT,
+    (Port.MOTION,),
+    since=3,
+    replies=(
+        Reply(ReplyCode.SUCCESS, PointsAccepted, "as to POINTS, of instructions"),
+        Reply(
+            ReplyCode.FAILURE,
+            PointsRefused,
+            "as to POINTS; with WHOLE nothing of the program is executed",
+        ),
+    ),
+)
+
+
+class ResultRequest(NamedTuple):
+    """What has come of the routine that a program called? The answer is that of the newest call
+    that has ended."""
+
+    trajectory: Annotated[int, int32("not used")]
+
+
+class ResultReply(NamedTuple):
+    """Reply to RESULT: what the routine left in its parameters, or its error."""
+
+    trajectory: Annotated[int, int32("whose call it was")]
+    error: Annotated[int, int32("ERRNO of the error that it raised, 0: none")]
+    values: Annotated[
+        tuple[float, ...],
+        float32("1", "of its parameters num and bool (0, 1) in their order", MOST_ARGUMENTS),
+    ]
+
+
+RESULT = MessageType(
+    "RESULT",
+    1310,
+    ResultRequest,
+    _CLIENT,
+    (Port.MOTION,),
+    since=3,
+    replies=(Reply(ReplyCode.SUCCESS, ResultReply),),
+)
 
 MESSAGES = tuple(row for row in tuple(globals().values()) if isinstance(row, MessageType))
 """All of them, by number."""

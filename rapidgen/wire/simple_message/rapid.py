@@ -42,6 +42,9 @@ def rapid_constants() -> tuple[RapidConstant, ...]:
         RapidConstant(f"ROS_TRAJ_{s.name}", s, "trajectory state") for s in spec.TrajectoryState
     ]
     found += [RapidConstant(f"ROS_STREAM_{f.name}", f, "flag of POINTS") for f in spec.StreamFlag]
+    found += [RapidConstant(f"ROS_DO_{i.name}", i, "instruction") for i in spec.Instruction]
+    found += [RapidConstant(f"ROS_MARK_{m.name}", m, "where a signal is set") for m in spec.Mark]
+    found += [RapidConstant(f"ROS_SET_{m.name}", m, "before operands") for m in spec.Modal]
     found += [RapidConstant(f"ROS_EVENT_{e.name}", e, "type of an event") for e in spec.EventType]
     found += [RapidConstant(f"ROS_REASON_{r.name}", r, r.text) for r in spec.Reason]
     return tuple(RapidConstant(c.name, int(c.value), c.text, c.type) for c in found)

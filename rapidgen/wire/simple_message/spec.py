@@ -20,6 +20,10 @@ MAX_MESSAGE_BYTES = 1024
 MAX_LENGTH = MAX_MESSAGE_BYTES - PREFIX_BYTES
 MAX_JOINTS = 10
 
+MOST_ARGUMENTS = 8
+"""Parameters of a routine."""
+LONGEST_TEXT = 80
+"""Characters of a RAPID string."""
 INDEX_WRAP = 2**23
 """Streams, trajectories and the points of a stream count modulo this: a num holds it exactly."""
 FIXED_SCALE = 1_000_000
@@ -108,6 +112,7 @@ class Feature(IntFlag):
     SIGNALS = 8
     EVENTS = 16
     FEEDBACK = 32
+    PROGRAMS = 64
 
 
 class StreamFlag(IntFlag):
@@ -119,6 +124,42 @@ class StreamFlag(IntFlag):
     """Nothing follows; the last point is a stop point."""
     FLUSH = 4
     """Start with what is there, though it is less than the driver likes to have."""
+    WHOLE = 8
+    """Of a program: nothing moves before its end has come and all of it was checked."""
+
+
+class Instruction(IntEnum):
+    """What one instruction of a program does: the lower eight bits of its first word."""
+
+    MOVE_ABSJ = 1
+    MOVE_J = 2
+    MOVE_L = 3
+    MOVE_C = 4
+    WAIT = 5
+    WAIT_SIGNAL = 6
+    SET = 7
+    CALL = 8
+
+
+class Modal(IntFlag):
+    """What stands before the operands of an instruction, in this order; all but SIGNALS holds from
+    it on."""
+
+    SPEED = 256
+    ZONE = 512
+    FRAMES = 1024
+    SIGNALS = 2048
+
+
+class Mark(IntEnum):
+    """Where on its move a signal is set."""
+
+    START = 0
+    """m from the beginning of the move"""
+    END = 1
+    """m before its end"""
+    TIME = 2
+    """s before its end"""
 
 
 class EventType(IntEnum):
@@ -189,6 +230,13 @@ class Reason(IntEnum):
     NOT_ALLOWED = 26, "the client's address may not move this robot"
     IDLE = 27, "no trajectory is under way"
     NOT_SERVING = 28, "the program of the robot is not in ROS_run"
+    NO_INSTRUCTION = 29, "the driver does not have this instruction"
+    BAD_SPEED = 30, "a speed is missing, or outside its range"
+    BAD_ZONE = 31, "a zone is missing, or outside its range"
+    POSE_MISMATCH = 32, "the joints do not reach the pose on this controller"
+    NO_GEOMETRY = 33, "the controller does not tell what pose the joints reach"
+    NO_FRAME = 34, "the driver does not have this tool or work object"
+    NO_ROUTINE = 35, "there is no such routine, or not with these parameters"
     STOPPED = 40, "stopped on request"
     SUPERSEDED = 41, "a newer trajectory took its place"
     CLIENT_LOST = 42, "the connection to the client was lost"
@@ -199,6 +247,8 @@ class Reason(IntEnum):
     MODE_CHANGED = 47, "the operating mode changed"
     STARVED = 48, "the next point came too late"
     INTERNAL = 49, "the driver met a state that it does not know"
+    WAITED = 50, "a signal did not come in time"
+    ROUTINE = 51, "a routine has raised an error"
 
 
 def error_code(reason: Reason, joint: int = 0) -> int:

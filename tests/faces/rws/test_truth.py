@@ -158,6 +158,7 @@ def test_cfg_counts_after_a_restart_which_keeps_persistents(tmp_path, generation
         reply = caller.send("POST", load, form)
         assert reply.status == (204 if one else 202)
         cabinet.controller.tasks["T_ROB1"]["MainModule:x"] = 42
+        cabinet.controller.motion.group("rob1").jump((0.1, 0.2, 0, 0, 0.3, 0))
         assert list(cabinet.controller.tasks) == ["T_ROB1"]
         again = caller.send("POST", load, form)
         if one:
@@ -172,6 +173,7 @@ def test_cfg_counts_after_a_restart_which_keeps_persistents(tmp_path, generation
             "T_BACK": "running",
         }
         assert controller.tasks["T_ROB1"]["MainModule:x"] == 42
+        assert controller.motion.group("rob1").positions() == (0.1, 0.2, 0, 0, 0.3, 0)
         assert not controller.motors_on
         assert not controller.failed
         controller.run_for(3)

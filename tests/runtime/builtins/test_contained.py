@@ -162,7 +162,7 @@ def test_a_peer_that_does_not_read(cell):
     with connect(POUR) as idle:
         idle.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
         # Buffers are full when the task waits for room.
-        while controller.call(lambda: controller.rapid_tasks["T_POUR"].waiting_for) is None:
+        while controller.call(lambda: controller.rapid_tasks["T_POUR"].waits_for) is None:
             pulse.beat()
         for _ in range(50):
             pulse.beat()

@@ -19,13 +19,12 @@ def disk(bench):
     return bench.controller.files.folder / "HOME"
 
 
-def test_the_status_of_a_line(bench, disk):
+def test_a_line_by_its_number(bench, disk):
     (disk / "a").write_bytes(b"b\nc")
-    device, status = IODevice(), bench.box(9)
+    device = IODevice()
     bench("Open", "a", device, Read=True)
-    for line, text, told in ((2, "c", 0), (9, "EOF", -1)):
-        assert bench("ReadStr", device, Line=line, Status=status) == text
-        assert status.get() == told
+    for line, text in ((2, "c"), (9, "EOF"), (1, "b")):
+        assert bench("ReadStr", device, Line=line) == text
 
 
 @pytest.mark.parametrize(

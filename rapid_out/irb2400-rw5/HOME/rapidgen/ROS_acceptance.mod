@@ -8,7 +8,7 @@ MODULE ROS_acceptance
     ! What a trajectory that comes whole and one that comes in batches have in common. The one
     ! who takes a point unpacks it, lets it be checked here, and looks at ROS_fault then.
 
-    CONST string ROS_BUILD_ACCEPTANCE := "e09af2ab96b3";
+    CONST string ROS_BUILD_ACCEPTANCE := "87d9d58597a4";
 
     ! s: longest duration of a point
     CONST num ROS_LONGEST := 3600;
@@ -70,6 +70,7 @@ MODULE ROS_acceptance
         stops_seen := ROS_control_asked;
         ! The number first and its repetition last: see ROS_common.
         ROS_trajectory := ROS_next(ROS_trajectory);
+        IF ROS_program = ROS_trajectory ROS_program := -1;
         ROS_received := 0;
         ROS_refusal := ROS_REASON_NONE;
         ROS_refused_at := -1;
@@ -110,13 +111,10 @@ MODULE ROS_acceptance
         low := ROS_low{joint};
         high := ROS_high{joint};
         taken := wanted;
-        IF low - ROUNDING <= wanted AND wanted < low THEN
-            taken := low;
-        ELSEIF high < wanted AND wanted <= high + ROUNDING THEN
-            taken := high;
-        ELSEIF NOT (low <= wanted AND wanted <= high) THEN
+        IF low - ROUNDING <= wanted AND wanted < low taken := low;
+        IF high < wanted AND wanted <= high + ROUNDING taken := high;
+        IF NOT (low <= taken AND taken <= high)
             ROS_object 100 * joint + not_a_number(wanted, ROS_REASON_JOINT_LIMIT);
-        ENDIF
         ! How the robot gets to the first point is not the client's business.
         IF ROS_first OR Abs(taken - before) <= ROS_SPEED{joint} * ROS_seconds RETURN taken;
         ROS_object 100 * joint + ROS_REASON_TOO_FAST;
@@ -128,10 +126,6 @@ MODULE ROS_acceptance
         IF -ROS_FINITE <= wanted AND wanted <= ROS_FINITE RETURN reason;
         RETURN ROS_REASON_NOT_FINITE;
     ENDFUNC
-
-    PROC ROS_short_segment()
-        ROS_object ROS_REASON_SEGMENT_TOO_SHORT;
-    ENDPROC
 
     ! The path planner ignores its limit of TCP speed when a move is given its time.
     PROC ROS_check_tcp()
@@ -269,9 +263,9 @@ MODULE ROS_acceptance
     ENDPROC
 
     ! STOP: what has not begun to move never will, and a refusal is no fault any more.
-    PROC ROS_forget_trajectory(num reason)
+    PROC ROS_forget_trajectory()
         IF ROS_phase <> ROS_TRAJ_RECEIVING AND ROS_phase <> ROS_TRAJ_REFUSED RETURN;
-        ROS_refusal := reason;
+        ROS_refusal := ROS_REASON_STOPPED;
         ROS_phase := ROS_TRAJ_STOPPED;
     ENDPROC
 
@@ -289,7 +283,7 @@ MODULE ROS_acceptance
     PROC ROS_report(num code, num index)
         VAR string place := "";
 
-        IF clock_runs AND seconds_since_line() < 1 THEN
+        IF clock_runs AND ROS_elapsed(since_line) < 1 THEN
             silent_lines := silent_lines + 1;
             RETURN;
         ENDIF
@@ -298,16 +292,7 @@ MODULE ROS_acceptance
         IF silent_lines > 0 place := place + ValToStr(silent_lines) + " more like it.";
         silent_lines := 0;
         ErrWrite \W, "ROS: trajectory refused", ROS_reason_text(code MOD 100) \RL2:=place;
-        ClkReset since_line;
-        ClkStart since_line;
+        ROS_start_clock since_line;
         clock_runs := TRUE;
     ENDPROC
-
-    LOCAL FUNC num seconds_since_line()
-        RETURN ClkRead(since_line);
-    ERROR
-        ! A clock counts 49 days.
-        SkipWarn;
-        RETURN ROS_FINITE;
-    ENDFUNC
 ENDMODULE

@@ -9,7 +9,7 @@ MODULE ROS_motion
     ! check was made before a point was put in. A point whose successor is there is passed
     ! through its zone; without one it is a stop point, so the planner never runs dry in a corner.
 
-    CONST string ROS_BUILD_MOTION := "e09af2ab96b3";
+    CONST string ROS_BUILD_MOTION := "87d9d58597a4";
 
     ! With \T in the move the speed is only formal.
     LOCAL CONST speeddata SPEED := [1000,500,1000,1000];
@@ -39,8 +39,14 @@ MODULE ROS_motion
 
     LOCAL VAR intnum bell;
     LOCAL VAR intnum speed_bell;
-    ! Percent of the programmed speed, as it was set last.
-    LOCAL VAR num percent := 0;
+    LOCAL VAR intnum tick;
+    ! Percent of the programmed speed that is wanted, for which the point at hand has its time, and
+    ! the newest move of the trajectory (0: it is short); percent by SpeedRefresh.
+    LOCAL VAR num pace := 100;
+    LOCAL VAR num taken := 100;
+    LOCAL VAR num latest := 0;
+    LOCAL VAR num share := 100;
+    LOCAL VAR num repeats := 0;
     ! Leaves a move whose path is gone, by a long jump out of the trap.
     LOCAL VAR errnum path_gone := -1;
     ! Main moves, or is about to: there the trap may end what it does.
@@ -57,18 +63,16 @@ MODULE ROS_motion
     LOCAL VAR num closed := 0;
     ! Why a move failed.
     LOCAL VAR num fault := 0;
-    LOCAL VAR clock since_busy;
 
     PROC main()
         ROS_run;
     ENDPROC
 
-    ! Serve the ring: for ever, or until the signal or the datum is TRUE. Then no new
-    ! trajectory is taken, the one under way comes to its end, and the robot stands.
-    PROC ROS_run(\VAR signaldi UntilDI | PERS bool Until)
-        VAR bool left := FALSE;
-
-        ROS_start_task ROS_shown_motion, ROS_BUILD_EVENTS = ROS_BUILD_ID AND ROS_BUILD_MOTION = ROS_BUILD_ID;
+    ! Serve the ring, for ever.
+    PROC ROS_run()
+        ROS_start_task ROS_shown_motion,
+            ROS_BUILD_EVENTS = ROS_BUILD_ID AND ROS_BUILD_INSTRUCTIONS = ROS_BUILD_ID AND
+            ROS_BUILD_EXECUTION = ROS_BUILD_ID AND ROS_BUILD_MOTION = ROS_BUILD_ID;
         ROS_service := ROS_OUTSIDE;
         in_move := FALSE;
         IF path_gone = -1 BookErrNo path_gone;
@@ -81,45 +85,13 @@ MODULE ROS_motion
         IDelete speed_bell;
         CONNECT speed_bell WITH on_bell;
         IPers ROS_speed_asked, speed_bell;
-        percent := 0;
+        IF repeats > 0 say_again;
         set_speed;
-        WHILE NOT left DO
-            IF is_wanted(\UntilDI?UntilDI \Until?Until) THEN
-                left := is_over();
-            ELSE
-                ROS_service := ROS_SERVING;
-            ENDIF
-            IF NOT left serve_ring;
+        WHILE TRUE DO
+            ROS_service := ROS_SERVING;
+            serve_ring;
         ENDWHILE
-        ROS_service := ROS_OUTSIDE;
-        IDelete bell;
-        IDelete speed_bell;
-        ROS_speed_of := -1;
-        set_speed;
     ENDPROC
-
-    ! TRUE when ROS_run is to return.
-    LOCAL FUNC bool is_wanted(\VAR signaldi UntilDI | PERS bool Until)
-        IF Present(UntilDI) RETURN DInput(UntilDI) = 1;
-        IF Present(Until) RETURN Until;
-        RETURN FALSE;
-    ERROR
-        ! The signal's unit is not there.
-        SkipWarn;
-        RETURN FALSE;
-    ENDFUNC
-
-    ! TRUE when nothing has been under way for half a second in which none could begin, and
-    ! nothing stops the robot.
-    LOCAL FUNC bool is_over()
-        IF ROS_service <> ROS_LEAVING OR ROS_active() OR ROS_abort <> ROS_abort_done OR IsStopMoveAct() THEN
-            ROS_service := ROS_LEAVING;
-            ClkReset since_busy;
-            ClkStart since_busy;
-            RETURN FALSE;
-        ENDIF
-        RETURN ClkRead(since_busy) > 0.5;
-    ENDFUNC
 
     LOCAL PROC serve_ring()
         ! Read before the head of the ring: no point comes after this.
@@ -129,7 +101,11 @@ MODULE ROS_motion
         ELSEIF fault <> ROS_REASON_NONE THEN
             give_up;
         ELSEIF ROS_head <> ROS_tail THEN
-            next_point;
+            IF ROS_program = ROS_session THEN
+                next_order;
+            ELSE
+                next_point;
+            ENDIF
         ELSEIF closed = ROS_session AND ROS_active() THEN
             finish;
         ELSE
@@ -137,7 +113,8 @@ MODULE ROS_motion
         ENDIF
     ENDPROC
 
-    ! Do what the supervisor asks for. Only main does: it is in no move then.
+    ! Drop the path, and answer the supervisor who may have asked for it. Only main does: it is in no
+    ! move then.
     LOCAL PROC answer(num reason)
         VAR num asked;
 
@@ -150,7 +127,7 @@ MODULE ROS_motion
             RETURN;
         ENDIF
         ROS_drop_points reason;
-        ROS_start_robot;
+        ROS_start_robot IsStopMoveAct(\FromMoveTask);
         IF IsStopMoveAct(\FromMoveTask) THEN
             WaitTime 0.1;
             RETURN;
@@ -190,9 +167,17 @@ MODULE ROS_motion
         VAR num arrived;
         VAR num passed;
         VAR bool first;
-        VAR bool waited;
         VAR bool stops;
+        VAR bool waited;
 
+        taken := pace;
+        IF share < 100 THEN
+            ! SpeedRefresh may hold for one move or for all: its move ends before another is ordered.
+            point.duration := 0.1;
+            move fine;
+            IF fault = ROS_REASON_NONE AND ROS_abort = ROS_abort_done ROS_reached := ROS_planned;
+            RETURN;
+        ENDIF
         before := point.target;
         point := ROS_ring{ROS_tail MOD ROS_RING_SIZE + 1};
         next := ROS_next(ROS_tail);
@@ -202,7 +187,7 @@ MODULE ROS_motion
             RETURN;
         ENDIF
         first := (point.session <> session);
-        IF first begin_session;
+        IF first begin_session point.session;
         IF point.index <> expected THEN
             fault := ROS_REASON_INTERNAL;
             RETURN;
@@ -213,7 +198,9 @@ MODULE ROS_motion
         ROS_starved := -1;
         ROS_tail := next;
         ROS_planned := arrived;
-        stops := first OR stops_before(next);
+        IF NOT point.dwell point.duration := point.duration * 100 / taken;
+        ! The robot stands at the first point, and at one whose successor is not here yet, or is a dwell.
+        stops := first OR next = ROS_head OR ROS_ring{next MOD ROS_RING_SIZE + 1}.dwell;
         IF first left_at := 0;
         IF stops OR point.dwell THEN
             take_time 0;
@@ -244,10 +231,17 @@ MODULE ROS_motion
     ! A move whose path was cleared never returns on some controllers; so the trap leaves it. A
     ! request that comes before `in_move` is seen here, one that comes later by the trap.
     LOCAL PROC move(zonedata zone)
+        ! A speed may have been asked for since the point was taken.
+        IDisable;
+        IF share >= 100 latest := 0;
+        IF point.duration > 0.25 AND taken > latest latest := taken;
+        IF pace < latest set_speed;
+        IEnable;
         in_move := TRUE;
         IF ROS_abort = ROS_abort_done
             MoveAbsJ point.target \NoEOffs, SPEED \T:=point.duration, zone, torch \WObj:=table;
         in_move := FALSE;
+        IF zone.finep share := 100;
     ERROR
         in_move := FALSE;
         fault := ROS_REASON_MOTION_ERROR;
@@ -255,14 +249,66 @@ MODULE ROS_motion
         RETURN;
     ENDPROC
 
-    LOCAL PROC begin_session()
-        session := point.session;
+    ! The next instruction of a program. As for points: one that is left over counts for nothing, and the one
+    ! that is passed through its zone has not been reached.
+    LOCAL PROC next_order()
+        VAR num next;
+        VAR num arrived;
+        VAR bool stops;
+
+        ROS_fetch_order ROS_tail MOD ROS_RING_SIZE + 1;
+        next := ROS_next(ROS_tail);
+        IF ROS_ordered.session <> ROS_session OR ROS_ordered.session = ROS_dead THEN
+            ROS_tail := next;
+            RETURN;
+        ENDIF
+        IF ROS_ordered.session <> session THEN
+            begin_session ROS_ordered.session;
+            ROS_prepare_program;
+        ENDIF
+        IF ROS_ordered.index <> expected THEN
+            fault := ROS_REASON_INTERNAL;
+            RETURN;
+        ENDIF
+        arrived := expected;
+        expected := (expected + 1) MOD ROS_INDEX_WRAP;
+        ROS_starved := -1;
+        stops := ROS_order_stops(next);
+        IF NOT stops arrived := ROS_planned;
+        ROS_tail := next;
+        ROS_planned := ROS_ordered.index;
+        carry_out stops;
+        IF fault <> ROS_REASON_NONE OR ROS_abort <> ROS_abort_done RETURN;
+        ROS_reached := arrived;
+    ERROR (path_gone)
+        ! The trap comes here: nothing was reached.
+        SkipWarn;
+        RETURN;
+    ENDPROC
+
+    ! As `move`: the trap leaves it.
+    LOCAL PROC carry_out(bool stops)
+        in_move := TRUE;
+        IF ROS_abort = ROS_abort_done ROS_execute stops;
+        in_move := FALSE;
+        fault := ROS_order_fault;
+    ERROR
+        in_move := FALSE;
+        fault := ROS_REASON_MOTION_ERROR;
+        IF ERRNO = ERR_COLL_STOP fault := ROS_REASON_COLLISION;
+        RETURN;
+    ENDPROC
+
+    LOCAL PROC begin_session(num its)
+        session := its;
         expected := 1;
         ROS_planned := 0;
         ROS_reached := 0;
         ROS_started := session;
         IDisable;
+        latest := 0;
         set_speed;
+        taken := pace;
         IEnable;
     ENDPROC
 
@@ -307,13 +353,7 @@ MODULE ROS_motion
 
         after := ROS_ring{next MOD ROS_RING_SIZE + 1};
         IF after.duration <= 0 RETURN 0;
-        RETURN after.least / after.duration;
-    ENDFUNC
-
-    ! TRUE if the robot has to stop at a point: its successor is not here yet, or is a dwell.
-    LOCAL FUNC bool stops_before(num next)
-        IF next = ROS_head RETURN TRUE;
-        RETURN ROS_ring{next MOD ROS_RING_SIZE + 1}.dwell;
+        RETURN after.least / after.duration * taken / 100;
     ENDFUNC
 
     ! The zone in which the axes change their speeds from those of the way to the point to those
@@ -334,6 +374,7 @@ MODULE ROS_motion
         after := ROS_ring{next MOD ROS_RING_SIZE + 1};
         ! It may be a first point, of another trajectory, at which the robot stands.
         IF after.duration <= 0 RETURN;
+        after.duration := after.duration * 100 / taken;
         arriving := tcp_speed(before, point.target, point.duration);
         leaving := tcp_speed(point.target, after.target, after.duration);
         IF arriving + leaving > RESTING uneven := Abs(leaving - arriving) / (arriving + leaving);
@@ -351,8 +392,8 @@ MODULE ROS_motion
         turn (after.target.robax.rax_6 - point.target.robax.rax_6) / after.duration,
             (point.target.robax.rax_6 - before.robax.rax_6) / point.duration, TURN_6, uneven, needed, turning;
         bend.pzone_tcp := between(SMALLEST_CORNER, arriving * needed / 2, CORNER.pzone_tcp);
-        ! As in the predefined zones.
-        bend.pzone_ori := between(SMALLEST_CORNER, 1.5 * bend.pzone_tcp, CORNER.pzone_ori);
+        ! To each other as in the zone.
+        bend.pzone_ori := bend.pzone_tcp * CORNER.pzone_ori / CORNER.pzone_tcp;
         bend.pzone_eax := bend.pzone_ori;
         IF arriving > RESTING RETURN;
         bend.zone_ori := between(SMALLEST_TURN, turning * needed / 2, CORNER.zone_ori);
@@ -392,18 +433,23 @@ MODULE ROS_motion
         RETURN 9E9;
     ENDFUNC
 
-    ! Set the speed that is wanted for the trajectory under way: as programmed, unless a client
-    ! has asked for less.
+    ! Find the speed that is wanted for the trajectory under way: points get their time for it. A long
+    ! move that has its time already is slowed down by SpeedRefresh.
     LOCAL PROC set_speed()
         VAR num asked;
-        VAR num wanted := 100;
+        VAR num percent := 100;
+        VAR num due := 100;
 
         asked := ROS_speed_asked;
-        IF ROS_speed_of = ROS_session AND ROS_active() wanted := ROS_speed_wanted;
-        IF wanted <> percent THEN
-            SpeedRefresh wanted;
-            percent := wanted;
+        IF ROS_speed_of = ROS_session AND ROS_active() percent := ROS_speed_wanted;
+        IF percent < latest due := 100 * percent / latest;
+        IF due <> share THEN
+            SpeedRefresh due;
+            share := due;
+            repeats := 5;
+            say_again;
         ENDIF
+        pace := percent;
         ROS_speed_done := asked;
     ERROR
         ! Not answered: whoever asked is told that it was not done.
@@ -411,19 +457,29 @@ MODULE ROS_motion
         RETURN;
     ENDPROC
 
+    ! It may hold for one move only, and do nothing at a standstill. One bell at a time may wait.
+    LOCAL PROC say_again()
+        IDelete tick;
+        CONNECT tick WITH on_tick;
+        ITimer \Single, 0.1, tick;
+    ENDPROC
+
+    LOCAL TRAP on_tick
+        IF share < 100 OR (NOT in_move) OR IsStopMoveAct() repeats := 5;
+        repeats := repeats - 1;
+        IF repeats > 0 say_again;
+        SpeedRefresh share;
+    ERROR
+        SkipWarn;
+        RETURN;
+    ENDTRAP
+
     ! This task itself ends the trajectory.
     LOCAL PROC give_up()
-        ErrWrite "ROS: trajectory ended early", ROS_reason_text(fault)
+        IF ROS_active() ErrWrite "ROS: trajectory ended early", ROS_reason_text(fault)
             \RL2:="At point " + ValToStr(ROS_planned - 1) + ".";
         ROS_stop_robot;
-        clear_path;
-        IF NOT ROS_cleared THEN
-            WaitTime 0.1;
-            RETURN;
-        ENDIF
-        ROS_drop_points fault;
-        ROS_start_robot;
-        fault := ROS_REASON_NONE;
+        answer fault;
     ENDPROC
 
     ! ROS_cleared: the robot stands, and nothing is left of its path.
@@ -431,6 +487,7 @@ MODULE ROS_motion
         ROS_cleared := FALSE;
         WaitRob \ZeroSpeed;
         ROS_clear_path;
+        IF ROS_cleared share := 100;
     ERROR
         SkipWarn;
         RETURN;

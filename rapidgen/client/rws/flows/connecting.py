@@ -19,7 +19,7 @@ from rapidgen.client.rws.errors import LoginFailed, NotRws
 from rapidgen.client.rws.flows.asking import ask
 from rapidgen.wire.rws import media
 from rapidgen.wire.rws import operations as ops
-from rapidgen.wire.rws.bodies import Generation
+from rapidgen.wire.rws.bodies import Generation, whole
 
 _FIRST = "/rw/system"
 
@@ -52,7 +52,7 @@ def connect(core: RwsCore) -> Flow[None]:
     if told is None:
         raise _no_rws(core)
     core.robotware, core.system = told.text("rwversion"), told.text("name")
-    if core.generation is Generation.TWO and int(_major(core.robotware)) >= 8:
+    if core.generation is Generation.TWO and whole(core.robotware.partition(".")[0]) >= 8:
         core.generation = Generation.EIGHT
     core.connected = True
     yield from ask(
@@ -66,11 +66,6 @@ def connect(core: RwsCore) -> Flow[None]:
         },
         accepted=(400, 403, 404, 405, 409),
     )
-
-
-def _major(version: str) -> str:
-    major = version.partition(".")[0]
-    return major if major.isdecimal() else "0"
 
 
 def _reach(core: RwsCore) -> Flow[str]:

@@ -18,7 +18,7 @@ def list_files(core: RwsCore, path: str = "HOME") -> Flow[tuple[FileInfo, ...]]:
     """What lies in a folder."""
     body, _ = yield from ask(core, ops.READ_FILE, {"path": volume(core, path)})
     return tuple(
-        FileInfo(i.title, i.kind != "fs-file", int(i.text("fs-size", "0") or 0))
+        FileInfo(i.title, i.kind != "fs-file", i.whole("fs-size"))
         for i in body.all("fs-file", "fs-dir")
     )
 

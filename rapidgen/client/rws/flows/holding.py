@@ -42,20 +42,19 @@ def take(core: RwsCore, domain: str = "rapid", *, wait: float = 0.0) -> Flow[Non
     name = domain_of(core, domain)
     if name in core.held:
         return
-    left = wait
+    until = core.clock() + wait
     while True:
         try:
             yield from _request(core, name)
         except RwsError as error:
             if error.symbol not in _TAKEN:
                 raise
-            if left <= 0:
+            if core.clock() >= until:
                 raise (yield from _held_by(core, name)) from error
         else:
             core.held.add(name)
             return
-        yield Pause(min(_LOOK, left))
-        left -= _LOOK
+        yield Pause(min(_LOOK, max(0.0, until - core.clock())))
 
 
 def _request(core: RwsCore, name: str) -> Flow[None]:

@@ -30,17 +30,16 @@ def finish(
     number = response.headers.get("location", "").rpartition("/progress/")[2]
     if response.status != 202 or not number.isalnum():
         return
-    left = _LONGEST
-    while left > 0:
+    until = core.clock() + _LONGEST
+    while core.clock() < until:
         body, _ = yield from ask(core, ops.PROGRESS, {"id": number})
         told = body.first("progress")
         if told is not None and told.text("state") == "ready":
-            code = int(told.text("code", "0") or 0)
+            code = told.whole("code")
             if code < 0:
                 raise RwsError(response.status, operation.two, Fault(code, "the job failed"))
             return
         yield Pause(_LOOK)
-        left -= _LOOK
     raise RobotTimeout.because("RG602", f"{operation.two} did not end within {_LONGEST:g} s")
 
 
@@ -74,8 +73,8 @@ def restart(core: RwsCore, *, wait: float = 180.0) -> Flow[None]:
 
 def _gone(core: RwsCore, wait: float) -> Flow[None]:
     """Wait until the mastership of this session is gone: with it the old run of the controller."""
-    left = wait
-    while left > 0:
+    until = core.clock() + wait
+    while core.clock() < until:
         try:
             who = yield from holder(core, "cfg")
         except (ConnectionLost, ConnectionFailed, Busy, RwsError):
@@ -83,14 +82,13 @@ def _gone(core: RwsCore, wait: float) -> Flow[None]:
         if who is None or not who.mine:
             return
         yield Pause(_LOOK)
-        left -= _LOOK
 
 
 def wait_ready(core: RwsCore, *, wait: float = 180.0) -> Flow[None]:
     """Wait s until the controller answers, lets in and has tasks. Raises RobotTimeout (RG602)."""
-    left = wait
+    until = core.clock() + wait
     last: Exception | None = None
-    while left > 0:
+    while core.clock() < until:
         try:
             yield from connect(core)
             if (yield from tasks(core)):
@@ -101,5 +99,4 @@ def wait_ready(core: RwsCore, *, wait: float = 180.0) -> Flow[None]:
             last = error
         core.connected = False
         yield Pause(_LOOK)
-        left -= _LOOK
     raise RobotTimeout.because("RG602", f"{core.where} did not come back within {wait:g} s: {last}")

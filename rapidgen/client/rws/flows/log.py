@@ -5,7 +5,7 @@ from rapidgen.client.rws.effects import Flow
 from rapidgen.client.rws.flows.asking import ask
 from rapidgen.client.rws.model import LogEvent
 from rapidgen.wire.rws import operations as ops
-from rapidgen.wire.rws.bodies import Item
+from rapidgen.wire.rws.bodies import Item, whole
 
 _TYPES = {"1": "info", "2": "warning", "3": "error"}
 
@@ -29,12 +29,11 @@ def _event(item: Item) -> LogEvent:
     domain, number = parts[-2:] if len(parts) > 1 else ("", "")
     arguments = [one.text("value") for one in item.within]
     arguments += [v for k, v in item.fields.items() if k.startswith("arg") and k[3:].isdecimal()]
-    code = item.text("code", "0")
     return LogEvent(
-        int(domain) if domain.isdecimal() else 0,
-        int(number) if number.isdecimal() else 0,
+        whole(domain),
+        whole(number),
         _TYPES.get(item.text("msgtype"), "info"),
-        int(code) if code.isdecimal() else 0,
+        item.whole("code"),
         item.text("tstamp").replace(" T ", " "),
         item.text("title"),
         item.text("desc"),

@@ -42,7 +42,7 @@ def panel(core: RwsCore) -> Flow[Panel]:
     state = yield from _state(core)
     mode = yield from one(core, ops.OPMODE, "pnl-opmode")
     speed = yield from one(core, ops.SPEED, "pnl-speedratio")
-    return Panel(state, mode.text("opmode"), int(speed.text("speedratio", "0")))
+    return Panel(state, mode.text("opmode"), speed.whole("speedratio"))
 
 
 def _state(core: RwsCore) -> Flow[str]:

@@ -9,7 +9,7 @@ from rapidgen.client.rws.flows.panel import one
 from rapidgen.client.rws.model import BuildError, ProgramPointer, SymbolInfo, TaskModule, TaskState
 from rapidgen.client.rws.values import RapidValue, read, same, write
 from rapidgen.wire.rws import operations as ops
-from rapidgen.wire.rws.bodies import Generation, Item
+from rapidgen.wire.rws.bodies import Generation, Item, whole
 
 _KINDS = {"norm": "normal", "semi": "semistatic", "stat": "static"}
 _STATES = {"read": "ready", "star": "started", "stop": "stopped", "unin": "uninitialized"}
@@ -102,14 +102,9 @@ def build_errors(core: RwsCore, task: str) -> Flow[tuple[BuildError, ...]]:
     """What is wrong with the program of a task."""
     body, _ = yield from ask(core, ops.BUILD_ERRORS, {"task": task}, accepted=(404,))
     return tuple(
-        BuildError(i.text("ModuleName"), _int(i, "row"), _int(i, "column"), i.text("error"))
+        BuildError(i.text("ModuleName"), i.whole("row"), i.whole("column"), i.text("error"))
         for i in body.all("rap-builderrs")
     )
-
-
-def _int(item: Item, name: str) -> int:
-    text = item.text(name)
-    return int(text) if text.isdecimal() else 0
 
 
 def pointer(core: RwsCore, task: str) -> Flow[ProgramPointer]:
@@ -117,8 +112,7 @@ def pointer(core: RwsCore, task: str) -> Flow[ProgramPointer]:
     item = yield from one(core, ops.POINTER, "pcp-info", task=task)
     row, _, column = item.text("beginposition").partition(",")
     module = item.text("modulemame") or item.text("modulename")
-    at = (int(x) if x.isdecimal() else 0 for x in (row, column))
-    return ProgramPointer(module, item.text("routinename"), *at)
+    return ProgramPointer(module, item.text("routinename"), whole(row), whole(column))
 
 
 def set_pointer(core: RwsCore, task: str, module: str, routine: str) -> Flow[None]:
@@ -164,7 +158,7 @@ def set_symbol(core: RwsCore, path: str, value: RapidValue) -> Flow[None]:
     now = yield from symbol(core, path)
     if not same(value, now):
         raise NotObeyed.because(
-            "RG655", f"{core.where} agreed to set {path} to {write(value)}, and it is {write(now)}"
+            "RG655", f"{core.where} agreed to set {path} to {write(value)}, and it is {now!r}"
         )
 
 
@@ -196,7 +190,7 @@ def _info(item: Item) -> SymbolInfo:
         item.text("name"),
         item.text("symtyp"),
         item.text("dattyp"),
-        tuple(int(n) for n in item.text("dim").split() if n.isdecimal()),
+        tuple(whole(n) for n in item.text("dim").split()),
         item.text("local").lower() == "true",
         item.text("rdonly").lower() == "true",
     )

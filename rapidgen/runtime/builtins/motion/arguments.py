@@ -7,6 +7,7 @@ from rapidgen.axes.frames import Pose as Frame
 from rapidgen.axes.frames import Quaternion, normalise
 from rapidgen.axes.kinematics import Posture
 from rapidgen.axes.mapping import ABSENT, JointMap
+from rapidgen.motion.group import MotionGroup
 from rapidgen.motion.modal import ModalSettings
 from rapidgen.motion.moves import MoveSpeed, Zone
 from rapidgen.rapid.numbers import single
@@ -32,13 +33,13 @@ def speed_of(data: Value, tcp: float | None, modal: ModalSettings) -> MoveSpeed:
     )
 
 
-def time_of(time: float | None, modal: ModalSettings) -> float | None:
+def time_of(time: float | None, group: MotionGroup) -> float | None:
     """\\T with VelSet: half the override, twice the time. ERR_ARGVALERR: not positive."""
     if time is None:
         return None
     if time <= 0:
         raise RapidError("ERR_ARGVALERR", f"\\T:={time:g}")
-    return time / modal.speed_override
+    return time / group.modal.speed_override if group.settings.velset_timed else time
 
 
 def zone_of(data: Value, radius: float | None, stop: Value = None) -> Zone:

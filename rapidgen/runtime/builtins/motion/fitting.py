@@ -1,4 +1,4 @@
-"""Figures from measured points: FitSphere, MToolTCPCalib; and Rand.
+"""Figures from measured points: FitSphere, FitCircle, MToolTCPCalib; and Rand.
 
 Sources: FLo-ABB/RAPID-Scripts-and-Demos [code] for what they are called with, the errors of
 FitSphere and Rand's largest value; FitSphere's optional arguments [mem].
@@ -51,6 +51,36 @@ def fit_sphere(
         raise RapidError("ERR_FIT_POINTS_IN_LINE") from fault
     centre.set(_pos(found.centre))
     radius.set(found.radius)
+    for where, value in ((rms, found.rms), (largest, found.largest), (worst, found.worst + 1)):
+        if where is not None:
+            where.set(value)
+
+
+@builtin("FitCircle")
+def fit_circle(
+    _task: Task,
+    points: dict[int, Value],
+    count: float | None,
+    centre: Ref,
+    radius: Ref,
+    normal: Ref,
+    rms: Ref | None,
+    largest: Ref | None,
+    worst: Ref | None,
+) -> None:
+    """The circle through 3 to 100 points of space. Errors as of FitSphere [mem]."""
+    used = [points[i] for i in range(1, (len(points) if count is None else int(count)) + 1)]
+    if len(used) < 3:
+        raise RapidError("ERR_FIT_TOO_FEW_POINTS", f"{len(used)} of 3")
+    if len(used) > _MOST:
+        raise RapidError("ERR_FIT_TOO_MANY_POINTS", f"{len(used)} of {_MOST}")
+    try:
+        found = fitting.circle([(p.x, p.y, p.z) for p in used])
+    except NoFit as fault:
+        raise RapidError("ERR_FIT_POINTS_IN_LINE") from fault
+    centre.set(_pos(found.centre))
+    radius.set(found.radius)
+    normal.set(_pos(found.normal))
     for where, value in ((rms, found.rms), (largest, found.largest), (worst, found.worst + 1)):
         if where is not None:
             where.set(value)

@@ -46,7 +46,12 @@ def _meet(
         meeting.changed.notify()
         return
     try:
-        met = task.wait_for(lambda: meeting.complete, on=(meeting.changed,), timeout=time_out)
+        met = task.wait_for(
+            lambda: meeting.complete,
+            on=(meeting.changed,),
+            timeout=time_out,
+            why=lambda: f"waits for {', '.join(sorted(members - meeting.arrived))} to come here",
+        )
     finally:
         if not meeting.complete:
             meeting.arrived.discard(own)

@@ -12,10 +12,11 @@ from math import inf
 
 from rapidgen.axes.kinematics import Posture
 from rapidgen.motion.group import MotionGroup
-from rapidgen.motion.moves import Carrier, From, JointMove, MoveSpeed, PathEvent
+from rapidgen.motion.moves import FINE, Carrier, From, JointMove, MoveSpeed, PathEvent
 from rapidgen.runtime.builtins.io import fitting
 from rapidgen.runtime.builtins.motion.access import data_of, here, moving_group
 from rapidgen.runtime.builtins.motion.arguments import (
+    Offsets,
     dwell_of,
     speed_of,
     target_of,
@@ -50,13 +51,20 @@ def move_abs_j(task: Task, _name: str, given: Arguments) -> None:
     group.planner.tool = carrier.tool
     target = target_of(given["ToJointPos"], group.map, group.path_target, offsets)
     speed = speed_of(given["Speed"], given["V"], modal)
-    _to_joints(task, group, given, group.with_active(target), speed, carrier)
+    move = _joint_move(task, group, given, group.with_active(target), speed, carrier)
+    group.move(task, together(task, group, move, given["ID"]))
 
 
 @by_name("MoveExtJ", cost="move")
 @planned
 def move_ext_j(task: Task, _name: str, given: Arguments) -> None:
     """Robot axes stay where the path ends, and only the speeds of external axes count."""
+    group, move, _ = external_move(task, given)
+    group.move(task, together(task, group, move, given["ID"]))
+
+
+def external_move(task: Task, given: Arguments) -> tuple[MotionGroup, JointMove, Offsets]:
+    """A move of external axes alone, and the offsets that it heeds."""
     group = moving_group(task)
     ends = group.path_target
     offsets = data_of(task, group).external_offset if given["UseEOffs"] else NO_OFFSETS
@@ -68,29 +76,29 @@ def move_ext_j(task: Task, _name: str, given: Arguments) -> None:
         )
     )
     speed = replace(speed_of(given["Speed"], None, group.modal), tcp=inf, orientation=inf)
-    _to_joints(task, group, given, target, speed, Carrier())
+    return group, _joint_move(task, group, given, target, speed, Carrier()), offsets
 
 
-def _to_joints(
+def _joint_move(
     task: Task,
     group: MotionGroup,
     given: Arguments,
     target: Posture,
     speed: MoveSpeed,
     carrier: Carrier,
-) -> None:
-    stop = given["Inpos"]
-    move = JointMove(
+) -> JointMove:
+    """Without a `Zone` (searches) it ends in a stop point."""
+    stop = given.get("Inpos")
+    return JointMove(
         target=target,
         speed=speed,
-        zone=zone_of(given["Zone"], given.get("Z"), stop),
-        time=time_of(given["T"], group.modal),
-        concurrent=bool(given["Conc"]),
+        zone=zone_of(given["Zone"], given.get("Z"), stop) if "Zone" in given else FINE,
+        time=time_of(given["T"], group),
+        concurrent=bool(given.get("Conc")),
         dwell=dwell_of(stop),
         carrier=carrier,
         place=here(task),
     )
-    group.move(task, together(task, group, move, given["ID"]))
 
 
 # -- with a signal, or a procedure, in the middle of the corner ---------------------------------

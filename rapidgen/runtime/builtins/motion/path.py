@@ -18,7 +18,8 @@ MOVE_TASK = "move task"
 OTHER_TASK = "other task"
 
 
-def _reason(task: Task) -> str:
+def reason_of(task: Task) -> str:
+    """Under which name a task stops and starts a robot."""
     motion = task.controller.motion
     if motion.is_motion_task(task.name):
         return MOVE_TASK
@@ -38,7 +39,7 @@ def stop_move(task: Task, quick: bool | None, all_tasks: bool | None) -> None:
     """Brakes on the path and stays; the program goes on (S4 datasys 2-StopMove-1)."""
     groups = tuple(_groups(task, all_tasks))
     for group in groups:
-        group.stop(_reason(task), quick=bool(quick))
+        group.stop(reason_of(task), quick=bool(quick))
     if task.controller.motion.settings.stop_waits:
         for group in groups:
             group.wait_standing(task)
@@ -56,7 +57,14 @@ def start_move(task: Task, all_tasks: bool | None) -> None:
         if way > group.settings.path_distance or turn > group.settings.path_angle:
             raise RapidError("ERR_PATHDIST", f"{group.name}: {way * 1000:.1f} mm off the path")
     for group in groups:
-        group.start(_reason(task))
+        group.start(reason_of(task))
+
+
+@builtin("StartMoveRetry", cost="call")
+def start_move_retry(task: Task) -> None:
+    """StartMove and RETRY in one, in an ERROR handler only [manual 3HAC050917]."""
+    start_move(task, None)
+    task.errors.retry_here()
 
 
 @builtin("StopMoveReset", cost="call")
@@ -64,7 +72,7 @@ def stop_move_reset(task: Task, all_tasks: bool | None) -> None:
     """Takes back the stop without moving: what is left of the path is gone (`stop_move_reset`)."""
     for group in _groups(task, all_tasks):
         if group.settings.stop_move_reset == "releases":
-            group.release(_reason(task))
+            group.release(reason_of(task))
 
 
 @builtin("IsStopMoveAct")
@@ -83,14 +91,14 @@ def is_stop_move_act(task: Task, from_move: bool | None, from_other: bool | None
 @planned
 def resto_path(task: Task) -> None:
     """Brings the stored path back; StartMove sets the robot going on it."""
-    group_of(task).restore_path(_reason(task))
+    group_of(task).restore_path(reason_of(task))
 
 
 _PLAIN: dict[str, Callable[..., Value]] = {
     # What is left of the path goes; the robot ends where its stop ends.
     "ClearPath": lambda task: group_of(task).clear_path(),
     "WaitRob": lambda task, _in_pos, _zero_speed: group_of(task).wait_standing(task),
-    "StorePath": lambda task, _keep_sync: group_of(task).store_path(task, _reason(task)),
+    "StorePath": lambda task, _keep_sync: group_of(task).store_path(task, reason_of(task)),
     "PathLevel": lambda task: group_of(task).path_level,
 }
 builtins(_PLAIN)

@@ -13,6 +13,7 @@ from rapidgen.runtime.builtins.motion.arguments import (
     target_of,
 )
 from rapidgen.runtime.builtins.motion.targets import (
+    NoConfiguration,
     carrier_of,
     configuration_of,
     joints_for,
@@ -22,6 +23,8 @@ from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.values import LoadData, Orient, Pos, Pose, Ref, ToolData, Value, WobjData
+
+_CONFIGURATION_ERRORS = {"limit": "ERR_ROBLIMIT", "reach": "ERR_OUTSIDE_REACH", "stop": ""}
 
 
 def tool0() -> Value:
@@ -86,10 +89,18 @@ def c_pos(task: Task, tool: Ref | None, work_object: Ref | None) -> Value:
     return here_of(task, group_of(task), tool, work_object).trans
 
 
+def _computed(task: Task) -> MotionGroup:
+    """The group to compute for. ERR_NOT_MOVETASK: `calc_in_background` says no."""
+    moves = task.controller.motion.is_motion_task(task.name)
+    if not moves and not task.controller.dialect.calc_in_background:
+        raise RapidError("ERR_NOT_MOVETASK")
+    return group_of(task)
+
+
 @builtin("CalcRobT")
 def calc_rob_t(task: Task, joints: Value, tool: Ref, work_object: Ref | None) -> Value:
     """The robtarget of a jointtarget."""
-    group = group_of(task)
+    group = _computed(task)
     offsets = data_of(task, group).external_offset
     posture = target_of(joints, group.map, group.positions(), offsets)
     return rob_target(group, posture, _carrier(group, tool, work_object), offsets)
@@ -106,9 +117,10 @@ def calc_joint_t(
 ) -> Value:
     """The jointtarget of a robtarget, in the configuration that it programs.
 
-    ERR_ROBLIMIT, ERR_OUTSIDE_REACH; \\ErrorNumber takes the number instead (0: reached).
+    ERR_ROBLIMIT, ERR_OUTSIDE_REACH; \\ErrorNumber takes the number instead (0: reached). Which of
+    them a configuration is that the place has not is a switch.
     """
-    group = group_of(task)
+    group = _computed(task)
     here = group.positions()
     offsets = data_of(task, group).external_offset
     external = external_values(target.extax, offsets)
@@ -123,7 +135,13 @@ def calc_joint_t(
     flange = placed.flange(frame(target))
     try:
         check = group.settings.configuration_check
-        posture = joints_for(geometry_of(group), flange, near, wanted, check, here)
+        try:
+            posture = joints_for(geometry_of(group), flange, near, wanted, check, here)
+        except NoConfiguration as fault:
+            name = _CONFIGURATION_ERRORS[task.controller.dialect.no_configuration]
+            if not name:
+                raise
+            raise RapidError(name, " ".join(fault.arguments)) from fault
     except RapidError as error:
         if number is None:
             raise

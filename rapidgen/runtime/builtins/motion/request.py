@@ -31,7 +31,7 @@ def _common(task: Task, group: MotionGroup, given: Arguments) -> dict[str, Value
     return {
         "speed": speed_of(given["Speed"], given.get("V"), group.modal),
         "zone": zone_of(given["Zone"], given.get("Z"), stop) if "Zone" in given else FINE,
-        "time": time_of(given["T"], group.modal),
+        "time": time_of(given["T"], group),
         "concurrent": bool(given.get("Conc")),
         "dwell": dwell_of(stop),
         "carrier": carrier,
@@ -63,13 +63,13 @@ def cartesian_move(
     kinematics = geometry_of(group)
     common = _common(task, group, given)
     target, via = given["ToPoint"], given.get("CirPoint")
+    wanted = configuration_of(target.robconf) if group.modal.check_linear else None
     external = external_posture(group, target.extax, data_of(task, group).external_offset)
     if kinematics.seventh >= 0:
         # The seventh axis goes straight to where it is at the end, with the arm angle there.
         flange = common["carrier"].at(external).flange(frame(target))
         check, ends = group.settings.configuration_check, group.path_target
-        external = joints_for(kinematics, flange, external, None, check, ends)
-    wanted = configuration_of(target.robconf) if group.modal.check_linear else None
+        external = joints_for(kinematics, flange, external, wanted, check, ends)
     return group, CartesianMove(
         target=frame(target),
         external=external,

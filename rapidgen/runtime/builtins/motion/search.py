@@ -1,4 +1,4 @@
-"""SearchL and SearchC: a move that watches a signal.
+"""SearchL, SearchC and SearchExtJ: a move that watches a signal.
 
 Source: S4 datasys 2-SearchL. \\Stop brakes hard, \\PStop and \\SStop on the path as a normal
 stop, without a switch and with \\Sup the robot goes on to its target. The move ends in a stop
@@ -12,7 +12,10 @@ from dataclasses import dataclass, field
 from rapidgen.axes.kinematics import Posture
 from rapidgen.machine.scheduler import WaitSet
 from rapidgen.motion.group import MotionGroup
+from rapidgen.motion.moves import Move
 from rapidgen.runtime.builtins.motion.access import data_of
+from rapidgen.runtime.builtins.motion.arguments import joint_target
+from rapidgen.runtime.builtins.motion.moves import external_move
 from rapidgen.runtime.builtins.motion.request import cartesian_move
 from rapidgen.runtime.builtins.motion.targets import rob_target
 from rapidgen.runtime.builtins.motion.together import together
@@ -94,7 +97,23 @@ def _source(signal: AnySignal | None, flag: Ref | None) -> tuple[WaitSet, Callab
 @planned
 def search(task: Task, _name: str, given: Arguments) -> None:
     """Moves, and keeps where the TCP was at the hit. ERR_WHLSEARCH: none, ERR_SIGSUPSEARCH."""
-    group, wanted = cartesian_move(task, given)
+    group, move = cartesian_move(task, given)
+    place = _first_hit(task, group, move, given)
+    offsets = data_of(task, group).external_offset
+    given["SearchPoint"].set(rob_target(group, place, move.carrier, offsets))
+
+
+@by_name("SearchExtJ", cost="move")
+@planned
+def search_ext_j(task: Task, _name: str, given: Arguments) -> None:
+    """The same with external axes alone; keeps where all axes were."""
+    group, move, offsets = external_move(task, given)
+    place = _first_hit(task, group, move, given)
+    given["SearchJointPos"].set(joint_target(group.map, place, offsets))
+
+
+def _first_hit(task: Task, group: MotionGroup, wanted: Move, given: Arguments) -> Posture:
+    """Make the move, and stop it as is asked for; where the axes were at the first hit."""
     move = together(task, group, wanted, given["ID"])
     edges, hard = _edges(given), bool(given["Stop"])
     change, read = _source(given["Signal"], given["PersBool"])
@@ -131,5 +150,4 @@ def search(task: Task, _name: str, given: Arguments) -> None:
         if task.stepping:
             raise FatalError(_NO_HIT, "Search was not successful", f"{len(hits.found)} hits")
         raise RapidError("ERR_WHLSEARCH", f"{len(hits.found)} hits")
-    offsets = data_of(task, group).external_offset
-    given["SearchPoint"].set(rob_target(group, hits.found[0], move.carrier, offsets))
+    return hits.found[0]

@@ -10,8 +10,9 @@ from math import inf
 from rapidgen.axes import frames
 from rapidgen.axes.frames import IDENTITY
 from rapidgen.axes.mapping import ABSENT
+from rapidgen.axes.shapes import CircleMode
 from rapidgen.motion.group import MotionGroup
-from rapidgen.motion.moves import CircleMode, Singularities
+from rapidgen.motion.moves import Singularities
 from rapidgen.rapid.numbers import single
 from rapidgen.runtime.builtins.motion.access import data_of, geometry_of, group_of, named_group
 from rapidgen.runtime.builtins.motion.arguments import RAD, Offsets, frame
@@ -52,7 +53,9 @@ def acc_set(task: Task, acceleration: float, ramp: float, _final: float | None) 
 
 @builtin("SpeedRefresh")
 def speed_refresh(task: Task, override: float) -> None:
-    """Percent, at once, also for the move under way. ERR_SPEED_REFRESH_LIM outside 0 to 100."""
+    """Percent, at once, for the move under way, and for what else is a matter of the switches
+    `refresh_lasts`, `refresh_standing`. ERR_SPEED_REFRESH_LIM outside 0 to 100.
+    """
     if not 0 <= override <= 100:
         raise RapidError("ERR_SPEED_REFRESH_LIM", f"{override:g}")
     group_of(task).refresh = override / 100

@@ -9,6 +9,7 @@ from rapidgen.axes.kinematics import (
     MovingFrame,
     Posture,
 )
+from rapidgen.axes.unreached import unreached
 from rapidgen.motion.group import MotionGroup
 from rapidgen.motion.moves import Carrier
 from rapidgen.rapid.numbers import single
@@ -84,6 +85,15 @@ def external_posture(group: MotionGroup, data: Value, offsets: Offsets) -> Postu
     )
 
 
+class NoConfiguration(FatalError):
+    """A place has no posture with the configuration that is asked for: moves stop there."""
+
+    __slots__ = ()
+
+    def __init__(self, text: str) -> None:
+        super().__init__(NOT_COMPATIBLE, "Position not compatible", text)
+
+
 def joints_for(
     kinematics: Kinematics,
     flange: Pose,
@@ -96,7 +106,7 @@ def joints_for(
 
     External axes are those of `near`; of an arm with seven axes its seventh value is the arm angle
     that the target asks for, unless it is that of `here`. ERR_OUTSIDE_REACH, ERR_ROBLIMIT (an axis
-    outside its range in every posture); FatalError 50080: not with this configuration.
+    outside its range in every posture); NoConfiguration: not with this one.
     """
     place = kinematics.seventh
     if place >= 0 and near[place] != here[place]:
@@ -104,26 +114,21 @@ def joints_for(
         found = []
         for one in kinematics.at_arm_angle(flange, near[place], started):
             found.append(one)
-            if wanted is None or kinematics.fitting([one], wanted, check) is not None:
+            if wanted is None or kinematics.misfit(one, wanted) == 0.0:
                 return one
         near = started
     else:
         found = kinematics.solutions(flange, near)
     if not found:
-        if kinematics.reaches(flange, near):
-            raise RapidError("ERR_ROBLIMIT")
-        raise RapidError("ERR_OUTSIDE_REACH")
+        reached, why = unreached(kinematics, flange, near)
+        raise RapidError("ERR_ROBLIMIT" if reached else "ERR_OUTSIDE_REACH", why)
     if wanted is None:
         return found[0]
     posture = kinematics.fitting(found, wanted, check)
     if posture is not None:
         return posture
     others = ", ".join(str(list(kinematics.configuration(p))) for p in found[:4])
-    raise FatalError(
-        NOT_COMPATIBLE,
-        "Position not compatible",
-        f"no posture with configuration {list(wanted)}; there are {others}",
-    )
+    raise NoConfiguration(f"no posture with configuration {list(wanted)}; there are {others}")
 
 
 def with_arm_angle(kinematics: Kinematics, posture: Posture) -> Posture:

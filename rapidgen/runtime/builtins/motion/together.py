@@ -35,7 +35,14 @@ def together(task: Task, group: MotionGroup, move: Move, identity: float | None)
         gathering.changed.notify()
     else:
         try:
-            task.wait_for(lambda: gathering.longest is not None, on=(gathering.changed,))
+            task.wait_for(
+                lambda: gathering.longest is not None,
+                on=(gathering.changed,),
+                why=lambda: (
+                    f"waits for a move \\ID:={identity} of "
+                    f"{', '.join(sorted(data.partners - gathering.times.keys()))}"
+                ),
+            )
         finally:
             if gathering.longest is None:
                 del gathering.times[own]

@@ -133,13 +133,14 @@ def trigg_check_io(task: Task, _name: str, given: Arguments) -> None:
     given["TriggData"].set(*where, act)
 
 
-def _prepared(_task: Task, given: Arguments) -> tuple[PathEvent, ...]:
-    array = given["TriggArray"]
+def prepared(_task: Task, given: Arguments, first: str = "Trigg_1") -> tuple[PathEvent, ...]:
+    """The events that an instruction names. FatalError: a triggdata without one."""
+    array = given.get("TriggArray")
     if array is not None:
         held = array.get() if isinstance(array, Ref) else array
         data = list(held.values())
     else:
-        data = [given[name] for name in ("Trigg_1", *(f"T{k}" for k in range(2, 9)))]
+        data = [given.get(name) for name in (first, *(f"T{k}" for k in range(2, 9)))]
     found = []
     for one in data:
         if one is None:
@@ -157,6 +158,6 @@ _DATA: dict[str, Callable[..., Value]] = {
     "TriggDataValid": lambda _task, data: data.event is not None,
 }
 builtins(_DATA)
-bind("TriggL", cartesian_move, _prepared)
-bind("TriggC", cartesian_move, _prepared)
-bind("TriggJ", joint_move, _prepared)  # distances are approximate, as on a controller
+bind("TriggL", cartesian_move, prepared)
+bind("TriggC", cartesian_move, prepared)
+bind("TriggJ", joint_move, prepared)  # distances are approximate, as on a controller

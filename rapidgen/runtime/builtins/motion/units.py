@@ -36,20 +36,22 @@ def _external(task: Task, unit: Value) -> tuple[MotionGroup, tuple[str, ...]]:
     raise FatalError(NOT_ALLOWED, "Not a unit that can be switched", unit.value)
 
 
+def unit_group(task: Task, unit: Value) -> MotionGroup:
+    """The group that a mechanical unit belongs to. ERR_AXIS_PAR: there is none."""
+    for group in task.controller.motion.groups.values():
+        own = unit.value.lower() == group.config.mechanical_unit.lower()
+        if own or _axes_of(group, unit.value) is not None:
+            return group
+    raise RapidError("ERR_AXIS_PAR", unit.value)
+
+
 def unit_axis(task: Task, unit: Value, number: float) -> tuple[MotionGroup, Joint]:
     """The axis of a mechanical unit (None: the task's own robot) by its number from 1.
 
     ERR_AXIS_PAR: the unit has no such axis.
     """
-    group, axes = group_of(task), None
-    if unit is not None:
-        for other in task.controller.motion.groups.values():
-            own = _axes_of(other, unit.value)
-            if own is not None or unit.value.lower() == other.config.mechanical_unit.lower():
-                group, axes = other, own
-                break
-        else:
-            raise RapidError("ERR_AXIS_PAR", unit.value)
+    group = group_of(task) if unit is None else unit_group(task, unit)
+    axes = None if unit is None else _axes_of(group, unit.value)
     if axes is None:
         axes = tuple(f"rax_{k}" for k in range(1, 7))
     joints = {joint.axis: joint for joint in group.config.joints}

@@ -5,6 +5,6 @@ MODULE Demo
     PROC main()
         a := f();
     ENDPROC
-    FUNC num f()  ! -> RG322
+    FUNC num f()  ! -> RG322?
     ENDFUNC
 ENDMODULE

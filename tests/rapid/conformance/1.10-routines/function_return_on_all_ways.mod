@@ -5,7 +5,7 @@ MODULE Demo
     PROC main()
         a := f(1);
     ENDPROC
-    FUNC num f(num x)  ! -> RG322?
+    FUNC num f(num x)  ! -> RG322~
         IF x > 0 RETURN 1;
     ENDFUNC
 ENDMODULE

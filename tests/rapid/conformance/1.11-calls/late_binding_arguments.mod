@@ -3,8 +3,8 @@
 MODULE Demo
     CONST string NAME := "p";
     PROC main()
-        %"p"% "x";  ! -> RG307
-        %"p"%;  ! -> RG311
+        %"p"% "x";  ! -> RG307?
+        %"p"%;  ! -> RG311?
         %NAME% 1;
         %"f"%;  ! -> RG306?
     ENDPROC

@@ -1,5 +1,5 @@
-! rule: operands that no operator takes: pos_divide
-! source: [K §3.11]
+! rule: a pos is divided by a num, nothing by a pos
+! source: [backup] programs of a running cell with RobotWare 6.16; [K §3.11] has no such operator
 MODULE Demo
     VAR num n;
     VAR dnum d;
@@ -9,6 +9,9 @@ MODULE Demo
     VAR bool b;
     VAR pose f;
     PROC main()
-        p := p / n;  ! -> RG308
+        p := (p + p) / 2;
+        p := p / n;
+        p := n / p;  ! -> RG308
+        p := p / p;  ! -> RG308
     ENDPROC
 ENDMODULE

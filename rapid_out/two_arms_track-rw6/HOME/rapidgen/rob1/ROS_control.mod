@@ -9,7 +9,7 @@ MODULE ROS_control
     ! heartbeat this task asks the supervisor, by an interrupt: only one task stops the robot, and
     ! starts it again. Only if that does not answer this task stops it. It may hang in a send.
 
-    CONST string ROS_BUILD_CONTROL := "4187793f3053";
+    CONST string ROS_BUILD_CONTROL := "b476b9f84aa3";
 
     LOCAL CONST num PORT := 11001;
     ! s between two looks at what the robot does, and for new clients.
@@ -68,15 +68,15 @@ MODULE ROS_control
         VAR num received;
 
         IF NOT taken_over THEN
-            WHILE NOT welcome(client, WAIT_MAX) DO
+            WHILE NOT ROS_accept(server, PORT, client, WAIT_MAX) DO
                 ! A stranger, or the server socket broke and was opened again.
             ENDWHILE
         ENDIF
         taken_over := FALSE;
         linked := TRUE;
         told_dead := ROS_dead_1;
-        set_back since_look;
-        ROS_begin_frames;
+        ROS_start_clock since_look;
+        ROS_part_bytes := 0;
         WHILE linked AND (NOT taken_over) DO
             received := ROS_receive(client, ROS_chunk, patience());
             IF received > 0 THEN
@@ -90,8 +90,8 @@ MODULE ROS_control
             ENDIF
             IF linked tell_end client;
             IF linked AND ClkRead(since_look) >= LOOK_PERIOD THEN
-                set_back since_look;
-                taken_over := welcome(newcomer, 0.001);
+                ROS_start_clock since_look;
+                taken_over := ROS_accept(server, PORT, newcomer, 0.001);
             ENDIF
         ENDWHILE
         SocketClose client;
@@ -102,23 +102,9 @@ MODULE ROS_control
         RETURN;
     ENDPROC
 
-    ! A clock counts 49 days: none is read that nobody has set back for long.
-    LOCAL PROC set_back(VAR clock one)
-        ClkReset one;
-        ClkStart one;
-    ENDPROC
-
     LOCAL FUNC bool is_late()
         IF heartbeat = 0 RETURN FALSE;
         RETURN ClkRead(since_heartbeat) > heartbeat;
-    ENDFUNC
-
-    LOCAL FUNC bool welcome(VAR socketdev client, num seconds)
-        VAR num came;
-
-        came := ROS_accept(server, client, seconds);
-        IF came = ROS_ACCEPT_BROKEN ROS_listen server, PORT;
-        RETURN came = ROS_ACCEPT_CLIENT;
     ENDFUNC
 
     ! A client whose heartbeats are awaited is gone, or was replaced.
@@ -305,7 +291,7 @@ MODULE ROS_control
             RETURN;
         ENDIF
         heartbeat := seconds;
-        set_back since_heartbeat;
+        ROS_start_clock since_heartbeat;
         ROS_look newest;
         ROS_pack_header answer, 20, ROS_MSG_HEARTBEAT, ROS_COMM_REPLY, ROS_REPLY_SUCCESS;
         PackRawBytes newest.trajectory, answer, 17 \IntX:=DINT;
@@ -326,7 +312,7 @@ MODULE ROS_control
         told_dead := trajectory;
         IF ROS_started_1 = trajectory reached := ROS_reached_1;
         joints := CJointT();
-        ROS_form answer, ROS_LEN_STOPPED, ROS_MSG_STOPPED;
+        ROS_pack_topic answer, ROS_LEN_STOPPED, ROS_MSG_STOPPED;
         PackRawBytes trajectory, answer, 17 \IntX:=DINT;
         PackRawBytes reached, answer, 21 \IntX:=DINT;
         PackRawBytes ROS_dead_reason_1 MOD 100, answer, 25 \IntX:=DINT;

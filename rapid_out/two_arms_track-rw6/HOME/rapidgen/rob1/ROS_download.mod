@@ -8,7 +8,7 @@ MODULE ROS_download
     ! Each point is checked when it comes; nothing is handed over before -3 has come and
     ! everything was right. Then the points go through the ring to the motion task.
 
-    CONST string ROS_BUILD_DOWNLOAD := "4187793f3053";
+    CONST string ROS_BUILD_DOWNLOAD := "b476b9f84aa3";
 
     ! A trajectory is being received, and still may become one.
     VAR bool ROS_receiving := FALSE;
@@ -113,7 +113,8 @@ MODULE ROS_download
         IF ROS_first THEN
             ROS_first := FALSE;
         ELSE
-            IF ROS_seconds < ROS_SHORTEST AND sequence <> ROS_SEQ_END ROS_short_segment;
+            IF ROS_seconds < ROS_SHORTEST AND sequence <> ROS_SEQ_END
+                ROS_object ROS_REASON_SEGMENT_TOO_SHORT;
             ! The same place again: stand there for the duration.
             ROS_taken.dwell := (ROS_taken.target = ROS_before);
         ENDIF

@@ -9,7 +9,7 @@ MODULE ROS_stream
     ! room. The head of the ring is moved once a batch, when its checksum is right. Behind a fault
     ! the stream is cut: what was accepted before is executed, and nothing that follows.
 
-    CONST string ROS_BUILD_STREAM := "4187793f3053";
+    CONST string ROS_BUILD_STREAM := "b476b9f84aa3";
 
     ! s of points that wait in the ring before the robot begins to move, or moves on.
     LOCAL CONST num PRELOAD := 0.5;
@@ -32,6 +32,9 @@ MODULE ROS_stream
     ! It was handed to the motion task; no point of it follows.
     LOCAL VAR bool handed_over := FALSE;
     LOCAL VAR bool ended := FALSE;
+    ! It is a program, of which nothing is executed before all of it has come.
+    LOCAL VAR bool is_program := FALSE;
+    LOCAL VAR bool whole := FALSE;
     ! The head of the ring, as soon as the points that were not announced yet are; how many
     ! seconds these are, and whether they wait for more of them.
     LOCAL VAR num written := 0;
@@ -58,7 +61,7 @@ MODULE ROS_stream
             reject ROS_REASON_FRAMING;
         ELSEIF NOT has_head(data, at) THEN
             reject ROS_REASON_CHECKSUM;
-        ELSEIF POINT_BYTES * points + ROS_LEN_POINTS <> ROS_frame_length THEN
+        ELSEIF ROS_frame_type = ROS_MSG_POINTS AND POINT_BYTES * points + ROS_LEN_POINTS <> ROS_frame_length THEN
             reject ROS_REASON_FRAMING;
         ELSEIF has(ROS_STREAM_BEGIN) AND ROS_active() AND (NOT is_intact(data, at)) THEN
             ! Not even that it begins something is sure: what is under way must not end for it.
@@ -66,7 +69,7 @@ MODULE ROS_stream
         ELSEIF has(ROS_STREAM_BEGIN) AND number > 0 THEN
             begin_stream;
             take_if_in_order data, at;
-        ELSEIF number <> stream OR stream = 0 THEN
+        ELSEIF number <> stream OR stream = 0 OR is_program <> (ROS_frame_type = ROS_MSG_PROGRAM) THEN
             reject ROS_REASON_NO_START;
         ELSE
             take_if_in_order data, at;
@@ -85,7 +88,7 @@ MODULE ROS_stream
             RETURN;
         ENDIF
         ROS_look told;
-        ROS_pack_header data, 40, ROS_MSG_POINTS, ROS_COMM_REPLY, ROS_REPLY_SUCCESS;
+        ROS_pack_header data, 40, ROS_frame_type, ROS_COMM_REPLY, ROS_REPLY_SUCCESS;
         PackRawBytes stream, data, 17 \IntX:=DINT;
         PackRawBytes trajectory, data, 21 \IntX:=DINT;
         PackRawBytes accepted, data, 25 \IntX:=DINT;
@@ -103,7 +106,7 @@ MODULE ROS_stream
     ENDPROC
 
     LOCAL PROC pack_refused(VAR rawbytes data, num whose, num its, num taken, num why, num point)
-        ROS_pack_header data, 36, ROS_MSG_POINTS, ROS_COMM_REPLY, ROS_REPLY_FAILURE;
+        ROS_pack_header data, 36, ROS_frame_type, ROS_COMM_REPLY, ROS_REPLY_FAILURE;
         PackRawBytes whose, data, 17 \IntX:=DINT;
         PackRawBytes its, data, 21 \IntX:=DINT;
         PackRawBytes taken, data, 25 \IntX:=DINT;
@@ -157,7 +160,7 @@ MODULE ROS_stream
 
         check := check_of_head;
         here := at + HEAD_BYTES;
-        behind := here + POINT_BYTES * points;
+        behind := at + ROS_frame_length;
         WHILE here < behind DO
             UnpackRawBytes data, here, word \IntX:=DINT;
             check := with_word(check, word);
@@ -185,6 +188,9 @@ MODULE ROS_stream
         accepted := 0;
         handed_over := FALSE;
         ended := FALSE;
+        is_program := (ROS_frame_type = ROS_MSG_PROGRAM);
+        whole := is_program AND has(ROS_STREAM_WHOLE);
+        IF is_program ROS_begin_program;
         ROS_forget_download;
         ROS_begin_trajectory;
         trajectory := ROS_trajectory_1;
@@ -266,7 +272,7 @@ MODULE ROS_stream
             cut_if_intact ROS_REASON_SEQUENCE_GAP, data, at;
             RETURN;
         ENDIF
-        IF points > 0 AND (NOT handed_over) THEN
+        IF points > 0 AND (NOT handed_over) AND (accepted = 0 OR (NOT whole)) THEN
             ! This also waits until nothing is left in the ring of what this stream has ended.
             obstacle := ROS_what_hinders();
             IF obstacle <> ROS_REASON_NONE THEN
@@ -280,6 +286,8 @@ MODULE ROS_stream
         ENDIF
         take_points data, at;
         IF code <> ROS_REASON_NONE RETURN;
+        IF whole AND has(ROS_STREAM_END) AND accepted > 0 AND (NOT handed_over) begin_whole;
+        IF code <> ROS_REASON_NONE OR (whole AND (NOT has(ROS_STREAM_END))) RETURN;
         IF has(ROS_STREAM_END) AND (NOT ended) THEN
             IF NOT handed_over THEN
                 ! An end without a beginning.
@@ -290,6 +298,25 @@ MODULE ROS_stream
         ELSEIF (NOT holding) OR held >= PRELOAD OR has(ROS_STREAM_FLUSH) THEN
             announce;
         ENDIF
+    ENDPROC
+
+    ! All of a program is here, and every instruction was right.
+    LOCAL PROC begin_whole()
+        VAR num obstacle;
+
+        obstacle := ROS_what_hinders();
+        IF obstacle = ROS_REASON_NONE obstacle := ROS_start_fault();
+        IF obstacle = ROS_REASON_NONE THEN
+            begin_motion;
+        ELSE
+            refuse obstacle, -1;
+        ENDIF
+    ENDPROC
+
+    LOCAL PROC begin_motion()
+        handed_over := TRUE;
+        IF is_program ROS_program_1 := trajectory;
+        ROS_hand_over;
     ENDPROC
 
     ! Take the points of the batch. They count if its checksum is right.
@@ -309,6 +336,13 @@ MODULE ROS_stream
         head := written;
         here := at + HEAD_BYTES;
         left := points;
+        IF is_program THEN
+            ! Nobody can say how long a robot takes for instructions: it begins with what is there.
+            holding := FALSE;
+            left := 0;
+            here := at + ROS_frame_length;
+            IF points > 0 ROS_take_instructions data, at + HEAD_BYTES, here, points, check, written;
+        ENDIF
         WHILE left > 0 DO
             left := left - 1;
             take_point data, here, left = 0 AND has(ROS_STREAM_END);
@@ -322,10 +356,7 @@ MODULE ROS_stream
         ENDIF
         accepted := ROS_count;
         ROS_received_1 := accepted;
-        IF accepted > 0 AND (NOT handed_over) THEN
-            handed_over := TRUE;
-            ROS_hand_over;
-        ENDIF
+        IF accepted > 0 AND (NOT handed_over) AND (NOT whole) begin_motion;
         IF ROS_fault <> ROS_REASON_NONE cut ROS_fault;
     ERROR
         SkipWarn;
@@ -408,7 +439,8 @@ MODULE ROS_stream
         IF ROS_first THEN
             begin_at_first;
         ELSE
-            IF ROS_seconds < ROS_SHORTEST AND (NOT last) ROS_short_segment;
+            IF ROS_seconds < ROS_SHORTEST AND (NOT last)
+                ROS_object ROS_REASON_SEGMENT_TOO_SHORT;
             ! The same place again: stand there for the duration.
             ROS_taken.dwell := (ROS_taken.target = ROS_before);
         ENDIF

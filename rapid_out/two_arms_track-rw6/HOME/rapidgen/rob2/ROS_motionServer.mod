@@ -9,7 +9,7 @@ MODULE ROS_motionServer
     ! end (ROS_stream). The client's STOP lies in the same stream of bytes behind its points, so
     ! this task never waits for room: it reads, and feeds the ring in between.
 
-    CONST string ROS_BUILD_MOTION_SERVER := "4187793f3053";
+    CONST string ROS_BUILD_MOTION_SERVER := "b476b9f84aa3";
 
     LOCAL CONST num PORT := 11010;
     ! s between two looks for bytes while the ring is being fed
@@ -41,7 +41,8 @@ MODULE ROS_motionServer
         ROS_start_task ROS_shown_motion_server_2,
             ROS_BUILD_LIMITS = ROS_BUILD_ID AND ROS_BUILD_MESSAGES = ROS_BUILD_ID AND
             ROS_BUILD_SOCKET = ROS_BUILD_ID AND ROS_BUILD_ACCEPTANCE = ROS_BUILD_ID AND
-            ROS_BUILD_DOWNLOAD = ROS_BUILD_ID AND ROS_BUILD_STREAM = ROS_BUILD_ID AND
+            ROS_BUILD_DOWNLOAD = ROS_BUILD_ID AND ROS_BUILD_INSTRUCTIONS = ROS_BUILD_ID AND
+            ROS_BUILD_PROGRAMS = ROS_BUILD_ID AND ROS_BUILD_STREAM = ROS_BUILD_ID AND
             ROS_BUILD_MOTION_SERVER = ROS_BUILD_ID;
         ROS_read_limits \tell;
         ! Counters start where those that answer them stand.
@@ -53,9 +54,9 @@ MODULE ROS_motionServer
         ROS_listen server, PORT;
         WHILE TRUE DO
             serve client_1, client_2;
-            lost_client;
+            lose client_1;
             serve client_2, client_1;
-            lost_client;
+            lose client_2;
         ENDWHILE
     ENDPROC
 
@@ -66,15 +67,21 @@ MODULE ROS_motionServer
         VAR num silence := PATIENCE;
 
         IF NOT taken_over THEN
-            WHILE NOT welcome(client, WAIT_MAX) DO
+            WHILE NOT ROS_accept(server, PORT, client, WAIT_MAX) DO
                 ! A stranger, or the server socket broke and was opened again.
             ENDWHILE
         ENDIF
         taken_over := FALSE;
         linked := TRUE;
-        ROS_begin_frames;
-        set_back since_look;
-        IF early_bytes > 0 take_early client;
+        ROS_part_bytes := 0;
+        ROS_start_clock since_look;
+        ! What it said while another one was served.
+        received := early_bytes;
+        early_bytes := 0;
+        IF received > 0 THEN
+            CopyRawBytes early, 1, ROS_chunk, 1 \NoOfBytes:=received;
+            take_chunk client, received;
+        ENDIF
         WHILE linked AND (NOT taken_over) DO
             IF ROS_fed < ROS_to_feed THEN
                 ROS_feed;
@@ -93,103 +100,61 @@ MODULE ROS_motionServer
             ELSEIF received < 0 THEN
                 linked := FALSE;
             ENDIF
-            IF linked AND is_due() look_at newcomer, quiet;
-            IF quiet >= PATIENCE THEN
-                quiet := 0;
-            ENDIF
+            IF linked AND ROS_elapsed(since_look) >= NEWCOMER_PERIOD look_at newcomer, quiet;
         ENDWHILE
-        leave client;
     ERROR
         ! Nothing that a client sends may end this task.
         ErrWrite \W, "ROS: a client was dropped", "Error " + ValToStr(ERRNO) + " while serving it.";
-        leave client;
         RETURN;
-    ENDPROC
-
-    ! Whoever waits is served next.
-    LOCAL PROC leave(VAR socketdev client)
-        SocketClose client;
-        taken_over := waiting;
-        waiting := FALSE;
-    ENDPROC
-
-    LOCAL FUNC bool is_due()
-        RETURN ClkRead(since_look) >= NEWCOMER_PERIOD;
-    ERROR
-        ! A clock counts 49 days.
-        SkipWarn;
-        RETURN TRUE;
-    ENDFUNC
-
-    LOCAL PROC set_back(VAR clock one)
-        ClkReset one;
-        ClkStart one;
     ENDPROC
 
     ! A newer client is served when this one has been silent for a while: it may be the same
     ! one, whose old link is dead without a word. While a trajectory is under way that its client
     ! is silent means nothing, and to connect is no reason to stop the robot.
     LOCAL PROC look_at(VAR socketdev newcomer, num quiet)
-        set_back since_look;
-        IF NOT waiting waiting := welcome(newcomer, 0.001);
+        VAR num wish;
+
+        ROS_start_clock since_look;
+        IF NOT waiting waiting := ROS_accept(server, PORT, newcomer, 0.001);
         IF NOT waiting RETURN;
-        IF ROS_active() THEN
-            hear newcomer;
-        ELSEIF quiet >= PATIENCE THEN
+        IF NOT ROS_active() THEN
+            taken_over := (quiet >= PATIENCE);
+            RETURN;
+        ENDIF
+        wish := heard(newcomer);
+        IF wish = ROS_REASON_FRAMING THEN
+            SocketClose newcomer;
+            waiting := FALSE;
+            early_bytes := 0;
+        ELSEIF wish <> ROS_REASON_NONE THEN
+            ROS_end_session wish;
             taken_over := TRUE;
         ENDIF
     ENDPROC
 
-    ! Who waits may stop what is under way, and begin something else; nothing else counts yet.
-    LOCAL PROC hear(VAR socketdev newcomer)
+    ! Who waits may stop what is under way, and begin something else; nothing else counts yet. What its
+    ! first message that says STOP or brings points is for the trajectory under way: STOPPED or
+    ! SUPERSEDED; FRAMING: it is none, or too much came before it, or the link is lost; 0: there is none yet.
+    LOCAL FUNC num heard(VAR socketdev newcomer)
         VAR rawbytes more;
         VAR num bytes;
-        VAR num reason;
-
-        bytes := ROS_peek(newcomer);
-        IF bytes > 0 bytes := ROS_receive(newcomer, more, 0.01);
-        IF bytes = 0 RETURN;
-        IF bytes < 0 THEN
-            dismiss newcomer;
-            RETURN;
-        ENDIF
-        CopyRawBytes more, 1, early, early_bytes + 1 \NoOfBytes:=bytes;
-        early_bytes := early_bytes + bytes;
-        reason := wish();
-        IF reason = ROS_REASON_NONE RETURN;
-        IF reason = ROS_REASON_FRAMING THEN
-            dismiss newcomer;
-            RETURN;
-        ENDIF
-        ROS_end_session reason;
-        taken_over := TRUE;
-    ERROR
-        ! More than a beginning.
-        SkipWarn;
-        dismiss newcomer;
-        RETURN;
-    ENDPROC
-
-    LOCAL PROC dismiss(VAR socketdev newcomer)
-        SocketClose newcomer;
-        waiting := FALSE;
-        early_bytes := 0;
-    ENDPROC
-
-    ! What the first message of `early` that says STOP or brings points is for the trajectory under
-    ! way: STOPPED or SUPERSEDED; FRAMING: it is none; 0: there is none yet.
-    LOCAL FUNC num wish()
         VAR num at := 1;
         VAR num length;
         VAR num type;
         VAR num number;
 
+        bytes := ROS_peek(newcomer);
+        IF bytes > 0 bytes := ROS_receive(newcomer, more, 0.01);
+        IF bytes = 0 RETURN ROS_REASON_NONE;
+        IF bytes < 0 RETURN ROS_REASON_FRAMING;
+        CopyRawBytes more, 1, early, early_bytes + 1 \NoOfBytes:=bytes;
+        early_bytes := early_bytes + bytes;
         WHILE at + ROS_HEADER_BYTES + 7 <= early_bytes DO
             UnpackRawBytes early, at, length \IntX:=DINT;
             UnpackRawBytes early, at + 4, type \IntX:=DINT;
             IF NOT (ROS_HEADER_BYTES <= length AND length <= ROS_MAX_LENGTH) RETURN ROS_REASON_FRAMING;
             IF at + length + 3 > early_bytes RETURN ROS_REASON_NONE;
-            IF type = ROS_MSG_POINTS RETURN ROS_REASON_SUPERSEDED;
+            IF type = ROS_MSG_POINTS OR type = ROS_MSG_PROGRAM RETURN ROS_REASON_SUPERSEDED;
             IF type = ROS_MSG_JOINT_TRAJ_PT THEN
                 UnpackRawBytes early, at + 16, number \IntX:=DINT;
                 IF number = ROS_SEQ_STOP RETURN ROS_REASON_STOPPED;
@@ -199,33 +164,16 @@ MODULE ROS_motionServer
         ENDWHILE
         RETURN ROS_REASON_NONE;
     ERROR
-        RAISE;
+        SkipWarn;
+        RETURN ROS_REASON_FRAMING;
     ENDFUNC
 
-    ! What a client said while another one was served.
-    LOCAL PROC take_early(VAR socketdev client)
-        VAR num bytes;
-
-        ClearRawBytes ROS_chunk;
-        CopyRawBytes early, 1, ROS_chunk, 1 \NoOfBytes:=early_bytes;
-        bytes := early_bytes;
-        early_bytes := 0;
-        ClearRawBytes early;
-        take_chunk client, bytes;
-    ERROR
-        RAISE;
-    ENDPROC
-
-    LOCAL FUNC bool welcome(VAR socketdev client, num seconds)
-        VAR num came;
-
-        came := ROS_accept(server, client, seconds);
-        IF came = ROS_ACCEPT_BROKEN ROS_listen server, PORT;
-        RETURN came = ROS_ACCEPT_CLIENT;
-    ENDFUNC
-
-    ! The robot does not go on for a client that is gone, and half a trajectory is none.
-    LOCAL PROC lost_client()
+    ! The robot does not go on for a client that is gone, and half a trajectory is none. Whoever waits
+    ! is served next.
+    LOCAL PROC lose(VAR socketdev client)
+        SocketClose client;
+        taken_over := waiting;
+        waiting := FALSE;
         ROS_lose_download;
         ROS_lose_stream;
         ROS_end_session ROS_REASON_CLIENT_LOST;
@@ -270,11 +218,19 @@ MODULE ROS_motionServer
                 AND reply_code = ROS_REPLY_NONE THEN
                 ! The usual case first.
                 ROS_add_point data, at, sequence;
-            ELSEIF knows_kind() THEN
-                take_point client, data, at;
+            ELSEIF NOT knows_kind() THEN
+                broken_framing;
+            ELSEIF sequence = ROS_SEQ_STOP THEN
+                stop_now client;
+            ELSE
+                ROS_take_point data, at, sequence;
+                IF requested answer_point client;
             ENDIF
-        ELSEIF ROS_frame_type = ROS_MSG_POINTS THEN
-            IF NOT knows_kind() RETURN;
+        ELSEIF ROS_frame_type = ROS_MSG_POINTS OR ROS_frame_type = ROS_MSG_PROGRAM THEN
+            IF NOT knows_kind() THEN
+                broken_framing;
+                RETURN;
+            ENDIF
             ROS_take_batch data, at;
             IF requested answer_batch client;
         ELSE
@@ -287,9 +243,7 @@ MODULE ROS_motionServer
     ! TRUE for a topic or a request without a reply code. Anything else breaks the framing.
     LOCAL FUNC bool knows_kind()
         requested := (comm_type = ROS_COMM_REQUEST);
-        IF reply_code = ROS_REPLY_NONE AND (requested OR comm_type = ROS_COMM_TOPIC) RETURN TRUE;
-        broken_framing;
-        RETURN FALSE;
+        RETURN reply_code = ROS_REPLY_NONE AND (requested OR comm_type = ROS_COMM_TOPIC);
     ENDFUNC
 
     ! Where the next message begins is not known any more, so nothing behind it can be trusted.
@@ -313,17 +267,6 @@ MODULE ROS_motionServer
             ROS_report ROS_REASON_UNKNOWN_MESSAGE, -1;
             IF comm_type = ROS_COMM_REQUEST reply client, ROS_frame_type, ROS_REPLY_FAILURE;
         ENDIF
-    ENDPROC
-
-    LOCAL PROC take_point(VAR socketdev client, VAR rawbytes data, num at)
-        IF sequence = ROS_SEQ_STOP THEN
-            stop_now client;
-            RETURN;
-        ENDIF
-        ROS_take_point data, at, sequence;
-        IF requested answer_point client;
-    ERROR
-        RAISE;
     ENDPROC
 
     LOCAL PROC reply(VAR socketdev client, num type, num code)
@@ -354,7 +297,7 @@ MODULE ROS_motionServer
         VAR num code := ROS_REPLY_SUCCESS;
 
         ROS_forget_download;
-        ROS_forget_trajectory ROS_REASON_STOPPED;
+        ROS_forget_trajectory;
         ROS_end_session ROS_REASON_STOPPED;
         IF ROS_service_2 = ROS_OUTSIDE THEN
             ! The supervisor tells that the program's own moves go on.

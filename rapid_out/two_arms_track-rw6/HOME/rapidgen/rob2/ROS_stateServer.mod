@@ -9,7 +9,7 @@ MODULE ROS_stateServer
     ! moment. Nobody waits for this task. A client that does not read would hold up the others
     ! in a send, so a send that takes too long is broken off, and its client dropped.
 
-    CONST string ROS_BUILD_STATE_SERVER := "4187793f3053";
+    CONST string ROS_BUILD_STATE_SERVER := "b476b9f84aa3";
 
     LOCAL CONST num PORT := 11012;
     LOCAL CONST num PERIOD := 0.1;
@@ -96,7 +96,7 @@ MODULE ROS_stateServer
             ROS_BUILD_SOCKET = ROS_BUILD_ID AND ROS_BUILD_STATE_SERVER = ROS_BUILD_ID;
         ROS_read_limits;
         ROS_form_state state;
-        ROS_form progress, ROS_LEN_PROGRESS, ROS_MSG_PROGRESS;
+        ROS_pack_topic progress, ROS_LEN_PROGRESS, ROS_MSG_PROGRESS;
         ROS_form_feedback feedback;
         ROS_listen server, PORT;
         WHILE TRUE DO
@@ -115,10 +115,8 @@ MODULE ROS_stateServer
         ENDWHILE
         ticks := 0;
         offset := 0;
-        ClkReset schedule{running};
-        ClkStart schedule{running};
-        ClkReset since_look;
-        ClkStart since_look;
+        ROS_start_clock schedule{running};
+        ROS_start_clock since_look;
         told_started := ROS_started_2;
         told_joints := CJointT();
     ENDPROC
@@ -128,16 +126,12 @@ MODULE ROS_stateServer
         VAR num slot;
 
         slot := free_slot();
-        TEST ROS_accept(server, client{slot}, seconds)
-        CASE ROS_ACCEPT_CLIENT:
-            served{slot} := TRUE;
-            clients := clients + 1;
-            ! The newest is served, and those who came first are not disturbed.
-            IF clients = SLOTS drop latest;
-            latest := slot;
-        CASE ROS_ACCEPT_BROKEN:
-            ROS_listen server, PORT;
-        ENDTEST
+        IF NOT ROS_accept(server, PORT, client{slot}, seconds) RETURN;
+        served{slot} := TRUE;
+        clients := clients + 1;
+        ! The newest is served, and those who came first are not disturbed.
+        IF clients = SLOTS drop latest;
+        latest := slot;
     ENDPROC
 
     LOCAL FUNC num free_slot()
@@ -297,8 +291,8 @@ MODULE ROS_stateServer
 
     ! TRUE if the trajectory under way stands: halted, paused or without a next point.
     LOCAL FUNC bool held()
-        IF ROS_halted_2 = ROS_session_2 RETURN TRUE;
-        RETURN ROS_paused_2 = ROS_session_2 OR ROS_starved_2 = ROS_session_2;
+        IF ROS_paused_2 = ROS_session_2 RETURN TRUE;
+        RETURN ROS_halted_2 = ROS_session_2 OR ROS_starved_2 = ROS_session_2;
     ENDFUNC
 
     ! TRUE if no axis has moved since the last message by more than a sensor's noise.
@@ -314,8 +308,7 @@ MODULE ROS_stateServer
 
     ! Hear what clients say, tell them of events, and see whether new ones have come.
     LOCAL PROC look_after_clients()
-        ClkReset since_look;
-        ClkStart since_look;
+        ROS_start_clock since_look;
         set_alarm TRUE;
         FOR slot FROM 1 TO SLOTS DO
             IF served{slot} THEN

@@ -11,7 +11,7 @@ MODULE ROS_supervisor
     ! which an old path must not go on: e-stop, motors off, program stop, change of mode.
     ! A pause: StopMove alone, so that the path is kept, and StartMove when it is asked for.
 
-    CONST string ROS_BUILD_SUPERVISOR := "4187793f3053";
+    CONST string ROS_BUILD_SUPERVISOR := "b476b9f84aa3";
 
     LOCAL VAR intnum asked_to_stop;
     LOCAL VAR intnum asked_to_look;
@@ -23,11 +23,7 @@ MODULE ROS_supervisor
     ! Bells since the halt, and how many of them at most: a program that does not hear them
     ! would end with too many of them waiting.
     LOCAL VAR num bells := 0;
-    ! The program did not run when it was to be rung.
-    LOCAL VAR bool unheard := FALSE;
     LOCAL CONST num MOST_BELLS := 12;
-    ! StartMove was refused because the robot stands too far from its path.
-    LOCAL VAR bool far_off := FALSE;
     ! It was said why the robot stays stopped.
     LOCAL VAR bool told := FALSE;
     ! Rounds for which the tasks have shown different builds.
@@ -155,7 +151,7 @@ MODULE ROS_supervisor
     LOCAL PROC halt(num reason)
         VAR bool lost := FALSE;
 
-        stop_robot;
+        ROS_stop_robot;
         ROS_latched_2 := TRUE;
         told := FALSE;
         bells := 0;
@@ -167,31 +163,32 @@ MODULE ROS_supervisor
         ENDIF
         ROS_paused_2 := -1;
         ROS_abort_2 := ROS_next(ROS_abort_2);
-        set_back since_halt;
+        ROS_start_clock since_halt;
         ring;
         ! Whoever stands beside the robot learns of all other reasons in another way.
         IF lost ErrWrite \W, "ROS: trajectory ended early", ROS_reason_text(reason);
     ENDPROC
 
-    ! Let the robot move again, once nothing is left of the old path.
+    ! Let the robot move again, once nothing is left of the old path: the program says so, or was begun
+    ! anew and is not in ROS_run, where nothing of ours may hold its moves. A stop by a server may be
+    ! that task's own on some controllers: then it stays.
     LOCAL PROC release()
-        IF ROS_abort_done_2 = ROS_abort_2 OR is_others() THEN
+        IF ROS_abort_done_2 = ROS_abort_2 OR (ROS_service_2 = ROS_OUTSIDE AND (NOT ROS_active())) THEN
             IF ROS_executing() = ROS_TRI_FALSE OR ROS_motors_on() = ROS_TRI_FALSE RETURN;
-            IF NOT released() THEN
-                IF far_off THEN
-                    tell "ROS: the robot stays stopped", "It stands too far from the path that it left.";
-                ELSE
-                    tell "ROS: the robot stays stopped", "Its stop cannot be taken back.";
-                ENDIF
-                RETURN;
+            ROS_start_robot IsStopMoveAct(\FromNonMoveTask);
+            IF NOT IsStopMoveAct(\FromNonMoveTask) THEN
+                ROS_latched_2 := FALSE;
+            ELSEIF ROS_far_off THEN
+                tell "ROS: the robot stays stopped", "It stands too far from the path that it left.";
+            ELSE
+                tell "ROS: the robot stays stopped", "Its stop cannot be taken back.";
             ENDIF
-            ROS_latched_2 := FALSE;
             RETURN;
         ENDIF
         IF ROS_executing() = ROS_TRI_FALSE THEN
-            ! It cannot answer, nor hear a bell: the time for that begins when it runs.
-            set_back since_halt;
-            unheard := TRUE;
+            ! It cannot answer, nor hear a bell: the time for that begins when it runs, and with one more.
+            ROS_start_clock since_halt;
+            IF bells >= MOST_BELLS bells := MOST_BELLS - 1;
             RETURN;
         ENDIF
         IF IsStopMoveAct(\FromMoveTask) AND ROS_motors_on() <> ROS_TRI_FALSE THEN
@@ -199,25 +196,8 @@ MODULE ROS_supervisor
         ELSE
             tell "ROS: the motion task does not answer", "The robot stays stopped.";
         ENDIF
-        ! Clocks count 49 days: they are not read for long.
-        IF unheard THEN
-            unheard := FALSE;
-            ring;
-        ELSEIF bells < MOST_BELLS THEN
-            IF ClkRead(since_bell) > 0.25 ring;
-        ENDIF
+        IF bells < MOST_BELLS AND ROS_elapsed(since_bell) > 0.25 ring;
     ENDPROC
-
-    LOCAL PROC set_back(VAR clock one)
-        ClkReset one;
-        ClkStart one;
-    ENDPROC
-
-    ! The program was begun anew, and is not in ROS_run: no path of ours is left, and nothing of
-    ! ours may hold its moves.
-    LOCAL FUNC bool is_others()
-        RETURN ROS_service_2 = ROS_OUTSIDE AND (NOT ROS_active());
-    ENDFUNC
 
     ! Say once what is wrong, when the program has run for two seconds since the halt.
     LOCAL PROC tell(string title, string what)
@@ -230,7 +210,7 @@ MODULE ROS_supervisor
     ! Stop the robot on its path and keep that. Gives why not, 0: done.
     LOCAL FUNC num pause()
         IF NOT under_way() RETURN ROS_REASON_IDLE;
-        stop_robot;
+        ROS_stop_robot;
         IF NOT IsStopMoveAct(\FromNonMoveTask) RETURN ROS_REASON_INTERNAL;
         ROS_paused_2 := ROS_session_2;
         RETURN ROS_REASON_NONE;
@@ -247,7 +227,7 @@ MODULE ROS_supervisor
         IF NOT started() RETURN ROS_REASON_INTERNAL;
         ROS_paused_2 := -1;
         ! A stop that came meanwhile is answered next, but this has taken it back.
-        IF stop_asked() stop_robot;
+        IF stop_asked() ROS_stop_robot;
         RETURN ROS_REASON_NONE;
     ENDFUNC
 
@@ -275,38 +255,14 @@ MODULE ROS_supervisor
 
     LOCAL PROC ring()
         bells := bells + 1;
-        set_back since_bell;
+        ROS_start_clock since_bell;
         ROS_bell_2 := ROS_next(ROS_bell_2);
     ENDPROC
 
-    LOCAL PROC stop_robot()
-        StopMove;
-    ERROR
-        ! Nothing moves, or it is stopped already.
-        SkipWarn;
-        TRYNEXT;
-    ENDPROC
-
-    ! Take back the stop. FALSE: not now (motors off, program stopped), it stays in force.
+    ! Take back the stop on a path. FALSE: not now (motors off, program stopped), it stays in force.
     LOCAL FUNC bool started()
-        far_off := FALSE;
         IF IsStopMoveAct(\FromNonMoveTask) StartMove;
         RETURN TRUE;
-    ERROR
-        SkipWarn;
-        far_off := (ERRNO = ERR_PATHDIST);
-        RETURN FALSE;
-    ENDFUNC
-
-    ! Take back the stop when nothing is left of the path. Where the robot came to rest too far
-    ! from it, which is of no interest any more, StopMoveReset does, and nothing moves. A stop by a
-    ! server may be that task's own on some controllers: then it stays.
-    LOCAL FUNC bool released()
-        IF NOT started() THEN
-            IF NOT far_off RETURN FALSE;
-            StopMoveReset;
-        ENDIF
-        RETURN NOT IsStopMoveAct(\FromNonMoveTask);
     ERROR
         SkipWarn;
         RETURN FALSE;

@@ -3,7 +3,7 @@
 ! given: system
 MODULE Demo
     VAR num n;
-    VAR capdata d;
+    VAR sensorvardata d;
     VAR no_such_data e;  ! -> RG303
     PROC main()
         d.x := 1;

@@ -1,15 +1,23 @@
 """Lines and circles of the TCP in the object's frame, over a share from 0 to 1."""
 
 from dataclasses import dataclass
+from enum import Enum
 from itertools import pairwise
 from math import atan2, pi
 
 from rapidgen.axes import frames
 from rapidgen.axes.frames import ORIGIN, Pose, Quaternion, Vector
-from rapidgen.motion.moves import CircleMode
 
 LARGEST_ARC = 240 * pi / 180
 """rad of one MoveC (3HAC16581-1)."""
+
+
+class CircleMode(Enum):
+    """CirPathMode: how the orientation turns on a circle."""
+
+    PATH = "evenly relative to the path"
+    OBJECT = "evenly relative to the object, as on a line"
+    POINT = "relative to the path, through the orientation of the circle point"
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,0 +1,81 @@
+MODULE ROS_execution
+    ! Programs: their instructions, executed one after the other.
+    !
+    ! Robot "irb2400-rw5", motion group rob1, T_ROB1. Written by rapidgen 0.1.0.
+    ! Do not edit: change the configuration and build again. Modules of different
+    ! builds take no trajectory.
+    !
+    ! In the motion task. All was checked before it came into the ring; ROS_motion takes it out there, and
+    ! leaves an instruction that is under way when the robot was stopped.
+
+    CONST string ROS_BUILD_EXECUTION := "87d9d58597a4";
+
+    ! The instruction at hand, and why it could not be carried out, 0: it could.
+    VAR ROS_order ROS_ordered;
+    VAR num ROS_order_fault := 0;
+    LOCAL VAR zonedata zone;
+
+    ! What holds at the beginning of each program: the path is the one that was checked, or none.
+    PROC ROS_prepare_program()
+        ConfJ \On;
+        ConfL \On;
+        SingArea \Off;
+    ENDPROC
+
+    ! Take the instruction at a place of the ring to hand.
+    PROC ROS_fetch_order(num place)
+        ROS_ordered := ROS_orders{place};
+    ENDPROC
+
+    ! TRUE if the robot stops at the end of the instruction at hand; `next` is the number of the one
+    ! behind it. Without one it does, before one that does not move, and before another tool.
+    FUNC bool ROS_order_stops(num next)
+        VAR num place;
+
+        IF ROS_ordered.zone.finep OR next = ROS_head RETURN TRUE;
+        place := next MOD ROS_RING_SIZE + 1;
+        IF ROS_orders{place}.kind > ROS_DO_MOVE_C RETURN TRUE;
+        RETURN ROS_orders{place}.tool <> ROS_ordered.tool OR ROS_orders{place}.wobj <> ROS_ordered.wobj;
+    ENDFUNC
+
+    PROC ROS_execute(bool stops)
+        ROS_order_fault := ROS_REASON_NONE;
+        TEST ROS_ordered.kind
+        CASE ROS_DO_WAIT:
+            WaitTime ROS_ordered.seconds;
+            RETURN;
+        ENDTEST
+        zone := ROS_ordered.zone;
+        IF stops zone := fine;
+        TEST ROS_ordered.tool
+        CASE 0:
+            move_with torch;
+        ENDTEST
+    ERROR
+        RAISE;
+    ENDPROC
+
+    LOCAL PROC move_with(PERS tooldata tool)
+        TEST ROS_ordered.wobj
+        CASE 0:
+            move tool, table;
+        ENDTEST
+    ERROR
+        RAISE;
+    ENDPROC
+
+    LOCAL PROC move(PERS tooldata tool, PERS wobjdata wobj)
+        TEST ROS_ordered.kind
+        CASE ROS_DO_MOVE_ABSJ:
+            MoveAbsJ ROS_ordered.joints \NoEOffs, ROS_ordered.speed, zone, tool \WObj:=wobj;
+        CASE ROS_DO_MOVE_J:
+            MoveJ ROS_ordered.target, ROS_ordered.speed, zone, tool \WObj:=wobj;
+        CASE ROS_DO_MOVE_L:
+            MoveL ROS_ordered.target, ROS_ordered.speed, zone, tool \WObj:=wobj;
+        CASE ROS_DO_MOVE_C:
+            MoveC ROS_ordered.via, ROS_ordered.target, ROS_ordered.speed, zone, tool \WObj:=wobj;
+        ENDTEST
+    ERROR
+        RAISE;
+    ENDPROC
+ENDMODULE

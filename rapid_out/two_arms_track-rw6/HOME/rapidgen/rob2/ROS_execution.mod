@@ -1,0 +1,215 @@
+MODULE ROS_execution
+    ! Programs: their instructions, executed one after the other.
+    !
+    ! Robot "two_arms_track-rw6", motion group rob2, T_ROB2. Written by rapidgen 0.1.0.
+    ! Do not edit: change the configuration and build again. Modules of different
+    ! builds take no trajectory.
+    !
+    ! In the motion task. All was checked before it came into the ring; ROS_motion takes it out there, and
+    ! leaves an instruction that is under way when the robot was stopped.
+
+    CONST string ROS_BUILD_EXECUTION := "b476b9f84aa3";
+
+    ! The instruction at hand, and why it could not be carried out, 0: it could.
+    VAR ROS_order ROS_ordered;
+    VAR num ROS_order_fault := 0;
+    LOCAL VAR zonedata zone;
+    ! Signals on its way, and triggers for four moves: those of the moves before may be under way.
+    LOCAL VAR ROS_mark mark{8};
+    LOCAL VAR triggdata trigger{4, 8};
+    LOCAL VAR num set := 0;
+
+    ! As in ROS_control: tied to their names when a program begins.
+    LOCAL CONST string NAME_1 := "clamp_close";
+    LOCAL VAR signaldo signal_1;
+    LOCAL VAR bool has_1 := FALSE;
+    LOCAL CONST string NAME_2 := "part_present";
+    LOCAL VAR signaldi signal_2;
+    LOCAL VAR bool has_2 := FALSE;
+    LOCAL VAR bool link_ok := FALSE;
+
+    ! What holds at the beginning of each program: the path is the one that was checked, or none.
+    PROC ROS_prepare_program()
+        ConfJ \On;
+        ConfL \On;
+        SingArea \Off;
+        link_signals;
+    ENDPROC
+
+    ! Take the instruction at a place of the ring to hand.
+    PROC ROS_fetch_order(num place)
+        ROS_ordered := ROS_orders_2{place};
+        FOR n FROM 1 TO 8 DO
+            IF n <= ROS_ordered.marks mark{n} := ROS_marks_2{place, n};
+        ENDFOR
+    ENDPROC
+
+    ! TRUE if the robot stops at the end of the instruction at hand; `next` is the number of the one
+    ! behind it. Without one it does, before one that does not move, and before another tool.
+    FUNC bool ROS_order_stops(num next)
+        VAR num place;
+
+        IF ROS_ordered.zone.finep OR next = ROS_head_2 RETURN TRUE;
+        place := next MOD ROS_RING_SIZE + 1;
+        IF ROS_orders_2{place}.kind > ROS_DO_MOVE_C RETURN TRUE;
+        RETURN ROS_orders_2{place}.tool <> ROS_ordered.tool OR ROS_orders_2{place}.wobj <> ROS_ordered.wobj;
+    ENDFUNC
+
+    PROC ROS_execute(bool stops)
+        ROS_order_fault := ROS_REASON_NONE;
+        TEST ROS_ordered.kind
+        CASE ROS_DO_WAIT:
+            WaitTime ROS_ordered.seconds;
+            RETURN;
+        CASE ROS_DO_WAIT_SIGNAL:
+            wait_for_signal;
+            RETURN;
+        CASE ROS_DO_SET:
+            set_signal;
+            RETURN;
+        ENDTEST
+        zone := ROS_ordered.zone;
+        IF stops zone := fine;
+        IF ROS_ordered.marks > 0 set_triggers;
+        IF ROS_order_fault <> ROS_REASON_NONE RETURN;
+        TEST ROS_ordered.tool
+        CASE 0:
+            move_with tool0;
+        ENDTEST
+    ERROR
+        RAISE;
+    ENDPROC
+
+    LOCAL PROC move_with(PERS tooldata tool)
+        TEST ROS_ordered.wobj
+        CASE 0:
+            move tool, wobj0;
+        ENDTEST
+    ERROR
+        RAISE;
+    ENDPROC
+
+    LOCAL PROC move(PERS tooldata tool, PERS wobjdata wobj)
+        IF ROS_ordered.marks > 0 THEN
+            move_and_set tool, wobj;
+            RETURN;
+        ENDIF
+        TEST ROS_ordered.kind
+        CASE ROS_DO_MOVE_ABSJ:
+            MoveAbsJ ROS_ordered.joints \NoEOffs, ROS_ordered.speed, zone, tool \WObj:=wobj;
+        CASE ROS_DO_MOVE_J:
+            MoveJ ROS_ordered.target, ROS_ordered.speed, zone, tool \WObj:=wobj;
+        CASE ROS_DO_MOVE_L:
+            MoveL ROS_ordered.target, ROS_ordered.speed, zone, tool \WObj:=wobj;
+        CASE ROS_DO_MOVE_C:
+            MoveC ROS_ordered.via, ROS_ordered.target, ROS_ordered.speed, zone, tool \WObj:=wobj;
+        ENDTEST
+    ERROR
+        RAISE;
+    ENDPROC
+
+    ! With signals on the way: all eight triggers, of which those too many do what the last one does.
+    LOCAL PROC move_and_set(PERS tooldata tool, PERS wobjdata wobj)
+        TEST ROS_ordered.kind
+        CASE ROS_DO_MOVE_J:
+            TriggJ ROS_ordered.target, ROS_ordered.speed, trigger{set, 1} \T2:=trigger{set, 2}
+                \T3:=trigger{set, 3} \T4:=trigger{set, 4} \T5:=trigger{set, 5} \T6:=trigger{set, 6}
+                \T7:=trigger{set, 7} \T8:=trigger{set, 8}, zone, tool \WObj:=wobj;
+        CASE ROS_DO_MOVE_L:
+            TriggL ROS_ordered.target, ROS_ordered.speed, trigger{set, 1} \T2:=trigger{set, 2}
+                \T3:=trigger{set, 3} \T4:=trigger{set, 4} \T5:=trigger{set, 5} \T6:=trigger{set, 6}
+                \T7:=trigger{set, 7} \T8:=trigger{set, 8}, zone, tool \WObj:=wobj;
+        CASE ROS_DO_MOVE_C:
+            TriggC ROS_ordered.via, ROS_ordered.target, ROS_ordered.speed, trigger{set, 1} \T2:=trigger{set, 2}
+                \T3:=trigger{set, 3} \T4:=trigger{set, 4} \T5:=trigger{set, 5} \T6:=trigger{set, 6}
+                \T7:=trigger{set, 7} \T8:=trigger{set, 8}, zone, tool \WObj:=wobj;
+        ENDTEST
+    ERROR
+        RAISE;
+    ENDPROC
+
+    LOCAL PROC set_triggers()
+        VAR num last;
+
+        set := set MOD 4 + 1;
+        FOR n FROM 1 TO 8 DO
+            last := n;
+            IF n > ROS_ordered.marks last := ROS_ordered.marks;
+            set_trigger n, mark{last};
+        ENDFOR
+    ERROR
+        RAISE;
+    ENDPROC
+
+    LOCAL PROC set_trigger(num n, ROS_mark one)
+        TEST one.signal
+        CASE 0:
+            IF NOT has_1 THEN
+                ROS_order_fault := ROS_REASON_NO_SIGNAL;
+            ELSEIF one.kind = ROS_MARK_START THEN
+                TriggIO trigger{set, n}, one.place \Start \DOp:=signal_1, one.value;
+            ELSEIF one.kind = ROS_MARK_END THEN
+                TriggIO trigger{set, n}, one.place \DOp:=signal_1, one.value;
+            ELSE
+                TriggIO trigger{set, n}, one.place \Time \DOp:=signal_1, one.value;
+            ENDIF
+        ENDTEST
+    ERROR
+        ! Its unit is not there, or the value is too large for it.
+        SkipWarn;
+        ROS_order_fault := ROS_REASON_BAD_VALUE;
+        RETURN;
+    ENDPROC
+
+    LOCAL PROC set_signal()
+        TEST ROS_ordered.signal
+        CASE 0:
+            IF NOT has_1 THEN
+                ROS_order_fault := ROS_REASON_NO_SIGNAL;
+            ELSE
+                SetDO signal_1, ROS_ordered.value;
+            ENDIF
+        ENDTEST
+    ERROR
+        SkipWarn;
+        ROS_order_fault := ROS_REASON_BAD_VALUE;
+        RETURN;
+    ENDPROC
+
+    ! A signal that does not come ends the program.
+    LOCAL PROC wait_for_signal()
+        TEST ROS_ordered.signal
+        CASE 0:
+            IF NOT has_1 THEN
+                ROS_order_fault := ROS_REASON_NO_SIGNAL;
+            ELSE
+                WaitDO signal_1, ROS_ordered.value \MaxTime:=ROS_ordered.seconds;
+            ENDIF
+        CASE 1:
+            IF NOT has_2 THEN
+                ROS_order_fault := ROS_REASON_NO_SIGNAL;
+            ELSE
+                WaitDI signal_2, ROS_ordered.value \MaxTime:=ROS_ordered.seconds;
+            ENDIF
+        ENDTEST
+    ERROR
+        SkipWarn;
+        ROS_order_fault := ROS_REASON_NO_SIGNAL;
+        IF ERRNO = ERR_WAIT_MAXTIME ROS_order_fault := ROS_REASON_WAITED;
+        RETURN;
+    ENDPROC
+
+    LOCAL PROC link_signals()
+        link_ok := TRUE;
+        AliasIO NAME_1, signal_1;
+        has_1 := link_ok;
+        link_ok := TRUE;
+        AliasIO NAME_2, signal_2;
+        has_2 := link_ok;
+    ERROR
+        ! No such signal on this controller.
+        SkipWarn;
+        link_ok := FALSE;
+        TRYNEXT;
+    ENDPROC
+ENDMODULE

@@ -1,0 +1,269 @@
+"""Arms whose axes 4 and 5 meet and whose axis 6 passes beside that point (ABB's CRB 15000); numpy.
+
+An angle of axis 6 tells where axes 4 and 5 meet, that point tells axes 1 to 3, and axis 4 has then
+to be square to axis 5: one equation in axis 6 on each of four branches (wrist behind axis 1, elbow
+turned over). Its roots are bracketed between samples; close to a posture the secant method finds
+one. Angles and geometry are those of `WristArm`.
+"""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from math import atan2, cos, pi, sin, sqrt
+from typing import TypeAlias, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rapidgen.axes import frames
+from rapidgen.axes.frames import Pose, Vector
+from rapidgen.axes.wrist import Angles, WristArm
+
+Floats: TypeAlias = NDArray[np.float64]
+Number = TypeVar("Number", float, Floats)
+Side: TypeAlias = tuple[float, float]
+"""Wrist before (+1) or behind (-1) axis 1, elbow up (+1) or turned over (-1)."""
+_SIDES: tuple[Side, ...] = ((1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0))
+_ANGLES = np.linspace(-pi, pi + pi / 90, 182)
+"""A whole turn and one step more."""
+_SHARES = tuple(1.0 - u * u for u in (1.0, 0.75, 0.5, 0.3, 0.16, 0.08, 0.04, 0.02, 0.0))
+"""Towards the end of the reach, where the equation goes with the root of what is left."""
+_GOLDEN = (sqrt(5.0) - 1) / 2
+_NARROW = 1e-7
+_HALVINGS = 40
+_EXACT = 1e-13
+_GRAZING = 0.02
+"""How far from zero the equation may turn round between samples and yet be looked at closely."""
+_CLOSE = 0.5
+"""rad of axis 6 beside a posture within which its branch goes on."""
+
+
+@dataclass(frozen=True)
+class OffsetWrist:
+    """The arm to where axes 4 and 5 meet, and what lies behind it."""
+
+    arm: WristArm
+    """Its `flange` begins on axis 6, where `offset` ends."""
+    offset: tuple[float, float]
+    """y, z from where axes 4 and 5 meet to axis 6 at zero."""
+
+    def solutions(self, pose: Pose) -> Iterator[Angles]:
+        """All angles within +-pi of a flange pose."""
+        wrist = _Wrist.of(self, pose)
+        for side in _SIDES:
+            for a6 in wrist.roots(side):
+                yield wrist.angles(side, a6)
+
+    def near(self, pose: Pose, angles: Angles) -> Angles | None:
+        """Angles of a flange pose on the branch of close ones; None: not found from there."""
+        wrist = _Wrist.of(self, pose)
+        back, over, _ = self.arm.branch(angles)
+        side = (-1.0 if back else 1.0, -1.0 if over else 1.0)
+        start = last = angles[5]
+        new = start + 1e-4
+        before, here = wrist.value(side, last), wrist.value(side, new)
+        for _ in range(12):
+            if before is None or here is None or abs(new - start) > _CLOSE:
+                return None
+            if abs(here) < _EXACT:
+                return wrist.angles(side, new)
+            if here == before:
+                return None
+            last, new = new, new - here * (new - last) / (here - before)
+            before, here = here, wrist.value(side, new)
+        return None
+
+
+@dataclass(frozen=True)
+class _Wrist:
+    """A flange pose: axes 4 and 5 meet in `fixed` less the offset, turned back about axis 6."""
+
+    geometry: OffsetWrist
+    fixed: Vector
+    x: Vector
+    y: Vector
+    z: Vector
+
+    @classmethod
+    def of(cls, geometry: OffsetWrist, pose: Pose) -> "_Wrist":
+        place, q = pose
+        m = frames.to_matrix(frames.multiply(q, frames.conjugate(geometry.arm.turn)))
+        fixed = frames.subtract(place, frames.rotate(q, geometry.arm.flange))
+        (a, b, c), (d, e, f), (g, h, i) = m
+        return cls(geometry, fixed, (a, d, g), (b, e, h), (c, f, i))
+
+    def value(self, side: Side, a6: float) -> float | None:
+        """The equation at an angle; None: out of the arm's reach."""
+        found, planar, bent = self._equation(side, cos(a6), sin(a6), _root)
+        return found if planar >= 0.0 and bent >= 0.0 else None
+
+    def _equation(
+        self, side: Side, c: Number, s: Number, root: Callable[[Number], Number]
+    ) -> tuple[Number, Number, Number]:
+        """Cosine between axes 4 and 5; negative where axes 1, or 2 and 3, do not get there."""
+        arm, (oy, oz) = self.geometry.arm, self.geometry.offset
+        (length2, _), (length3, rise3) = arm.upper, arm.fore
+        (fx, fy, fz), (yx, yy, yz), (zx, zy, zz) = self.fixed, self.y, self.z
+        along_y, along_z = oy * c + oz * s, oz * c - oy * s
+        x, y, z = (
+            fx - along_y * yx - along_z * zx,
+            fy - along_y * yy - along_z * zy,
+            fz - along_y * yz - along_z * zz,
+        )
+        flat = x * x + y * y
+        planar = flat - arm.lateral * arm.lateral
+        along = side[0] * root(planar)
+        c1, s1 = (x * along + y * arm.lateral) / flat, (y * along - x * arm.lateral) / flat
+        ux, uz = along - arm.shoulder[0], z - arm.shoulder[1]
+        square = ux * ux + uz * uz
+        # The upper arm is at `lift` from the line to the wrist, as shares of that line's length.
+        lift = (square + length2 * length2 - length3 * length3) / (2 * square)
+        bent = length2 * length2 / square - lift * lift
+        tilt = side[1] * root(bent)
+        ex, ez = ux - (lift * ux - tilt * uz), uz - (lift * uz + tilt * ux)
+        cr, sr = cos(rise3) / length3, sin(rise3) / length3
+        level, down = cr * ex + sr * ez, sr * ex - cr * ez
+        across = c * (c1 * yx + s1 * yy) - s * (c1 * zx + s1 * zy)
+        return level * across - down * (c * yz - s * zz), planar, bent
+
+    def angles(self, side: Side, a6: float) -> Angles:
+        """All angles where axis 6 solves the equation."""
+        arm, (oy, oz) = self.geometry.arm, self.geometry.offset
+        c, s = cos(a6), sin(a6)
+        across, up = oy * c + oz * s, oz * c - oy * s
+        turned = frames.add(frames.scale(self.y, across), frames.scale(self.z, up))
+        x, y, z = frames.subtract(self.fixed, turned)
+        along = side[0] * _root(x * x + y * y - arm.lateral * arm.lateral)
+        a1 = atan2(y, x) - atan2(arm.lateral, along)
+        (length2, rise2), (length3, rise3) = arm.upper, arm.fore
+        ux, uz = along - arm.shoulder[0], z - arm.shoulder[1]
+        square = ux * ux + uz * uz
+        lift = (square + length2 * length2 - length3 * length3) / (2 * square)
+        tilt = side[1] * _root(length2 * length2 / square - lift * lift)
+        dx, dz = lift * ux - tilt * uz, lift * uz + tilt * ux
+        a2 = rise2 - atan2(dz, dx)
+        bend = rise3 - atan2(uz - dz, ux - dx)
+        axis5 = frames.subtract(frames.scale(self.y, c), frames.scale(self.z, s))
+        c1, s1, cb, sb = cos(a1), sin(a1), cos(bend), sin(bend)
+        fore = (c1 * cb, s1 * cb, -sb)
+        left, over = (-s1, c1, 0.0), (c1 * sb, s1 * sb, cb)
+        a4 = atan2(frames.dot(axis5, over), frames.dot(axis5, left))
+        square4 = frames.cross(fore, axis5)
+        a5 = atan2(-frames.dot(self.x, square4), frames.dot(self.x, fore))
+        return _wrap(a1), _wrap(a2), _wrap(bend - a2), a4, a5, _wrap(a6)
+
+    # -- its roots --------------------------------------------------------------------------
+
+    def roots(self, side: Side) -> Iterator[float]:
+        """Angles of axis 6 that solve the equation."""
+        with np.errstate(divide="ignore", invalid="ignore"):
+            value, planar, bent = self._equation(side, np.cos(_ANGLES), np.sin(_ANGLES), _roots)
+        inside, above, size = (planar >= 0.0) & (bent >= 0.0), value > 0.0, np.abs(value)
+        both = inside[:-2] & inside[1:-1]
+        changed = both & (above[:-2] != above[1:-1])
+        for n in np.flatnonzero(changed).tolist():
+            yield self._between(side, float(_ANGLES[n]), float(_ANGLES[n + 1]))
+        turning = (size[1:-1] <= size[:-2]) & (size[1:-1] <= size[2:]) & (size[1:-1] < _GRAZING)
+        same = (above[:-2] == above[1:-1]) & (above[1:-1] == above[2:])
+        for n in np.flatnonzero(both & inside[2:] & turning & same).tolist():
+            yield from self._grazing(side, float(_ANGLES[n]), float(_ANGLES[n + 2]))
+        for n in np.flatnonzero(inside[:-2] != inside[1:-1]).tolist():
+            ends = (n, n + 1) if inside[n] else (n + 1, n)
+            yield from self._at_edge(side, *(float(_ANGLES[end]) for end in ends))
+        peaks = (bent[1:-1] >= bent[:-2]) & (bent[1:-1] >= bent[2:]) & (bent[1:-1] > -_GRAZING)
+        for n in np.flatnonzero(peaks & ~inside[:-2] & ~inside[1:-1] & ~inside[2:]).tolist():
+            yield from self._island(side, float(_ANGLES[n]), float(_ANGLES[n + 2]))
+
+    def _between(self, side: Side, a: float, b: float) -> float:
+        """The root between two angles where the equation has different signs (Illinois)."""
+        before, here = self.value(side, a), self.value(side, b)
+        for _ in range(_HALVINGS):
+            if not before or not here or abs(here) < _EXACT:
+                break
+            c = b - here * (b - a) / (here - before)
+            there = self.value(side, c)
+            if there is None:
+                break
+            if there * here < 0.0:
+                a, before = b, here
+            else:
+                before /= 2
+            b, here = c, there
+        return a if before == 0.0 else b
+
+    def _grazing(self, side: Side, a: float, b: float) -> Iterator[float]:
+        """Two roots, or none, around the least value between two angles."""
+        sign = 1.0 if (self.value(side, a) or 0.0) > 0.0 else -1.0
+
+        def size(angle: float) -> float:
+            value = self.value(side, angle)
+            return 1.0 if value is None else sign * value
+
+        least = _least(size, a, b)
+        if least is not None:
+            yield self._between(side, a, least)
+            yield self._between(side, least, b)
+
+    def _island(self, side: Side, a: float, b: float) -> Iterator[float]:
+        """Roots where the arm reaches between two angles, and at neither of them."""
+
+        def beyond(angle: float) -> float:
+            return -self._equation(side, cos(angle), sin(angle), _root)[2]
+
+        reached = _least(beyond, a, b)
+        if reached is not None:
+            yield from self._at_edge(side, reached, a)
+            yield from self._at_edge(side, reached, b)
+
+    def _at_edge(self, side: Side, within: float, beyond: float) -> Iterator[float]:
+        """Roots between a sample and the end of the arm's reach before the next one."""
+        first, before = within, 2 * within - beyond
+        for _ in range(_HALVINGS):
+            middle = (within + beyond) / 2
+            if self.value(side, middle) is None:
+                beyond = middle
+            else:
+                within = middle
+        steps = [first + share * (within - first) for share in _SHARES]
+        values = [self.value(side, angle) or 0.0 for angle in steps]
+        for n in range(len(steps) - 1):
+            if values[n] * values[n + 1] <= 0.0:
+                yield self._between(side, steps[n], steps[n + 1])
+        earlier = self.value(side, before)
+        if earlier is not None:
+            steps, values = [before, *steps], [earlier, *values]
+        for n in range(len(steps) - 2):
+            a, b, c = values[n : n + 3]
+            if min(a * b, b * c) > 0.0 and abs(b) <= min(abs(a), abs(c)):
+                yield from self._grazing(side, steps[n], steps[n + 2])
+
+
+def _least(of: Callable[[float], float], one: float, other: float) -> float | None:
+    """Where a function is not positive, on the way to its minimum (golden section); or None."""
+    low, high = min(one, other), max(one, other)
+    c, d = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
+    at_c, at_d = of(c), of(d)
+    while high - low > _NARROW:
+        if min(at_c, at_d) <= 0.0:
+            return c if at_c < at_d else d
+        if at_c < at_d:
+            high, d, at_d = d, c, at_c
+            c = high - _GOLDEN * (high - low)
+            at_c = of(c)
+        else:
+            low, c, at_c = c, d, at_d
+            d = low + _GOLDEN * (high - low)
+            at_d = of(d)
+    return None
+
+
+def _root(value: float) -> float:
+    return sqrt(value) if value > 0.0 else 0.0
+
+
+def _roots(values: Floats) -> Floats:
+    found: Floats = np.sqrt(np.maximum(values, 0.0))
+    return found
+
+
+def _wrap(angle: float) -> float:
+    return angle if -pi < angle <= pi else angle - 2 * pi * round(angle / (2 * pi))

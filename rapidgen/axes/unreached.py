@@ -1,0 +1,35 @@
+"""Why no posture reaches a pose, in words: which robot, where, and which axis ends too early."""
+
+import math
+from itertools import islice
+
+from rapidgen.axes.frames import Pose
+from rapidgen.axes.kinematics import Kinematics, Posture
+
+_LOOKED_AT = 8
+"""Postures beyond the ranges that are compared; a search may find any number."""
+
+
+def unreached(kinematics: Kinematics, flange: Pose, near: Posture) -> tuple[bool, str]:
+    """Whether a posture beyond the axis ranges would reach the pose, and a sentence for people."""
+    group = kinematics.group
+    place = ", ".join(f"{v * 1000:.1f}" for v in flange[0])
+    robot = group.model or group.name
+    postures = list(islice(kinematics.beyond(flange, near), _LOOKED_AT))
+    if not postures:
+        return False, f"{robot}: the flange cannot be at [{place}] mm with this orientation"
+    worst = []
+    for posture in postures:
+        over = [
+            (max(joint.lower - value, value - joint.upper, 0.0), joint, value)
+            for joint, value in zip(group.joints, posture, strict=True)
+        ]
+        worst.append(max(over, key=lambda one: one[0]))
+    _, joint, value = min(worst, key=lambda one: one[0])
+    turns = joint.kind == "revolute"
+    at, low, high = (
+        math.degrees(v) if turns else v * 1000 for v in (value, joint.lower, joint.upper)
+    )
+    unit = "deg" if turns else "mm"
+    text = f"{joint.axis} would be at {at:.1f} {unit}, its range is {low:g} to {high:g}"
+    return True, f"{robot}: for the flange at [{place}] mm {text}"

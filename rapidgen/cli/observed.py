@@ -1,0 +1,129 @@
+"""What `run` writes of a run beside its output: trace, profile, coverage, a plot of the motion."""
+
+import sys
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from rapidgen._writing import check_writable, write_whole
+from rapidgen.diagnostics import refusal
+
+if TYPE_CHECKING:
+    from rapidgen.controller.controller import VirtualController
+    from rapidgen.controller.tracing import Coverage, Profile
+    from rapidgen.motion.recorder import Recorder
+
+_SAMPLES = 5000
+"""Of a plot, at most; of short runs every 4 ms."""
+_ROWS = 40
+"""Of a profile on the screen."""
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """What a user asked for. `profile` is a file, or `-` for stderr."""
+
+    trace: bool = False
+    profile: str = ""
+    coverage: tuple[Path, ...] = ()
+    plot: Path | None = None
+
+    @property
+    def tracing(self) -> bool:
+        """Whether every statement is to be told of."""
+        return self.trace or bool(self.profile) or bool(self.coverage)
+
+    def refuse_unwritable(self) -> None:
+        """Refuse, before anything runs, a file that cannot be written behind it."""
+        files = [*self.coverage, *(_pictures(self.plot, "") if self.plot else ())]
+        if self.profile not in ("", "-"):
+            files.append(Path(self.profile))
+        for path in files:
+            try:
+                check_writable(path)
+            except OSError as fault:
+                raise refusal(
+                    "RG901",
+                    None,
+                    f"cannot write {path}: {fault.strerror}",
+                    "name a file in a folder that exists and may be written",
+                ) from fault
+
+
+@dataclass
+class Observed:
+    """Watches a controller from before its program starts; `write` at the end."""
+
+    controller: "VirtualController"
+    wanted: Wanted
+    _profile: "Profile | None" = None
+    _coverage: "Coverage | None" = None
+    _recorders: "dict[str, Recorder]" = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        from rapidgen.controller.tracing import Coverage, Profile, Trace
+
+        if self.wanted.trace:
+            Trace(self.controller, sys.stderr)
+        if self.wanted.profile:
+            self._profile = Profile(self.controller)
+        if self.wanted.coverage:
+            self._coverage = Coverage(self.controller)
+        if self.wanted.plot is not None:
+            self._recorders = self.controller.record()
+
+    def write(self) -> None:
+        """Write all that was asked for."""
+        if self._profile is not None:
+            _write_profile(self._profile, self.wanted.profile)
+        if self._coverage is not None:
+            for path in self.wanted.coverage:
+                page = path.suffix.lower() in (".html", ".htm")
+                text = _page(self.controller, self._coverage) if page else self._coverage.lcov()
+                write_whole(path, text.encode("utf-8", "replace"))
+        if self.wanted.plot is not None:
+            self._draw(self.wanted.plot)
+
+    def _draw(self, plot: Path) -> None:
+        from rapidgen.cli.plot import draw_recording
+        from rapidgen.motion.recorder import PERIOD
+
+        period = max(PERIOD, self.controller.now / _SAMPLES)
+        several = len(self._recorders) > 1
+        for group, recorder in self._recorders.items():
+            paths = _pictures(plot, f"_{group}" if several else "")
+            title = f"{self.controller.system.name}, {group}"
+            draw_recording(recorder.recording(period), paths, title=title)
+
+
+def _pictures(plot: Path, more: str) -> tuple[Path, Path]:
+    base = plot.with_suffix("") if plot.suffix.lower() in (".png", ".html") else plot
+    return base.with_name(f"{base.name}{more}.png"), base.with_name(f"{base.name}{more}.html")
+
+
+def _page(controller: "VirtualController", coverage: "Coverage") -> str:
+    from rapidgen.view.coverage import CoveredFile, coverage_page
+
+    hits = coverage.lines()
+    texts = {
+        module.file.path: module.tree.source.text
+        for task in controller.rapid_tasks.values()
+        for module in task.program.modules.values()
+    }
+    files = [CoveredFile(path, texts[path], lines) for path, lines in hits.items()]
+    return coverage_page(f"Coverage of {controller.system.name}", files)
+
+
+def _write_profile(profile: "Profile", target: str) -> None:
+    import json
+
+    rows = profile.as_data()
+    if target != "-":
+        write_whole(Path(target), (json.dumps(rows, indent=1) + "\n").encode())
+        return
+    sys.stderr.write(f"{'seconds':>12} {'passes':>9}  line\n")
+    for row in rows[:_ROWS]:
+        sys.stderr.write(
+            f"{row['seconds']:12.6f} {row['passes']:9}  "
+            f"{row['task']} {row['module']}/{row['routine']}:{row['line']}\n"
+        )

@@ -1,0 +1,92 @@
+"""Poses of a group's tool in its work object, and the postures that reach them. Sans-IO.
+
+Postures are controller axis values in wire order, rad and m; poses are of the TCP in the object's
+frame, m.
+"""
+
+from dataclasses import dataclass
+
+from rapidgen.axes import frames
+from rapidgen.axes.frames import Pose
+from rapidgen.axes.kinematics import AxisConfiguration, Kinematics, Posture
+from rapidgen.axes.unreached import unreached
+from rapidgen.config.model import GroupConfig, Placement, Tool, WorkObject
+
+
+@dataclass(frozen=True, slots=True)
+class Frames:
+    """A robot's geometry with the tool in the hand and the object before it."""
+
+    kinematics: Kinematics
+    tool: Pose
+    work_object: Pose
+
+    def pose(self, posture: Posture) -> Pose:
+        """Where the TCP is; the quaternion's scalar is not negative."""
+        flange = self.kinematics.forward(posture)
+        place, q = frames.compose(
+            frames.compose(frames.invert(self.work_object), flange), self.tool
+        )
+        return (place, q) if q[0] >= 0 else (place, (-q[0], -q[1], -q[2], -q[3]))
+
+    def _flange(self, pose: Pose) -> Pose:
+        placed = frames.compose(self.work_object, pose)
+        return frames.compose(placed, frames.invert(self.tool))
+
+    def follow(self, pose: Pose, near: Posture) -> Posture | None:
+        """The posture on the branch of `near`, whose external axes it has; None: there is none."""
+        return self.kinematics.follow(self._flange(pose), near)
+
+    def postures(
+        self, pose: Pose, near: Posture, configuration: AxisConfiguration | None = None
+    ) -> list[Posture]:
+        """All postures within the ranges, closest to `near` first; those of a configuration."""
+        found = self.kinematics.solutions(self._flange(pose), near)
+        if configuration is None:
+            return found
+        return [p for p in found if self.kinematics.matches(p, configuration)]
+
+    def why_not(self, pose: Pose, near: Posture) -> str:
+        """Why no posture reaches a pose, in a sentence."""
+        return unreached(self.kinematics, self._flange(pose), near)[1]
+
+
+@dataclass(frozen=True, slots=True)
+class GroupFrames:
+    """What poses can mean for a group: its tools and work objects by name, its own first."""
+
+    kinematics: Kinematics
+    tools: tuple[tuple[str, Pose | None], ...]
+    work_objects: tuple[tuple[str, Pose | None], ...]
+
+    @classmethod
+    def of(cls, group: GroupConfig) -> "GroupFrames | None":
+        """That of a group; None where its model has none."""
+        kinematics = Kinematics.of(group)
+        if kinematics is None:
+            return None
+        tools = tuple((tool.name, _tool(tool)) for tool in (group.tool, *group.tools))
+        objects = (group.work_object, *group.work_objects)
+        return cls(kinematics, tools, tuple((wobj.name, _object(wobj)) for wobj in objects))
+
+    def frames(self, tool: int = 0, work_object: int = 0) -> Frames | None:
+        """Those of a tool and a work object; None where one of them is not known here: declared
+        elsewhere, or on the wrong side."""
+        held, placed = self.tools[tool][1], self.work_objects[work_object][1]
+        if held is None or placed is None:
+            return None
+        return Frames(self.kinematics, held, placed)
+
+
+def _tool(tool: Tool) -> Pose | None:
+    return None if tool.elsewhere or not tool.held else _frame(tool.frame)
+
+
+def _object(wobj: WorkObject) -> Pose | None:
+    if wobj.elsewhere or wobj.held:
+        return None
+    return frames.compose(_frame(wobj.user_frame), _frame(wobj.object_frame))
+
+
+def _frame(placement: Placement) -> Pose:
+    return placement.position, placement.orientation

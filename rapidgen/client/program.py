@@ -1,0 +1,335 @@
+"""A motion program: what it consists of, and how it is written down.
+
+    program = Program(speed=0.2).move_joints(here).move_linear(pose, zone="z10")
+
+Joints are URDF values, rad and m; poses are ((x, y, z), (w, x, y, z)) in m, of the tool in the
+work object. `robot.check_program` and `robot.run` say whether a robot can do it.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import astuple, dataclass
+from math import radians
+from typing import Self, TypeAlias, TypedDict, Unpack
+
+from rapidgen.axes.frames import Pose
+from rapidgen.axes.kinematics import AxisConfiguration
+from rapidgen.client.errors import InvalidProgram
+from rapidgen.diagnostics import suggest
+from rapidgen.wire.simple_message.spec import Instruction, Mark
+
+_MM = 0.001
+
+
+@dataclass(frozen=True, slots=True)
+class Speed:
+    """speeddata: of the TCP m/s and its orientation rad/s; of linear m/s and rotary external axes
+    rad/s. By default all but the TCP as in RAPID's v100."""
+
+    tcp: float
+    orientation: float = radians(500)
+    linear: float = 5.0
+    rotary: float = radians(1000)
+
+    @property
+    def words(self) -> tuple[float, ...]:
+        """In the order of the wire."""
+        return astuple(self)
+
+
+@dataclass(frozen=True, slots=True)
+class Zone:
+    """zonedata: radii of the TCP, its orientation and external axes, m; of orientation rad, of
+    linear m and of rotary external axes rad. `stops`: the robot stops at the end."""
+
+    tcp: float = 0.0
+    orientation: float = 0.0
+    external: float = 0.0
+    angle: float = 0.0
+    linear: float = 0.0
+    rotary: float = 0.0
+    stops: bool = False
+
+    @classmethod
+    def of(cls, radius: float) -> "Zone":
+        """As RAPID's predefined ones are made of their radius, m: half as much again, and a tenth
+        of that in degrees for each mm."""
+        wide = 1.5 * radius
+        angle = radians(0.1 * wide / _MM)
+        return cls(radius, wide, wide, angle, wide, angle)
+
+    @property
+    def words(self) -> tuple[float, ...]:
+        """In the order of the wire."""
+        *sizes, stops = astuple(self)
+        return (float(stops), *sizes)
+
+
+SLOW = 0.1
+"""m/s of the TCP where nobody says more."""
+FINE = Zone(stops=True)
+# RAPID's predefined zonedata: pzone_tcp, pzone_ori, pzone_eax mm, zone_ori deg, zone_leax mm,
+# zone_reax deg (S4 datasys 1-zonedata).
+_ZONES = {
+    "z0": (0.3, 0.3, 0.3, 0.03, 0.3, 0.03),
+    "z1": (1, 1, 1, 0.1, 1, 0.1),
+    "z5": (5, 8, 8, 0.8, 8, 0.8),
+    "z10": (10, 15, 15, 1.5, 15, 1.5),
+    "z15": (15, 23, 23, 2.3, 23, 2.3),
+    "z20": (20, 30, 30, 3.0, 30, 3.0),
+    "z30": (30, 45, 45, 4.5, 45, 4.5),
+    "z40": (40, 60, 60, 6.0, 60, 6.0),
+    "z50": (50, 75, 75, 7.5, 75, 7.5),
+    "z60": (60, 90, 90, 9.0, 90, 9.0),
+    "z80": (80, 120, 120, 12, 120, 12),
+    "z100": (100, 150, 150, 15, 150, 15),
+    "z150": (150, 225, 225, 23, 225, 23),
+    "z200": (200, 300, 300, 30, 300, 30),
+}
+ZONES: Mapping[str, Zone] = {
+    "fine": FINE,
+    **{
+        name: Zone(a * _MM, b * _MM, c * _MM, radians(d), e * _MM, radians(f))
+        for name, (a, b, c, d, e, f) in _ZONES.items()
+    },
+}
+"""RAPID's own, by name."""
+SpeedLike: TypeAlias = float | Speed
+"""m/s of the TCP, or all parts."""
+ZoneLike: TypeAlias = float | str | Zone
+"""m, a name of RAPID's such as "fine" and "z10", or all parts."""
+
+
+@dataclass(frozen=True, slots=True)
+class Trigger:
+    """A signal that is set on the way of a move to a pose: `place` is m from its beginning, m
+    before its end, or s before its end, as `kind` says."""
+
+    signal: str
+    value: float
+    kind: Mark
+    place: float
+
+    @classmethod
+    def after(cls, metres: float, signal: str, value: float = 1.0) -> "Trigger":
+        """So many m behind the beginning of the move."""
+        return cls(signal, value, Mark.START, metres)
+
+    @classmethod
+    def before(cls, metres: float, signal: str, value: float = 1.0) -> "Trigger":
+        """So many m before its end."""
+        return cls(signal, value, Mark.END, metres)
+
+    @classmethod
+    def ahead(cls, seconds: float, signal: str, value: float = 1.0) -> "Trigger":
+        """So many s before its end."""
+        return cls(signal, value, Mark.TIME, seconds)
+
+
+def pulse(signal: str, after: float, length: float) -> tuple[Trigger, Trigger]:
+    """A signal that is 1 from `after` m behind the beginning of a move for `length` m."""
+    return Trigger.after(after, signal), Trigger.after(after + length, signal, 0.0)
+
+
+@dataclass(frozen=True, slots=True)
+class ProgramStep:
+    """One instruction. `speed`, `zone`, `tool` and `work_object` (empty: the group's own) hold for
+    it; a pose may say the configuration of its posture, and values of external axes by name."""
+
+    kind: Instruction
+    speed: Speed
+    zone: Zone
+    joints: tuple[float, ...] = ()
+    pose: Pose | None = None
+    via: Pose | None = None
+    configuration: AxisConfiguration | None = None
+    external: tuple[tuple[str, float], ...] = ()
+    triggers: tuple[Trigger, ...] = ()
+    tool: str = ""
+    work_object: str = ""
+    signal: str = ""
+    value: float = 0.0
+    seconds: float = 0.0
+    routine: str = ""
+    arguments: tuple[float | bool | str, ...] = ()
+
+
+class _Operands(TypedDict, total=False):
+    """What an instruction may have."""
+
+    joints: tuple[float, ...]
+    pose: Pose | None
+    via: Pose | None
+    configuration: AxisConfiguration | None
+    external: tuple[tuple[str, float], ...]
+    triggers: tuple[Trigger, ...]
+    signal: str
+    value: float
+    seconds: float
+    routine: str
+    arguments: tuple[float | bool | str, ...]
+
+
+class Program:
+    """Instructions in their order; each method adds one and gives the program itself.
+
+    `speed` and `zone` hold until another one is given.
+    """
+
+    def __init__(self, *, speed: SpeedLike = SLOW, zone: ZoneLike = "fine") -> None:
+        self.steps: list[ProgramStep] = []
+        self._speed = speed_of(speed)
+        self._zone = zone_of(zone)
+        self._tool = self._work_object = ""
+
+    def __len__(self) -> int:
+        return len(self.steps)
+
+    def move_joints(
+        self,
+        joints: Sequence[float],
+        *,
+        speed: SpeedLike | None = None,
+        zone: ZoneLike | None = None,
+    ) -> Self:
+        """To joints, rad and m, all axes together (MoveAbsJ)."""
+        self._hold(speed, zone)
+        return self._add(Instruction.MOVE_ABSJ, joints=tuple(map(float, joints)))
+
+    def move_to(
+        self,
+        pose: Pose,
+        *,
+        speed: SpeedLike | None = None,
+        zone: ZoneLike | None = None,
+        configuration: AxisConfiguration | None = None,
+        external: Mapping[str, float] | None = None,
+        triggers: Sequence[Trigger] = (),
+    ) -> Self:
+        """To a pose, all axes together (MoveJ): in the given configuration, else in the posture
+        that is nearest to the one before."""
+        self._hold(speed, zone)
+        return self._to_pose(Instruction.MOVE_J, pose, None, configuration, external, triggers)
+
+    def move_linear(
+        self,
+        pose: Pose,
+        *,
+        speed: SpeedLike | None = None,
+        zone: ZoneLike | None = None,
+        configuration: AxisConfiguration | None = None,
+        external: Mapping[str, float] | None = None,
+        triggers: Sequence[Trigger] = (),
+    ) -> Self:
+        """To a pose on a line (MoveL). A configuration is what the posture at its end must have."""
+        self._hold(speed, zone)
+        return self._to_pose(Instruction.MOVE_L, pose, None, configuration, external, triggers)
+
+    def move_circular(
+        self,
+        via: Pose,
+        pose: Pose,
+        *,
+        speed: SpeedLike | None = None,
+        zone: ZoneLike | None = None,
+        configuration: AxisConfiguration | None = None,
+        external: Mapping[str, float] | None = None,
+        triggers: Sequence[Trigger] = (),
+    ) -> Self:
+        """To a pose on the circle through the position of `via` (MoveC)."""
+        self._hold(speed, zone)
+        return self._to_pose(Instruction.MOVE_C, pose, via, configuration, external, triggers)
+
+    def use(self, *, tool: str | None = None, work_object: str | None = None) -> Self:
+        """From here on poses are those of this tool in this work object of the configuration, by
+        name; empty: the group's own. The robot stops before the first move with them."""
+        self._tool = self._tool if tool is None else tool
+        self._work_object = self._work_object if work_object is None else work_object
+        return self
+
+    def wait(self, seconds: float) -> Self:
+        """Stand for so long. The move before it ends in a stop point."""
+        return self._add(Instruction.WAIT, seconds=float(seconds))
+
+    def wait_for(self, signal: str, value: float = 1.0, *, timeout: float) -> Self:
+        """Stand until a signal that the configuration exposes has a value; when it has not within
+        `timeout` s the program has failed. The move before it ends in a stop point."""
+        return self._add(
+            Instruction.WAIT_SIGNAL, signal=signal, value=float(value), seconds=float(timeout)
+        )
+
+    def set(self, signal: str, value: float = 1.0) -> Self:
+        """Set a signal, standing. The move before it ends in a stop point; `triggers` of a move set
+        signals on its way."""
+        return self._add(Instruction.SET, signal=signal, value=float(value))
+
+    def call(self, routine: str, *arguments: float | bool | str) -> Self:
+        """Call a procedure of the controller's program, by its name in the configuration, with a
+        value for each of its parameters. It runs in the motion task, while the robot stands
+        and nothing of this program is left to move. What it raises ends the program; a STOP leaves
+        it, wherever it is."""
+        return self._add(Instruction.CALL, routine=routine, arguments=arguments)
+
+    def _hold(self, speed: SpeedLike | None, zone: ZoneLike | None) -> None:
+        if speed is not None:
+            self._speed = speed_of(speed)
+        if zone is not None:
+            self._zone = zone_of(zone)
+
+    def _to_pose(
+        self,
+        kind: Instruction,
+        pose: Pose,
+        via: Pose | None,
+        configuration: AxisConfiguration | None,
+        external: Mapping[str, float] | None,
+        triggers: Sequence[Trigger],
+    ) -> Self:
+        return self._add(
+            kind,
+            pose=pose_of(pose),
+            via=None if via is None else pose_of(via),
+            configuration=configuration,
+            external=tuple((external or {}).items()),
+            triggers=tuple(triggers),
+        )
+
+    def _add(self, kind: Instruction, **operands: Unpack[_Operands]) -> Self:
+        held = {"tool": self._tool, "work_object": self._work_object}
+        self.steps.append(ProgramStep(kind, self._speed, self._zone, **operands, **held))
+        return self
+
+
+def speed_of(speed: SpeedLike) -> Speed:
+    """All parts of a speed."""
+    return speed if isinstance(speed, Speed) else Speed(float(speed))
+
+
+def zone_of(zone: ZoneLike) -> Zone:
+    """All parts of a zone. Raises InvalidProgram for a name that is none."""
+    if isinstance(zone, Zone):
+        return zone
+    if not isinstance(zone, str):
+        return Zone.of(float(zone))
+    if zone not in ZONES:
+        names = list(ZONES)
+        raise InvalidProgram.because(
+            "RG670",
+            f"there is no zone '{zone}'",
+            suggest(zone, names) or f"m, or one of {', '.join(names)}",
+            exit_code=2,
+        )
+    return ZONES[zone]
+
+
+def pose_of(pose: Pose) -> Pose:
+    """A pose as plain tuples. Raises InvalidProgram for something that is none."""
+    try:
+        (x, y, z), (w, a, b, c) = pose
+        return (float(x), float(y), float(z)), (float(w), float(a), float(b), float(c))
+    except (TypeError, ValueError) as error:
+        raise InvalidProgram.because(
+            "RG670",
+            f"{pose!r} is no pose",
+            "a pose is ((x, y, z), (w, x, y, z)): m, and a unit quaternion with the scalar first",
+            exit_code=2,
+        ) from error

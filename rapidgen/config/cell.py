@@ -1,0 +1,149 @@
+"""The description of a cell: what a program finds around it, and no module of it declares.
+
+One YAML file, in the words of a robot's configuration: robots by task, signals, tools, work
+objects, loads, and devices, which are no more than what signals answer to signals. Units are
+RAPID's: deg, mm, kg. What it does to a controller is the business of `controller.surroundings`.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, fields, replace
+from pathlib import Path
+from typing import Annotated, Any
+
+from rapidgen.config.assemble import keys_of, shown_path
+from rapidgen.config.draft import DraftFindings
+from rapidgen.config.few import few
+from rapidgen.config.model import Load, Tool, WorkObject
+from rapidgen.config.registry import is_path
+from rapidgen.config.rules import Rule
+from rapidgen.config.schema import (
+    Identifier,
+    LoadKeys,
+    Part,
+    SignalKeys,
+    ToolDataKeys,
+    ToolKeys,
+    WorkObjectDataKeys,
+    WorkObjectKeys,
+)
+from rapidgen.config.tooling import load_of, tool_of, work_object_of
+from rapidgen.config.tree import read_bytes
+from rapidgen.config.validate import sound
+from rapidgen.diagnostics import DiagnosticError, Severity
+
+GROUP_BITS = 32
+"""Bits of a group signal whose size nobody tells; a group has at most 32 [S4 GO]."""
+
+
+@dataclass(frozen=True)
+class CellRobotKeys(Part):
+    """The robot of a motion task."""
+
+    model: Annotated[
+        str, Rule("A shipped model (`rapidgen robots`), or a configuration beside this file.")
+    ] = ""
+    mechanical_unit: Annotated[
+        Identifier | None, Rule("Name of its mechanical unit; `ROB_1` for the first.")
+    ] = None
+    external_units: Annotated[
+        list[Identifier], Rule("Mechanical units of the external axes.", max_length=6)
+    ] = field(default_factory=list)
+    start: Annotated[
+        list[float],
+        Rule("Where it stands when it is switched on: deg or mm, a value for each axis."),
+    ] = field(default_factory=list)
+
+
+@dataclass(frozen=True)
+class CellSignalKeys(SignalKeys):
+    """A signal of the cell. `access` is what a driver's clients may; here it means nothing."""
+
+    value: Annotated[float, Rule("Value when the controller is switched on.")] = 0.0
+    size: Annotated[int, Rule("Bits of a group signal.", ge=1, le=GROUP_BITS)] = GROUP_BITS
+
+
+@dataclass(frozen=True)
+class ReactionKeys(Part):
+    """What a device does: where all of `when` have become true, all of `then` follow."""
+
+    when: Annotated[dict[Identifier, float], Rule("Signal: value.", min_length=1)]
+    then: Annotated[dict[Identifier, float], Rule("Signal: value.", min_length=1)]
+    after: Annotated[float, Rule("Seconds between.", ge=0, le=3600)] = 0.0
+
+
+@dataclass(frozen=True)
+class CellKeys(Part):
+    """What stands around a controller."""
+
+    description: Annotated[str, Rule("For people.")] = ""
+    robots: Annotated[dict[Identifier, CellRobotKeys], Rule("Robots by motion task.")] = field(
+        default_factory=dict
+    )
+    signals: Annotated[dict[Identifier, CellSignalKeys], Rule("Signals by name.")] = field(
+        default_factory=dict
+    )
+    tools: Annotated[
+        dict[Identifier, ToolDataKeys], Rule("tooldata that no module declares, by name.")
+    ] = field(default_factory=dict)
+    work_objects: Annotated[
+        dict[Identifier, WorkObjectDataKeys], Rule("wobjdata that no module declares, by name.")
+    ] = field(default_factory=dict)
+    loads: Annotated[
+        dict[Identifier, LoadKeys], Rule("loaddata that no module declares, by name.")
+    ] = field(default_factory=dict)
+    devices: Annotated[
+        dict[Identifier, list[ReactionKeys]],
+        Rule("What answers the program: a gripper's sensor, a conveyor, a door."),
+    ] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class CellDescription:
+    """A checked description. Frames and loads in SI units; starts and reactions in RAPID's."""
+
+    robots: Mapping[str, CellRobotKeys] = field(default_factory=dict)
+    signals: Mapping[str, CellSignalKeys] = field(default_factory=dict)
+    tools: tuple[Tool, ...] = ()
+    work_objects: tuple[WorkObject, ...] = ()
+    loads: Mapping[str, Load] = field(default_factory=dict)
+    devices: Mapping[str, Sequence[ReactionKeys]] = field(default_factory=dict)
+
+
+def load_cell(path: Path) -> CellDescription:
+    """Read the description of a cell; a `model` that is a file's is found from its folder.
+
+    Raises DiagnosticError (RG001..RG009, RG014) with everything that is wrong.
+    """
+    shown = shown_path(path)
+    root, found = keys_of(read_bytes(path, shown), shown)
+    keys, faults, removed = sound(root, CellKeys)
+    report = DraftFindings(root, removed)
+    report.found = found + faults
+    cell = CellDescription(
+        {
+            task: replace(robot, model=str(path.parent / robot.model))
+            if is_path(robot.model)
+            else robot
+            for task, robot in keys.robots.items()
+        },
+        keys.signals,
+        tuple(
+            tool_of(ToolKeys(**_parts(tool), name=name), ("tools", name), report)
+            for name, tool in keys.tools.items()
+        ),
+        tuple(
+            work_object_of(
+                WorkObjectKeys(**_parts(wobj), name=name), ("work_objects", name), report
+            )
+            for name, wobj in keys.work_objects.items()
+        ),
+        {name: load_of(load, ("loads", name), report) for name, load in keys.loads.items()},
+        keys.devices,
+    )
+    if any(d.severity is Severity.ERROR for d in report.found):
+        raise DiagnosticError(few(report.found))
+    return cell
+
+
+def _parts(keys: ToolDataKeys | WorkObjectDataKeys) -> dict[str, Any]:
+    return {part.name: getattr(keys, part.name) for part in fields(keys)}

@@ -1,0 +1,97 @@
+"""Known variants as models: the configuration that robots/variants.json makes of one.
+
+Only of an arm with six axes whose dimensions and ranges two public sources have, and whose coupling
+is known; what another one lacks is said. Speeds that no source has stay open (RG022).
+"""
+
+import re
+
+from rapidgen._data import data_folder
+from rapidgen.config.library import Variant, variants
+from rapidgen.config.open_lines import OPEN
+from rapidgen.config.vectors import Vector, subtract
+
+PATH = data_folder("robots") / "variants.json"
+_SIX = tuple(f"rax_{n}" for n in range(1, 7))
+
+
+def model_name(variant: Variant) -> str:
+    """What `model:` calls a variant: irb6700_155_285 is the IRB 6700-155/2.85 (m by 100)."""
+    head, _, tail = variant.name.partition("/")
+    reach = re.match(r"\d+(\.\d+)?", tail)
+    if reach:
+        size = round(float(reach[0]) * 1000)
+        tail = f"{size // 10 if size % 10 == 0 else size}_{tail[reach.end() :]}"
+    name = re.sub(r"[^a-z0-9]+", "_", f"{head}_{tail}".casefold().replace(" ", "", 1))
+    return name.strip("_")
+
+
+def names() -> tuple[str, ...]:
+    """Models that are variants of the list."""
+    return tuple(model_name(v) for v in variants() if not v.model and not lacks(v))
+
+
+def named(name: str) -> Variant | None:
+    """The variant that has a model's or a type's name and is no shipped model."""
+    wanted = name.casefold().replace(" ", "")
+    for variant in variants():
+        own = (model_name(variant), variant.name.casefold().replace(" ", ""))
+        if not variant.model and wanted in own:
+            return variant
+    return None
+
+
+def lacks(variant: Variant) -> list[str]:
+    """What keeps a variant from being a model."""
+    sources = dict(variant.sources)
+    found = []
+    if tuple(axis.axis for axis in variant.axes) != _SIX:
+        found.append("it is no arm with six axes: its rods and passive joints are not known")
+    if len(sources.get("chain", "").split(";")) < 2 or "chain" in variant.unsure:
+        found.append("a second source of its dimensions")
+    if len(sources.get("limits", "").split(";")) < 2:
+        found.append("a second source of its ranges")
+    if variant.coupling is None:
+        found.append("the coupling of axes 2 and 3")
+    return found
+
+
+def label(name: str) -> str:
+    """What findings call the configuration of a variant in place of a file."""
+    return f"model {name}"
+
+
+def model_text(variant: Variant) -> str:
+    """A variant as the files of shipped models are."""
+    lines = [f"description: ABB {variant.name}", "joints:"]
+    for axis in variant.axes:
+        figures = {"axis": axis.axis}
+        figures |= {
+            key: OPEN if value is None else f"{value:g}"
+            for key, value in (("lower", axis.lower), ("upper", axis.upper), ("speed", axis.speed))
+        }
+        if axis.unsure:
+            figures["unsure"] = f"[{', '.join(axis.unsure)}]"
+        shown = ", ".join(f"{key}: {value}" for key, value in figures.items())
+        lines.append(f"  joint_{axis.axis[-1]}: {{{shown}}}")
+    lines += [f"coupling: {variant.coupling:g}", "chain:"]
+    last: Vector = (0.0, 0.0, 0.0)
+    for line in variant.skeleton.lines:
+        step = f"joint: joint_{line.axis[-1]}, xyz: {_mm(subtract(line.point, last))}, "
+        lines.append(f"  - {{{step}axis: {_row(line.direction)}}}")
+        last = line.point
+    # tool0 of all shipped models: z along axis 6, x down where every axis is at 0.
+    lines.append(f"  - {{xyz: {_mm(subtract(variant.skeleton.end, last))}, rpy: [0, 90, 0]}}")
+    lines.append("source:")
+    lines += [f'  {what}: "{source}"' for what, source in variant.sources]
+    if variant.unsure:
+        lines.append(f"unsure: [{', '.join(variant.unsure)}]")
+    return "\n".join(lines) + "\n"
+
+
+def _mm(v: Vector) -> str:
+    return _row((v[0] * 1000, v[1] * 1000, v[2] * 1000))
+
+
+def _row(v: Vector) -> str:
+    return f"[{', '.join(f'{round(part, 6) + 0.0:g}' for part in v)}]"

@@ -1,0 +1,74 @@
+"""Where the robot of somebody else's program stands when the controller is switched on.
+
+With all axes at 0 most arms have their wrist in a singularity, where no real one waits for a
+program: the first MoveL would fail. A driver's robot starts at 0 as its own tests want it.
+"""
+
+import math
+import re
+from collections.abc import Sequence
+
+from rapidgen.axes.mapping import JointMap
+from rapidgen.config.model import GroupConfig
+from rapidgen.diagnostics import refusal
+
+# Model (first that fits) and its RAPID axis values. IRB 14000: the calibration position of its
+# arms, `MoveAbsJ [[0,-130,30,0,40,0],[135,...]]`, `-135` on the right (public programs of eight
+# cells). Arms with a wrist: `[[0,0,0,0,30,0],...]`, where stations of RobotStudio begin and what
+# their programs call home (public programs). Four axes have no such singularity.
+_STARTS = (
+    (re.compile(r"irb140[05]0"), {"rax_2": -130.0, "rax_3": 30.0, "rax_5": 40.0, "eax_a": 135.0}),
+    (re.compile(r""), {"rax_5": 30.0}),
+)
+_RIGHT = re.compile(r"(^|_)r(ight)?(_|$)", re.I)
+
+
+def usual_start(group: GroupConfig) -> tuple[float, ...]:
+    """Where a model usually begins: controller axes, rad and m, wire order, within its limits."""
+    values = next(values for model, values in _STARTS if model.match(group.model))
+    wrist = {joint.axis for joint in group.joints} >= {"rax_4", "rax_5", "rax_6"}
+    degrees = dict(values) if wrist else {}
+    if "eax_a" in degrees and (_RIGHT.search(group.name) or _RIGHT.search(group.mechanical_unit)):
+        degrees["eax_a"] *= -1
+    return tuple(
+        min(max(math.radians(degrees.get(joint.axis, 0.0)), joint.lower), joint.upper)
+        for joint in group.joints
+    )
+
+
+def start_of(group: GroupConfig, values: Sequence[float], where: str) -> tuple[float, ...]:
+    """`values` (deg, mm: robot axes, then external ones, each that the group has) as `usual_start`.
+
+    `where` says who gave them. DiagnosticError RG435: too few, too many, or outside the range.
+    """
+    joints = sorted(group.joints, key=lambda joint: joint.axis.replace("rax", "0"))
+    names = ", ".join(joint.axis for joint in joints)
+    if len(values) != len(joints):
+        raise refusal(
+            "RG435",
+            None,
+            f"{where} has {len(values)} values, {group.task} has {len(joints)} axes",
+            f"one for each of {names}, deg or mm",
+        )
+    found = {}
+    for joint, value in zip(joints, values, strict=True):
+        turning = joint.kind == "revolute"
+        found[joint.axis] = math.radians(value) if turning else value / 1000
+        if not joint.lower - 1e-9 <= found[joint.axis] <= joint.upper + 1e-9:
+            low, high = (
+                f"{math.degrees(b) if turning else b * 1000:g}" for b in (joint.lower, joint.upper)
+            )
+            raise refusal(
+                "RG435",
+                None,
+                f"{where}: {joint.axis} at {value:g} is outside of {low} to {high}",
+                f"the limits are those of {group.model or group.name}",
+            )
+    return tuple(found[joint.axis] for joint in group.joints)
+
+
+def shown(group: GroupConfig, posture: Sequence[float]) -> str:
+    """A posture as RAPID has it: `[0,0,0,0,30,0]`, deg and mm, and external axes behind."""
+    robax, extax = JointMap.of(group).to_rapid(posture)
+    there = [f"{value:g}" for value in extax if value < 1e9]
+    return f"[{','.join(f'{v:g}' for v in robax)}]" + (f" [{','.join(there)}]" if there else "")

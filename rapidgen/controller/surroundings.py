@@ -1,0 +1,149 @@
+"""What the description of a cell does to a controller: signals and data that its programs find,
+where its robots stand at first, and devices that answer signals."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Protocol
+
+from rapidgen.config.cell import CellDescription, ReactionKeys
+from rapidgen.controller.polling import Buttons, Polled
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, error, suggest
+from rapidgen.generate.context import load_literal, tool_literal, work_object_literal
+from rapidgen.machine.io import Awaited, IOSystem
+from rapidgen.machine.scheduler import S, Scheduler
+from rapidgen.motion.system import MotionSystem
+from rapidgen.runtime.task.task import Task
+from rapidgen.system.model import ModuleFile, SignalSpec, System
+
+_PATIENCE = 0.5
+"""Seconds that a program waits for a guessed input."""
+Posture = tuple[float, ...]
+"""Controller axes, rad and m, wire order."""
+
+
+@dataclass(frozen=True, slots=True)
+class Surroundings:
+    """What a controller is booted into, beside its system and robots."""
+
+    starts: Mapping[str, Posture] = field(default_factory=dict)
+    """Where the robots stand, by motion group; others stand at 0."""
+    reactions: Sequence[ReactionKeys] = ()
+    guessed: frozenset[str] = frozenset()
+    """Inputs that nobody drives, lower case: they become what somebody waits for."""
+    polled: tuple[Polled, ...] = ()
+    """Where programs look for them in loops."""
+
+
+class Booted(Protocol):
+    """A controller that is put into its surroundings."""
+
+    io: IOSystem
+    motion: MotionSystem
+    scheduler: Scheduler
+    rapid_tasks: dict[str, Task]
+
+
+def furnish(system: System, cell: CellDescription) -> System:
+    """`system` with the signals and the data of `cell` that it does not have itself.
+
+    The data are those of an installed module: a program's own hide them. Raises DiagnosticError
+    RG434 for a device that names a signal which nobody has.
+    """
+    known = {signal.name.casefold() for signal in system.signals}
+    signals = tuple(
+        SignalSpec(
+            name,
+            keys.kind,
+            default=keys.value,
+            size=keys.size if keys.kind[0] == "G" else 1,
+        )
+        for name, keys in cell.signals.items()
+        if name.casefold() not in known
+    )
+    system = replace(system, signals=(*system.signals, *signals))
+    faults = list(_nameless(system, cell))
+    if faults:
+        raise DiagnosticError(faults)
+    text = "".join(
+        f"    TASK PERS {kind} {name} := {value};\n" for kind, name, value in _data(cell)
+    )
+    if not text:
+        return system
+    module = ModuleFile(
+        "cell_data",
+        "cell_data.sys",
+        f"MODULE cell_data(SYSMODULE)\n{text}ENDMODULE\n".encode("ascii"),
+        installed=True,
+    )
+    tasks = (replace(task, modules=(module, *task.modules)) for task in system.tasks)
+    return replace(system, tasks=tuple(tasks))
+
+
+def _data(cell: CellDescription) -> Iterator[tuple[str, str, str]]:
+    for tool in cell.tools:
+        yield "tooldata", tool.name, tool_literal(tool)
+    for wobj in cell.work_objects:
+        yield "wobjdata", wobj.name, work_object_literal(wobj)
+    for name, load in cell.loads.items():
+        yield "loaddata", name, load_literal(load)
+
+
+def _nameless(system: System, cell: CellDescription) -> Iterator[Diagnostic]:
+    names = {signal.name.casefold(): signal.name for signal in system.signals}
+    for device, reactions in cell.devices.items():
+        for reaction in reactions:
+            for name in (*reaction.when, *reaction.then):
+                if name.casefold() not in names:
+                    yield error(
+                        "RG434",
+                        None,
+                        f"device '{device}' of the cell names '{name}', which is no signal",
+                        suggest(name, list(names.values())) or "declare it under `signals:`",
+                    )
+
+
+def settle(controller: Booted, around: Surroundings) -> list[tuple[str, float]]:
+    """Put the robots where they start, let devices watch their signals, and guessed inputs become
+    what a program waits for; the list grows by each of these answers (signal, value)."""
+    answered: list[tuple[str, float]] = []
+    for name, posture in around.starts.items():
+        controller.motion.group(name).jump(posture)
+    for reaction in around.reactions:
+        _watch(controller, reaction)
+
+    def answer(awaited: Awaited) -> None:
+        signal, value = awaited.signal, awaited.fulfilling()
+
+        def give() -> None:
+            if value is not None and not awaited.holds():
+                answered.append((signal.name, value))
+                controller.io.set(signal, value)
+
+        if signal.name.casefold() in around.guessed:
+            controller.scheduler.after(round(_PATIENCE * S), give)
+
+    if around.guessed:
+        controller.io.on_awaited = answer
+    if around.polled:
+        Buttons(controller, around.polled, answered)
+    return answered
+
+
+def _watch(controller: Booted, reaction: ReactionKeys) -> None:
+    io = controller.io
+    held = False
+
+    def follow() -> None:
+        for name, value in reaction.then.items():
+            io.set(io[name], value)
+
+    def look() -> None:
+        nonlocal held
+        holds = all(io[name].value == value for name, value in reaction.when.items())
+        if holds and not held:
+            controller.scheduler.after(round(reaction.after * S), follow)
+        held = holds
+
+    for name in reaction.when:
+        io[name].changed.add(look)
+    look()

@@ -1,0 +1,262 @@
+"""A raw client that sends programs, and the same programs written in RAPID by hand."""
+
+import math
+import random
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+from rapidgen.axes.frames import Pose
+from rapidgen.config.model import RobotConfig
+from rapidgen.controller.cell import in_its_cell
+from rapidgen.generate import build, make_system
+from rapidgen.motion.moves import Carrier
+from rapidgen.proving import messages
+from rapidgen.proving.bench import Bench
+from rapidgen.proving.link import RawLink
+from rapidgen.proving.messages import (
+    PROGRAM,
+    RawInstruction,
+    RawModal,
+    RawReason,
+    RawStreamFlag,
+    millionths,
+    words_frame,
+)
+from rapidgen.proving.model import Broken
+from rapidgen.proving.track import Position
+from rapidgen.runtime.builtins.motion.targets import rob_target
+from rapidgen.runtime.robot_data import NO_OFFSETS
+from rapidgen.runtime.values import Value
+from rapidgen.system.model import ModuleFile, System
+
+BEGIN, END, WHOLE = RawStreamFlag.BEGIN, RawStreamFlag.END, RawStreamFlag.WHOLE
+ALL = BEGIN | END | WHOLE
+_KINDS = (RawInstruction.MOVE_J, RawInstruction.MOVE_L, RawInstruction.MOVE_ABSJ)
+_BATCH = 8
+"""Instructions that fit into one message on every robot."""
+_NAMES = {
+    RawInstruction.MOVE_ABSJ: "MoveAbsJ",
+    RawInstruction.MOVE_J: "MoveJ",
+    RawInstruction.MOVE_L: "MoveL",
+    RawInstruction.MOVE_C: "MoveC",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class RawOrder:
+    """A move: the joints at its end (rad, m), the pose that they reach, `via` on a circle. `speed`
+    (m/s, rad/s) and `zone` (m, rad; None: a stop point) stand in every instruction."""
+
+    kind: RawInstruction
+    joints: Position
+    pose: Pose | None
+    via: Pose | None = None
+    speed: float = 0.15
+    zone: float | None = 0.005
+
+    @property
+    def speeds(self) -> tuple[float, ...]:
+        """speeddata: TCP, orientation, linear and rotary external axes."""
+        return self.speed, 2.0, 1.0, 2.0
+
+    @property
+    def zones(self) -> tuple[float, ...]:
+        """zonedata behind finep."""
+        size = self.zone or 0.0
+        return size, 1.5 * size, 1.5 * size, 3 * size, 1.5 * size, 3 * size
+
+    @property
+    def words(self) -> list[int]:
+        """As they go onto the wire."""
+        first = self.kind | RawModal.SPEED | RawModal.ZONE
+        values = [*self.speeds, float(self.zone is None), *self.zones]
+        for pose in (self.via, self.pose):
+            if pose is not None:
+                values += [*pose[0], *pose[1]]
+        return [int(first), *millionths([*values, *self.joints])]
+
+
+class Programmer:
+    """One program after the other over one connection to the motion server."""
+
+    def __init__(self, bench: Bench, link: RawLink | None = None) -> None:
+        self.bench = bench
+        self.link = link if link is not None else bench.motion()
+        self.number = 0
+
+    def send(
+        self, orders: Sequence[RawOrder], flags: RawStreamFlag = ALL, start: Position | None = None
+    ) -> messages.RawContent:
+        """A program in messages of some instructions; the last reply, or the first refusal."""
+        self.number += 1
+        place = self.bench.position if start is None else start
+        for at in range(0, len(orders), _BATCH):
+            some = orders[at : at + _BATCH]
+            own = flags
+            if at:
+                own &= ~BEGIN
+            if at + _BATCH < len(orders):
+                own &= ~END
+            words = [*(millionths(place) if not at else []), *(w for o in some for w in o.words)]
+            told = self.say(words, len(some), own, first=at)
+            if isinstance(told, messages.RawPointsRefused):
+                break
+        return told
+
+    def say(
+        self, words: Sequence[int], count: int, flags: RawStreamFlag, first: int = 0
+    ) -> messages.RawContent:
+        """A batch of any words; its reply."""
+        self.link.send(words_frame(self.number, first, count, words, flags, number=PROGRAM))
+        return self.link.reply(PROGRAM, 5)
+
+    def takes(self, what: str, orders: Sequence[RawOrder], flags: RawStreamFlag = ALL) -> int:
+        """Send a program; Broken unless it is taken. Its number among the trajectories."""
+        told = self.send(orders, flags)
+        if not isinstance(told, messages.RawPointsAccepted) or told.accepted != len(orders):
+            raise Broken(f"{what}: {len(orders)} instructions are right, the reply is {told}")
+        return told.trajectory
+
+    def refused(self, told: messages.RawContent, reason: RawReason, index: int, what: str) -> None:
+        """Broken unless a reply is a refusal for that reason, at that instruction."""
+        if not isinstance(told, messages.RawPointsRefused):
+            raise Broken(f"{what}: wanted {reason.name}, the reply is {told}")
+        if (told.reason, told.point) != (reason, index):
+            raise Broken(f"{what}: wanted {reason.name} at {index}, the reply is {told}")
+
+
+def orders(bench: Bench, count: int, chance: random.Random) -> list[RawOrder]:
+    """Moves in the neighbourhood of a place that no robot finds singular, the last a stop point."""
+    middle = bent(bench)
+    found = [RawOrder(RawInstruction.MOVE_ABSJ, middle, None, zone=None)]
+    poses = computes(bench)
+    for number in range(1, count):
+        joints = near(bench, middle, chance)
+        kind = chance.choice(_KINDS) if poses else RawInstruction.MOVE_ABSJ
+        pose = None if kind is RawInstruction.MOVE_ABSJ else reached(bench, joints)
+        zone = chance.choice((0.002, 0.005, 0.01)) if number + 1 < count else None
+        found.append(RawOrder(kind, joints, pose, None, chance.choice((0.1, 0.15)), zone))
+    return found
+
+
+def computes(bench: Bench) -> bool:
+    """Whether the controller tells the motion server what pose joints reach."""
+    known = bench.motion_group.kinematics is not None
+    return known and bench.setting.dialect.calc_in_background
+
+
+def bent(bench: Bench) -> Position:
+    """A place with every turning axis somewhat off its zero, within its limits."""
+    return tuple(
+        (joint.lower + joint.upper) / 2
+        if joint.kind == "prismatic"
+        else max(joint.lower, min(joint.upper, 0.35)) * 0.9
+        for joint in bench.group.joints
+    )
+
+
+def near(bench: Bench, middle: Position, chance: random.Random) -> Position:
+    """A place some centimetres away."""
+    joints = zip(bench.group.joints, middle, strict=True)
+    return tuple(
+        round(
+            value + chance.uniform(-1, 1) * (0.08 if joint.kind == "prismatic" else 0.15),
+            6,
+        )
+        for joint, value in joints
+    )
+
+
+def target_of(bench: Bench, joints: Position) -> Value:
+    """The robtarget of joints, as the controller has it."""
+    group, tool, wobj = bench.motion_group, bench.group.tool.frame, bench.group.work_object
+    assert group.kinematics is not None
+    carrier = Carrier(
+        tool=(tool.position, tool.orientation),
+        object=(wobj.user_frame.position, wobj.user_frame.orientation),
+    )
+    return rob_target(group, joints, carrier, NO_OFFSETS)
+
+
+def reached(bench: Bench, joints: Position) -> Pose:
+    """The pose of joints, in m, as the wire has it."""
+    target = target_of(bench, joints)
+    t, q = target.trans, target.rot
+    return (
+        (round(t.x / 1000, 6), round(t.y / 1000, 6), round(t.z / 1000, 6)),
+        (round(q.q1, 6), round(q.q2, 6), round(q.q3, 6), round(q.q4, 6)),
+    )
+
+
+def by_hand(bench: Bench, program: Sequence[RawOrder]) -> System:
+    """The controller of a driver within a program that makes these moves, in RAPID's own words."""
+    config: RobotConfig = replace(bench.config, call_main=False)
+    system = make_system(config, build(config))
+    moves = "\n".join(f"        {_statement(bench, order)}" for order in program)
+    # Time to put the robot where it begins.
+    lines = ("MODULE hand", "    PROC main()", "        WaitTime 1;", moves, "        Stop;")
+    text = "\n".join((*lines, "    ENDPROC", "ENDMODULE", ""))
+    module = ModuleFile("hand", "hand.mod", text.encode())
+    tasks = tuple(
+        replace(task, modules=(*task.modules, module)) if task.name == bench.group.task else task
+        for task in system.tasks
+    )
+    return in_its_cell(replace(system, tasks=tasks), config)
+
+
+def _statement(bench: Bench, order: RawOrder) -> str:
+    degrees = 57.29577951308232
+    tcp, turn, linear, rotary = order.speeds
+    speed = _list((tcp * 1000, turn * degrees, linear * 1000, rotary * degrees))
+    a, b, c, d, e, f = order.zones
+    sizes = (a * 1000, b * 1000, c * 1000, d * degrees, e * 1000, f * degrees)
+    zone = "fine" if order.zone is None else f"[FALSE,{_list(sizes)[1:]}"
+    tail = f"{speed},{zone},{bench.group.tool.name}\\WObj:={bench.group.work_object.name};"
+    robot, external = bench.motion_group.map.to_rapid(order.joints)
+    if order.pose is None:
+        return f"MoveAbsJ [{_list(robot)},{_list(external)}]\\NoEOffs,{tail}"
+    target = target_of(bench, order.joints)
+    places = [_target(pose, target) for pose in (order.via, order.pose) if pose is not None]
+    return f"{_NAMES[order.kind]} {','.join(places)},{tail}"
+
+
+def _target(pose: Pose, like: Value) -> str:
+    place = _list([1000 * value for value in pose[0]])
+    conf, external = like.robconf, like.extax
+    turned = _list((conf.cf1, conf.cf4, conf.cf6, conf.cfx))
+    return f"[{place},{_list(pose[1])},{turned},{_list(external.values())}]"
+
+
+def _list(values: Sequence[float]) -> str:
+    return "[" + ",".join(f"{value:.9G}" for value in values) + "]"
+
+
+def movement(track: Sequence[tuple[float, Position]]) -> tuple[float, list[Position]]:
+    """s from the first movement to the last, and where the robot was meanwhile."""
+    moving = [later for earlier, later in pairwise(track) if earlier[1] != later[1]]
+    return (moving[-1][0] - moving[0][0], [place for _, place in moving]) if moving else (0.0, [])
+
+
+def farthest(bench: Bench, places: Sequence[Position], way: Sequence[Position]) -> float:
+    """The largest distance of a place from the way through others, in their order: of the TCP in m,
+    of an axis where the robot's geometry is not known."""
+    line, seen = list(way), list(places)
+    if bench.motion_group.kinematics is not None:
+        line, seen = [bench.tcp(place) for place in way], [bench.tcp(place) for place in places]
+    at, worst = 0, 0.0
+    for place in seen:
+        # The way is followed from one to the next, not left out.
+        near = range(max(0, at - 3), min(at + 40, len(line) - 1))
+        away, at = min((_apart(place, line[i], line[i + 1]), i) for i in near)
+        worst = max(worst, away)
+    return worst
+
+
+def _apart(place: Position, start: Position, end: Position) -> float:
+    """Distance from the straight way between two."""
+    along = [e - s for s, e in zip(start, end, strict=True)]
+    length = sum(a * a for a in along)
+    share = sum((p - s) * a for p, s, a in zip(place, start, along, strict=True))
+    share = min(1.0, max(0.0, share / length)) if length else 0.0
+    return math.dist(place, [s + share * a for s, a in zip(start, along, strict=True)])

@@ -1,0 +1,242 @@
+"""Motion programs: moves to joints and poses, checked whole, executed as RAPID would."""
+
+import random
+from dataclasses import replace
+
+from rapidgen.proving import messages
+from rapidgen.proving.behaviour import Theme
+from rapidgen.proving.bench import Bench
+from rapidgen.proving.link import RawLink
+from rapidgen.proving.messages import RawInstruction, RawReason, RawTrajectoryState, millionths
+from rapidgen.proving.model import Broken
+from rapidgen.proving.programs import (
+    ALL,
+    BEGIN,
+    Programmer,
+    RawOrder,
+    by_hand,
+    computes,
+    farthest,
+    movement,
+    orders,
+    reached,
+)
+from rapidgen.proving.suite.control import done, stop
+from rapidgen.proving.track import Position, changed, inward, small_unit
+
+case = Theme("programs", needs="stream")
+
+MOVE_ABSJ = RawInstruction.MOVE_ABSJ
+_SAME = 1e-5
+"""m that the TCP may be away from the path of the same program in RAPID."""
+
+
+@case("program-like-rapid", "a program moves as the same one written in RAPID", once=True)
+def _like_rapid(bench: Bench) -> None:
+    """On the same path, in the same time, with no stop point more."""
+    chance = random.Random(7)
+    client = Programmer(bench)
+    for _ in range(6):
+        program = orders(bench, 8, chance)
+        home, since = bench.position, bench.now
+        client.takes("a program", program)
+        mine = _moved(bench, program, since)
+        with bench.beside(by_hand(bench, program)) as other:
+            other.motion_group.jump(home)
+            theirs = _moved(other, program, 0.5)
+        if abs(mine[0] - theirs[0]) > 0.02 * theirs[0]:
+            raise Broken(f"a program took {mine[0]:.3f} s, {theirs[0]:.3f} s when written in RAPID")
+        for one, way in ((mine[1], theirs[1]), (theirs[1], mine[1])):
+            far = farthest(bench, one, way)
+            if far > _SAME:
+                raise Broken(f"a program is {far * 1000:.3f} mm off the way of the same in RAPID")
+
+
+def _moved(bench: Bench, program: list[RawOrder], since: float) -> tuple[float, list[Position]]:
+    """s of movement and where the robot was, until it stands at the end."""
+    bench.wait_until_at(program[-1].joints, 60)
+    bench.run(0.3)
+    return movement([sample for sample in bench.track if sample[0] >= since])
+
+
+@case("program-refused", "one wrong instruction refuses a program whole, with its index")
+def _refused(bench: Bench) -> None:
+    """Nothing moves for a program of which one instruction is wrong, or that begins elsewhere."""
+    right = orders(bench, 6, random.Random(3))
+    client, watcher = Programmer(bench), bench.watcher()
+    joint = bench.group.joints[0]
+    outside = changed(right[3].joints, 0, joint.upper + 2 * small_unit(joint))
+    wrong: list[tuple[RawOrder, RawReason]] = [
+        (replace(right[3], joints=outside, pose=None, kind=MOVE_ABSJ), RawReason.JOINT_LIMIT),
+        (replace(right[3], speed=0.0), RawReason.BAD_SPEED),
+        (replace(right[3], speed=-1.0), RawReason.BAD_SPEED),
+        (replace(right[3], speed=2000.0), RawReason.BAD_SPEED),
+        (replace(right[3], zone=-0.001), RawReason.BAD_ZONE),
+        (replace(right[3], zone=1.1), RawReason.BAD_ZONE),
+    ]
+    for order in right:
+        if order.pose is not None:
+            (x, y, z), q = order.pose
+            away = replace(order, pose=((x, y, z + 0.002), q))
+            turned = replace(order, pose=((x, y, z), (q[1], q[0], q[3], q[2])))
+            wrong += [(away, RawReason.POSE_MISMATCH), (turned, RawReason.POSE_MISMATCH)]
+            wrong.append((replace(order, pose=((x, y, z), (0.0,) * 4)), RawReason.BAD_VALUE))
+            break
+    for order, reason in wrong:
+        told = client.send([*right[:3], order, *right[3:]])
+        client.refused(told, reason, 3, f"a program with {order}")
+    for words in ([99, 0], [0], [-1], [4096 + MOVE_ABSJ, 0], [4096]):
+        client.number += 1
+        start = millionths(bench.position)
+        told = client.say([*start, *words], 1, ALL)
+        client.refused(told, RawReason.NO_INSTRUCTION, 0, f"the instruction {words}")
+    client.number += 1
+    told = client.say([*millionths(bench.position), MOVE_ABSJ, 0], 1, ALL)
+    client.refused(told, RawReason.FRAMING, 0, "half an instruction")
+    client.number += 1
+    told = client.say([*millionths(bench.position), *right[0].words, 0], 1, ALL)
+    client.refused(told, RawReason.FRAMING, 1, "a word too many")
+    there = changed(bench.position, 0, inward(joint, bench.position[0], 0.1))
+    client.refused(client.send(right, start=there), RawReason.START_TOO_FAR, 0, "another beginning")
+    many = [right[0]] * (bench.config.trajectory.ring + 3)
+    told = client.send(many)
+    if not isinstance(told, messages.RawPointsRefused) or told.reason != RawReason.OVERRUN:
+        raise Broken(f"more instructions than the ring holds: the reply is {told}")
+    if bench.motion_group.kinematics is not None and not computes(bench):
+        pose = reached(bench, right[3].joints)
+        untold = replace(right[3], kind=RawInstruction.MOVE_L, pose=pose)
+        told = client.send([*right[:3], untold])
+        client.refused(told, RawReason.NO_GEOMETRY, 3, "a pose of which nobody knows the joints")
+    bench.stays(1, "no program was right")
+    told = bench.progress(watcher)
+    if (told.state, told.planned) != (RawTrajectoryState.REFUSED, 0):
+        raise Broken(f"a program was refused, PROGRESS says {told}")
+    client.takes("a right program", right)
+    bench.wait_until_at(right[-1].joints, 60)
+
+
+@case(
+    "program-prefix", "what ends a program leaves a prefix of it, with index and reason", once=True
+)
+def _prefix(bench: Bench) -> None:
+    """STOP on either port, a cut connection, an emergency stop, a stop of the program, a pause."""
+    control, watcher = bench.control(), bench.watcher()
+    chance = random.Random(5)
+    for ending, reason in _ENDINGS.items():
+        for at in (0, 2, 4):
+            program = orders(bench, 6, chance)
+            client = Programmer(bench)
+            start, since = bench.position, bench.now
+            client.takes("a program", program)
+            _reaches(bench, watcher, at)
+            _end(bench, client, control, ending)
+            bench.wait_until_standing(10)
+            bench.run(0.5)
+            told = bench.progress(watcher)
+            if told.reason != reason or not at <= told.reached < len(program):
+                raise Broken(f"{ending} behind instruction {at}: PROGRESS says {told}")
+            bench.stays(1, f"{ending} has ended a program")
+            bench.start_again()
+            bench.stays(2, f"{ending} has ended a program")
+            if ending != "e-stop":
+                bench.followed([start, *(o.joints for o in program)], since=since, corner=0.1)
+            client.link.close(then=1.5)
+
+
+def _reaches(bench: Bench, watcher: RawLink, at: int) -> None:
+    """Let time pass until the robot is on its way behind so many instructions."""
+    bench.wait_until_moving()
+    for _ in range(600):
+        if bench.progress(watcher).reached >= at:
+            return
+    raise Broken(f"{at} instructions are not reached")
+
+
+_ENDINGS = {
+    "STOP": RawReason.STOPPED,
+    "STOP on the control port": RawReason.STOPPED,
+    "a cut connection": RawReason.CLIENT_LOST,
+    "e-stop": RawReason.EMERGENCY_STOP,
+    "stop": RawReason.PROGRAM_STOPPED,
+    "a pause and STOP": RawReason.STOPPED,
+}
+
+
+def _end(bench: Bench, client: Programmer, control: RawLink, ending: str) -> None:
+    if ending == "STOP":
+        client.link.stop()
+    elif ending == "STOP on the control port":
+        stop(control)
+    elif ending == "a cut connection":
+        client.link.close(abort=True)
+    elif ending == "a pause and STOP":
+        done(control.ask(messages.RawPause(1)), "PAUSE")
+        bench.wait_until_standing(3)
+        client.link.stop()
+    else:
+        bench.controller.perform(ending)
+
+
+@case("program-paused", "a paused program goes on where it was")
+def _paused(bench: Bench) -> None:
+    """To its end, on its path."""
+    control, watcher, client = bench.control(), bench.watcher(), Programmer(bench)
+    program, start, since = orders(bench, 4, random.Random(9)), bench.position, bench.now
+    client.takes("a program", program)
+    for at in (0, 1):
+        _reaches(bench, watcher, at)
+        done(control.ask(messages.RawPause(1)), "PAUSE")
+        bench.rests(3, 1, "a program is paused")
+        done(control.ask(messages.RawPause(0)), "the end of PAUSE")
+    bench.wait_until_at(program[-1].joints, 60)
+    bench.followed([start, *(o.joints for o in program)], since=since, corner=0.1)
+
+
+@case("program-stream", "a program that comes while the robot moves is executed up to a fault")
+def _stream(bench: Bench) -> None:
+    """Instructions before a wrong one are executed, the last as a stop point; none behind it."""
+    watcher, client = bench.watcher(), Programmer(bench)
+    program = orders(bench, 16, random.Random(11))
+    client.number += 1
+    some = [*millionths(bench.position), *(word for o in program[:8] for word in o.words)]
+    told = client.say(some, 8, BEGIN)
+    if not isinstance(told, messages.RawPointsAccepted):
+        raise Broken(f"the first instructions are right, the reply is {told}")
+    bench.wait_until_moving()
+    wrong = replace(program[12], speed=0.0)
+    rest = [word for o in (*program[8:12], wrong, *program[13:]) for word in o.words]
+    told = client.say(rest, 8, messages.RawStreamFlag.END, first=8)
+    client.refused(told, RawReason.BAD_SPEED, 12, "a wrong speed in the middle")
+    bench.wait_until_at(program[11].joints, 90)
+    bench.run(0.5)
+    seen = bench.progress(watcher)
+    wanted = (RawTrajectoryState.FAILED, 12, RawReason.BAD_SPEED)
+    if (seen.state, seen.reached, seen.reason) != wanted:
+        raise Broken(f"a program was cut behind 12 instructions, PROGRESS says {seen}")
+    bench.stays(1, "a program was cut")
+
+
+@case("program-halves", "a trajectory ends a program, and a program a trajectory")
+def _superseded(bench: Bench) -> None:
+    """Whatever is newer; nothing of the older one is executed behind it."""
+    client, watcher = Programmer(bench), bench.watcher()
+    program = orders(bench, 5, random.Random(2))
+    client.takes("a program", program)
+    bench.wait_until_moving()
+    bench.run(0.3)
+    client.link.send(bench.download(bench.wave(4)))
+    bench.wait_until_standing(10)
+    bench.run(1)
+    told = bench.progress(watcher)
+    if told.state not in (RawTrajectoryState.DONE, RawTrajectoryState.REFUSED):
+        raise Broken(f"a trajectory has come into a program, PROGRESS says {told}")
+    bench.stays(1, "the program has ended")
+    points = bench.wave(20)
+    bench.sets_off(client.link, points, 0.5)
+    reply = client.send(program)
+    if isinstance(reply, messages.RawPointsRefused):
+        # It began where the robot was when it was sent.
+        client.refused(reply, RawReason.START_TOO_FAR, 0, "a program into a trajectory")
+        bench.rests(5, 1, "neither is under way")
+        client.takes("a program", program)
+    bench.wait_until_at(program[-1].joints, 60)

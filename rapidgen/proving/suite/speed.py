@@ -1,0 +1,239 @@
+"""SPEED: never faster than asked, whatever SpeedRefresh does, and not slowed down twice.
+
+What is ordered already is slowed down by SpeedRefresh, what follows gets more time.
+"""
+
+import math
+from collections.abc import Callable, Sequence
+from itertools import pairwise
+
+from rapidgen.proving import messages
+from rapidgen.proving.behaviour import Theme
+from rapidgen.proving.bench import Bench
+from rapidgen.proving.instructions import at_call
+from rapidgen.proving.link import RawLink
+from rapidgen.proving.messages import RawComm, RawReason
+from rapidgen.proving.model import Broken
+from rapidgen.proving.stream import BEGIN, END, Streamer
+from rapidgen.proving.suite.control import done, not_done
+from rapidgen.proving.suite.motion_task import begins, soon, unit_of
+from rapidgen.proving.track import Point, changed, inward
+
+case = Theme("speed", needs="control")
+
+_RATE = 0.08
+"""rad/s or m/s of the axis that is looked at."""
+_TICK = 0.1
+"""s between two SpeedRefresh of the driver, the shortest that ITimer does."""
+_LONG = 0.25
+"""s of a move that the driver slows down by SpeedRefresh."""
+_RAMPS = 0.15
+"""s in which the axis has come to another speed."""
+
+_PEAK = 1.4
+"""A short move that ends at a standstill is faster in its middle than on the whole ..."""
+_MOMENT = 0.05
+"""... and for so many s much faster."""
+
+
+def _line(bench: Bench, count: int, seconds: float) -> list[Point]:
+    """Points on a straight way of the first axis, all as fast."""
+    here, joint = bench.position, bench.group.joints[0]
+    step = inward(joint, here[0], _RATE * seconds) - here[0]
+    return [
+        (here, 10.0),
+        *((changed(here, 0, here[0] + n * step), seconds) for n in range(1, count)),
+    ]
+
+
+def _slow(bench: Bench) -> float:
+    """s that the driver needs from a request or a timer to SpeedRefresh."""
+    return soon(bench) + bench.setting.latest_interrupt
+
+
+def _paces(bench: Bench, since: float) -> list[tuple[float, float, float]]:
+    """From when to when the axis was how fast, in shares of its speed."""
+    track = [(when, seen[0]) for when, seen in bench.track if when >= since]
+    return [
+        (when, then, abs(b - a) / (then - when) / _RATE)
+        for (when, a), (then, b) in pairwise(track)
+        if then > when
+    ]
+
+
+def _as_asked(bench: Bench, since: float, percent: float, seconds: float, stops: int = 2) -> None:
+    """Broken where the axis was faster than asked since then, or much slower for long.
+
+    `seconds`: what a move takes at the speed before. `stops`: how often it comes to rest.
+    """
+    asked, paces = percent / 100, _paces(bench, since)
+    lag = bench.setting.motion.servo_lag
+    ordered = 2 * seconds + bench.setting.motion.planning_lead + _slow(bench) + lag
+    acts = seconds > _LONG and bench.setting.motion.refresh_timed
+    # Each move that was ordered may begin as fast as it was ordered, until a timer comes.
+    most = _TICK + _slow(bench) + _RAMPS + lag if acts else ordered
+    last = since + (ordered / asked if acts else ordered) + most
+    fast = 0.0
+    for when, then, pace in paces:
+        fast = fast + then - when if pace > _PEAK * asked else 0.0
+        if fast > most or (fast > _MOMENT and then > last):
+            raise Broken(
+                f"{then - since:.2f} s behind SPEED {percent:g} the robot is at {100 * pace:.0f} % "
+                f"of its speed, for {fast:.2f} s"
+            )
+    slow = sum(then - when for when, then, pace in paces if pace < 0.75 * asked)
+    at_rest = _RAMPS + _slow(bench) + _TICK + bench.setting.motion.settle + lag
+    if slow > stops * at_rest:
+        raise Broken(f"at SPEED {percent:g} the robot is slower than that for {slow:.2f} s")
+
+
+_Send = Callable[[Bench, RawLink, Sequence[Point]], None]
+
+
+def _download(bench: Bench, link: RawLink, points: Sequence[Point]) -> None:
+    link.send(bench.download(points))
+
+
+def _stream(bench: Bench, link: RawLink, points: Sequence[Point]) -> None:
+    Streamer(bench, link).put(points, BEGIN | END)
+
+
+@case("speed-kept", "never faster than asked, nor slowed down twice")
+def _kept(bench: Bench) -> None:
+    """Long moves and short ones, slower and faster, and at full speed in the next trajectory."""
+    control, link, lead = bench.control(), bench.motion(), bench.setting.motion.planning_lead
+    short = max(0.12, 1.05 * bench.config.trajectory.min_segment)
+    ways: list[tuple[_Send, int, float]] = [(_download, 8, 0.6), (_download, 24, short)]
+    if bench.streams:
+        ways.append((_stream, 24, short))
+    for send, count, seconds in ways:
+        for percents in ((50.0,), (60.0, 20.0), (20.0, 60.0)):
+            points, begun = _line(bench, count, seconds), bench.now
+            send(bench, link, points)
+            bench.wait_until_moving()
+            # Once when no other move is ordered, once when one is.
+            bench.run(seconds * (0.5 if percents[-1] > 50 else 2) - 0.8 * lead)
+            before = 1.0
+            for percent in percents:
+                since = bench.now
+                done(control.ask(messages.RawSpeed(percent)), f"SPEED {percent:g}")
+                if bench.now - since > soon(bench):
+                    raise Broken(f"SPEED is answered after {bench.now - since:.3f} s")
+                if percent == percents[-1]:
+                    bench.wait_until_at(points[-1][0], 10 + 8 * count * seconds)
+                    # What was ordered for less keeps that.
+                    stops = 2 if percent < 100 * before else 2 + math.ceil(2 * seconds / before)
+                    _as_asked(bench, since, percent, seconds / before, stops)
+                else:
+                    bench.run(0.3)
+                before = percent / 100
+            bench.executed(points, begun)
+            bench.wait_until_standing()
+        points, since = _line(bench, count, seconds), bench.now
+        send(bench, link, points)
+        bench.wait_until_at(points[-1][0], 10 + 8 * count * seconds)
+        _as_asked(bench, since, 100, seconds)
+        bench.wait_until_standing()
+
+
+@case("speed-in-pause", "a speed that is asked for in a pause holds behind it")
+def _in_pause(bench: Bench) -> None:
+    """SpeedRefresh may do nothing while the robot stands."""
+    control, link = bench.control(), bench.motion()
+    points, begun = _line(bench, 6, 0.8), bench.now
+    bench.sets_off(link, points, 1.0)
+    done(control.ask(messages.RawPause(1)), "PAUSE")
+    bench.wait_until_standing(3)
+    done(control.ask(messages.RawSpeed(40)), "SPEED")
+    bench.run(0.5)
+    since = bench.now
+    done(control.ask(messages.RawPause(0)), "the end of a pause")
+    bench.wait_until_moving()
+    bench.arrives(points, begun, 60)
+    _as_asked(bench, since, 40, 0.8, 3)
+
+
+@case("speed-at-end", "a speed that is asked for in the last move is over with it")
+def _at_the_end(bench: Bench) -> None:
+    """SpeedRefresh may last, and may do nothing while the robot stands."""
+    control, link = bench.control(), bench.motion()
+    bench.sets_off(link, _line(bench, 2, 1.0), 0.2)
+    done(control.ask(messages.RawSpeed(50)), "SPEED")
+    bench.wait_until_standing()
+    bench.run(2)
+    points, since = _line(bench, 4, 1.0), bench.now
+    bench.sets_off(link, points)
+    bench.arrives(points, since, 20)
+    _as_asked(bench, since, 100, 1.0)
+
+
+@case("speed-before-order", "a speed that comes just before a long move is ordered holds for it")
+def _before_the_order(bench: Bench) -> None:
+    """Its time is computed already: it is slowed down like a move that is ordered."""
+    control, link = bench.control(), bench.motion()
+    short = max(0.12, 1.05 * bench.config.trajectory.min_segment)
+    line = _line(bench, 9, short)
+    step = line[1][0][0] - line[0][0][0]
+    far = changed(line[-1][0], 0, line[-1][0][0] + step * 1.5 / short)
+    points = [*line, (far, 1.5), (changed(far, 0, far[0] + 4 * step), 4 * short)]
+    since: list[float] = []
+
+    def ask() -> None:
+        since.append(bench.now)
+        control.at_once(messages.encode(messages.RawSpeed(50), RawComm.REQUEST))
+        bench.rapid_task("ROS_motion").sleep(0.05)
+
+    # Interrupts are off at the beginning of a trajectory, and for each move just before its order.
+    at_call(bench, "ROS_motion", "IDisable", 1 + len(line), ask)
+    begun = bench.now
+    bench.sets_off(link, points)
+    bench.arrives(points, begun, 30)
+    _as_asked(bench, since[0], 50, 1.5)
+
+
+@case("speed", "a speed for one trajectory")
+def _speed(bench: Bench) -> None:
+    """Half the speed for this trajectory, and the full one again for the next."""
+    control, link = bench.control(), bench.motion()
+    not_done(control.ask(messages.RawSpeed(50)), RawReason.IDLE, "SPEED of nothing")
+    taken = []
+    for percent in (100.0, 50.0, 0.0):
+        points, since = bench.wave(12), bench.now
+        bench.sets_off(link, points)
+        if percent:
+            done(control.ask(messages.RawSpeed(80)), "SPEED 80")
+            done(control.ask(messages.RawSpeed(percent)), f"SPEED {percent:g}")
+        for wrong in (0.0, -5.0, 101.0, 0.99, 1e6, math.nan, math.inf):
+            not_done(control.ask(messages.RawSpeed(wrong)), RawReason.BAD_VALUE, f"SPEED {wrong:g}")
+        bench.wait_until_at(points[-1][0], 60)
+        bench.followed([p for p, _ in points], since=since)
+        taken.append(bench.now - since)
+        bench.run(0.5)
+    if not 1.5 * taken[0] < taken[1] < 2.5 * taken[0] or abs(taken[2] - taken[0]) > 0.5:
+        raise Broken(f"at 100, 50 and again 100 % a trajectory took {taken} s")
+
+
+@case("speed-at-start", "a speed that comes at the beginning of a trajectory")
+def _at_the_start(bench: Bench) -> None:
+    """SPEED comes just before the first move is ordered: all moves get more time."""
+    control, link, unit = bench.control(), bench.motion(), unit_of(bench)
+    task = bench.rapid_task("ROS_motion")
+
+    def ask() -> None:
+        control.at_once(messages.encode(messages.RawSpeed(50), RawComm.REQUEST))
+        # Long enough for the control server and an interrupt.
+        task.sleep(0.05)
+
+    begins(bench, link, bench.wave(2, duration=unit))
+    control.ask(messages.RawSpeed(50))
+    bench.wait_until_standing(3 * unit)
+    at_call(bench, "ROS_motion", "MoveAbsJ", 1, ask)
+    points = bench.wave(3, duration=unit)
+    bench.sets_off(link, points)
+    begun = bench.now
+    told = control.reply(messages.SPEED, soon(bench))
+    if told != messages.RawAcknowledged():
+        raise Broken(f"SPEED at the beginning of a trajectory is answered by {told}")
+    bench.wait_until_at(points[2][0], 10 * unit)
+    if bench.now - begun < 3.0 * unit:
+        raise Broken(f"{2 * unit:.2f} s of motion at half the speed took {bench.now - begun:.2f} s")

@@ -1,0 +1,88 @@
+"""A client of a program under test: bytes to a port and back, on the controller's own clock.
+
+    client = Client(controller, 5000)
+    client.send(b"MOVE 10\\n")
+    assert client.receive(until=b"\\n") == b"OK\\n"
+
+Nothing is threaded: simulated time passes inside of these calls, until what is asked for is there.
+"""
+
+from collections.abc import Callable
+
+from rapidgen.controller.controller import Deadlock, VirtualController
+from rapidgen.machine.network.interface import BUFFER, NetworkFault
+
+PATIENCE = 10.0
+"""Simulated seconds that a call waits."""
+
+
+class Client:
+    """A TCP client of a virtual controller on the virtual clock."""
+
+    def __init__(
+        self, controller: VirtualController, port: int, *, timeout: float = PATIENCE
+    ) -> None:
+        """Connect as soon as the program listens. TimeoutError: it never does, and why."""
+        self._controller = controller
+        self._timeout = timeout
+        self._read = b""
+        network = controller.network
+        self._until(lambda: port in network.listeners, f"nothing listens on port {port}", timeout)
+        self._endpoint = network.connect(network.address, port)
+        self._until(lambda: self._endpoint.connected, f"port {port} does not answer", timeout)
+
+    def send(self, data: bytes) -> None:
+        """Send bytes. ConnectionError: the program has closed the connection."""
+        left = data
+        while left:
+            try:
+                taken = self._controller.network.send(self._endpoint, left)
+            except NetworkFault as fault:
+                raise ConnectionError(str(fault)) from fault
+            left = left[taken:]
+            if left:
+                self._controller.run_for(0.001)
+
+    def receive(self, count: int = 0, *, until: bytes = b"", timeout: float | None = None) -> bytes:
+        """`count` bytes; or what comes up to and with `until`; or what comes first, if neither.
+
+        What comes behind is kept. b"" when the program has closed the connection and nothing is
+        left; TimeoutError, with where the tasks stand, when it does not come.
+        """
+        ended = False
+
+        def there() -> bool:
+            nonlocal ended
+            try:
+                data = self._controller.network.receive(self._endpoint, BUFFER)
+            except NetworkFault:
+                data = b""
+            if data is not None:
+                ended = not data
+                self._read += data
+            if until:
+                return until in self._read or ended
+            return len(self._read) >= max(count, 1) or ended
+
+        wanted = repr(until) if until else f"{count or 'any'} bytes"
+        seconds = self._timeout if timeout is None else timeout
+        self._until(there, f"{wanted} did not come, only {self._read!r}", seconds)
+        size = count or len(self._read)
+        if until and until in self._read:
+            size = self._read.index(until) + len(until)
+        found, self._read = self._read[:size], self._read[size:]
+        return found
+
+    def close(self) -> None:
+        """End the connection."""
+        self._controller.network.close(self._endpoint)
+
+    def _until(self, condition: Callable[[], bool], why: str, timeout: float) -> None:
+        controller = self._controller
+        try:
+            came = condition() or controller.run_until(condition, timeout=timeout)
+        except Deadlock:
+            came = False
+        if not came:
+            faults = [f"{t.name}: {t.fault}" for t in controller.tasks.values() if t.fault]
+            raise TimeoutError("\n".join([why, *faults, *controller.where()]))

@@ -1,0 +1,189 @@
+"""Whatever a person brings is booted in one way, in the cell that is described or guessed."""
+
+import pytest
+
+from rapidgen.config import load_config
+from rapidgen.config.cell import load_cell
+from rapidgen.controller import VirtualController
+from rapidgen.controller.booting import Wishes, load_target
+from rapidgen.controller.starts import shown, usual_start
+from rapidgen.diagnostics import DiagnosticError
+
+PROGRAM = r"""MODULE work
+  PROC main()
+    SetDO doGrip, 1;
+    WaitDI diGripped, 1;
+    MoveL Offs(CRobT(\Tool:=tGrip\WObj:=wTable), 10, 0, 0), v100, fine, tGrip\WObj:=wTable;
+    WaitUntil giPart > 3 AND diDoor = 0;
+    IF partHere = 1 TPWrite "on";
+    TPWrite ValToStr(ClkRead(clock9));
+  ENDPROC
+ENDMODULE
+"""
+CELL = """
+robots:
+  T_ROB1: {model: irb4600, start: [10, 0, 0, 0, 45, 0]}
+signals:
+  doGrip: {kind: DO}
+  diGripped: {kind: DI}
+  diDoor: {kind: DI, value: 1}
+  giPart: {kind: GI, size: 4}
+  partHere: {kind: DI, access: read}
+tools:
+  tGrip: {frame: {position: [0, 0, 100]}, load: {mass: 1, centre: [0, 0, 50]}}
+work_objects:
+  wTable: {user_frame: {position: [800, 0, 0]}}
+devices:
+  gripper:
+    - {when: {doGrip: 1}, then: {diGripped: 1}, after: 0.25}
+  line:
+    - {when: {diGripped: 1}, then: {giPart: 5, diDoor: 0}, after: 2}
+"""
+
+
+@pytest.fixture
+def program(tmp_path):
+    path = tmp_path / "work.mod"
+    path.write_text(PROGRAM)
+    return path
+
+
+@pytest.fixture
+def cell(tmp_path):
+    path = tmp_path / "cell.yaml"
+    path.write_text(CELL)
+    return path
+
+
+def text_of(program, cell, path):
+    path.write_text(program.read_text().replace("ValToStr(ClkRead(clock9))", '"done"'))
+    return VirtualController.from_files([path], cell=cell, cycle="once")
+
+
+def test_a_described_cell_answers_the_program(program, cell, tmp_path):
+    with text_of(program, cell, tmp_path / "work.mod") as controller:
+        (group,) = controller.motion.groups.values()
+        assert group.config.model == "irb4600"
+        assert shown(group.config, group.positions()) == "[10,0,0,0,45,0]"
+        assert controller.signals["diDoor"] == 1
+        assert controller.run(max_time=60) == "finished"
+        assert controller.signals["giPart"] == 5
+        assert controller.operator.rows[-1] == "done"
+        assert controller.now > 2.25
+        # The frames are the cell's: from the table's origin the flange is far off.
+        assert controller.task("T_ROB1")["cell_data:wTable"].uframe.trans.x == 800
+
+
+def test_a_guessed_cell_has_what_the_program_names(program):
+    found = load_target([program], Wishes(cell="guess"))
+    assert found.guessed is not None
+    named = {one.name: one.type for one in found.guessed.named}
+    assert named == {
+        "doGrip": "signaldo",
+        "diGripped": "signaldi",
+        "giPart": "signalgi",
+        "diDoor": "signaldi",
+        "partHere": "signaldi",
+        "tGrip": "tooldata",
+        "wTable": "wobjdata",
+    }
+    assert [(one.name, one.type) for one in found.guessed.unknown] == [("clock9", "clock")]
+    assert found.guessed.named[0].span.line == 3
+
+
+def test_what_a_program_waits_for_on_a_guessed_input_comes_half_a_second_later(tmp_path):
+    path = tmp_path / "waits.mod"
+    path.write_text(
+        "MODULE waits\n PROC main()\n WaitDI diA, 1;\n WaitUntil (NOT diA = 1) AND giB >= 7;\n"
+        " WaitGI giB, \\LT, 3;\n WaitUntil TestDI(diA);\n ENDPROC\nENDMODULE\n"
+    )
+    with VirtualController.from_files([path], cell="guess", cycle="once") as controller:
+        assert controller.run(max_time=60) == "finished"
+        assert controller.answered == [("diA", 1), ("diA", 0), ("giB", 7), ("giB", 2), ("diA", 1)]
+        assert controller.now == pytest.approx(2.0, abs=0.25)
+
+
+def test_without_a_cell_nothing_is_made_up(program):
+    found = load_target([program])
+    assert found.guessed is None
+    assert found.system.signals == ()
+
+
+@pytest.mark.parametrize(
+    ("model", "first", "second"),
+    [
+        ("irb120", "[0,0,0,0,30,0]", ""),
+        ("irb14000", "[0,-130,30,0,40,0] [135]", "[0,-130,30,0,40,0] [-135]"),
+        ("irb660", "[0,0,0,0,0,0]", ""),
+        ("irb910sc", "[0,0,0,0,0,0]", ""),
+    ],
+)
+def test_strangers_start_where_their_robots_usually_do(model, first, second):
+    found = [shown(group, usual_start(group)) for group in load_config(model).groups]
+    assert found == [text for text in (first, second) if text]
+
+
+def test_a_driver_starts_at_zero():
+    assert load_target(["irb120"]).surroundings.starts == {}
+
+
+def refused(call, *words):
+    with pytest.raises(DiagnosticError) as caught:
+        call()
+    (found,) = caught.value.diagnostics
+    assert all(word in f"{found.message} {found.help}" for word in words), found
+    return found.code
+
+
+def test_a_start_that_the_robot_cannot_have_is_refused(program):
+    far = Wishes(start=(0, 0, 0, 0, 130, 0))
+    assert refused(lambda: load_target([program], far), "rax_5", "-120 to 120") == "RG435"
+    few = Wishes(start=(0, 0))
+    assert refused(lambda: load_target([program], few), "2 values", "rax_6") == "RG435"
+
+
+def test_a_cell_that_does_not_fit_is_refused(program, cell):
+    cell.write_text(
+        "signals: {doGrip: {kind: DO}}\ndevices: {a: [{when: {dGrip: 1}, then: {x: 1}}]}"
+    )
+    with pytest.raises(DiagnosticError) as caught:
+        load_target([program], Wishes(cell=cell))
+    assert [d.code for d in caught.value.diagnostics] == ["RG434", "RG434"]
+    assert "did you mean 'doGrip'" in caught.value.diagnostics[0].help
+    cell.write_text("robots: {T_ROB2: {model: irb120}}")
+    assert refused(lambda: load_target([program], Wishes(cell=cell)), "T_ROB2") == "RG434"
+    cell.write_text("signal: {doGrip: {kind: DO}}")
+    assert refused(lambda: load_cell(cell), "signal", "signals") == "RG005"
+
+
+def test_a_robot_of_a_cell_may_be_a_configuration_beside_it(program, cell, tmp_path):
+    (tmp_path / "mine.yaml").write_text("name: mine\nmodel: irb1600\n")
+    cell.write_text("robots: {T_ROB1: {model: mine.yaml, mechanical_unit: ROB_7}}")
+    (group,) = load_target([program], Wishes(cell=cell)).groups
+    assert (group.model, group.mechanical_unit) == ("irb1600", "ROB_7")
+
+
+def test_a_guessed_input_that_is_looked_at_in_a_loop_is_pressed(tmp_path):
+    path = tmp_path / "polls.mod"
+    path.write_text(
+        "MODULE polls\n VAR num done;\n PROC main()\n  WHILE done < 3 DO\n"
+        "   IF DI_1 = 1 Incr done;\n   IF DInput(start) = 1 THEN\n    done := done + 10;\n"
+        "   ENDIF\n   TEST giPart\n   CASE 4:\n    done := done + 100;\n   ENDTEST\n"
+        "   WaitTime 0.3;\n  ENDWHILE\n ENDPROC\nENDMODULE\n"
+    )
+    with VirtualController.from_files([path], cell="guess", cycle="once") as controller:
+        assert controller.run(max_time=20) == "finished"
+        assert controller.answered[:2] == [("DI_1", 1), ("start", 1)]
+        assert controller.signals["DI_1"] == 0, "a button is let go"
+
+
+def test_a_guessed_cell_does_not_hide_a_deadlock(tmp_path):
+    path = tmp_path / "dead.mod"
+    path.write_text(
+        "MODULE dead\n PERS bool never := FALSE;\n VAR bool got;\n PROC main()\n"
+        "  WHILE di1 = 0 DO\n   never := TRUE;\n   WaitTestAndSet never;\n  ENDWHILE\n"
+        " ENDPROC\nENDMODULE\n"
+    )
+    with VirtualController.from_files([path], cell="guess", cycle="once") as controller:
+        assert controller.run(max_time=20) == "deadlock"
+        assert "WaitTestAndSet waits for its flag" in controller.where()[0]

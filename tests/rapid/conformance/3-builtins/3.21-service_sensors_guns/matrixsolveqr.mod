@@ -1,0 +1,11 @@
+! rule: arguments of MatrixSolveQR
+! source: [manual] 3HAC050917
+MODULE Demo
+    VAR dnum v_dnum_2x2{2,2};
+    VAR num v_num;
+    PROC main()
+        MatrixSolveQR v_dnum_2x2, v_dnum_2x2, v_dnum_2x2;
+        MatrixSolveQR v_dnum_2x2 \A_m:=v_num \A_n:=v_num, v_dnum_2x2, v_dnum_2x2;
+        MatrixSolveQR;  ! -> RG311
+    ENDPROC
+ENDMODULE
