@@ -334,7 +334,7 @@ def _memory(
 
 
 def _mains(view: LiveView, wanted: DriverSet | None) -> tuple[tuple[str, str], ...]:
-    found = {}
+    found: dict[str, str] = {}
     for file in wanted.files if wanted else ():
         if file.kind == "module" and MAIN.search(file.data):
             found |= {task: _module_name(file.data) for task in file.tasks if view.normal(task)}

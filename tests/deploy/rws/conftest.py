@@ -13,6 +13,7 @@ from rapidgen.controller.cabinet import Cabinet
 from rapidgen.deploy import apply, make_plan
 from rapidgen.deploy.live.proof import Proof
 from rapidgen.deploy.session import wanted_set
+from rapidgen.faces.rws.asking import HttpReply
 from rapidgen.system import read_files, write_cfg
 from rapidgen.system.base import Robot, base_system
 from rapidgen.wire.rws.bodies import Generation
@@ -87,6 +88,7 @@ class Kit:
     connect = staticmethod(connect)
     Line = Line
     PASSWORD = PASSWORD
+    busy = HttpReply(503)
     apply = staticmethod(apply)
     pass_time = staticmethod(pass_time)
 

@@ -1,8 +1,8 @@
 """A deployment that is cut at a request, and then somebody restarts the controller.
 
 What boots is the old set, the new one, or one that does not move; the next run, of whichever kind,
-puts it right. Each kind of request that changes something is cut once, before and after it was
-done; RAPIDGEN_LONG takes every request.
+puts it right. Every second kind of request that changes something is cut once; RAPIDGEN_LONG
+takes every request, before and after it was done.
 """
 
 import os
@@ -104,8 +104,7 @@ CASES = [
     for case in ("first", "update", "uninstall")
     for how in ("before", "after")
 ]
-SHORT = {(1, "first", "before"), (1, "uninstall", "after"), (2, "update", "before")}
-SHORT |= {(8, "uninstall", "before"), (8, "update", "after")}
+SHORT = [(1, "first", "before"), (2, "update", "after"), (8, "uninstall", "before")]
 
 
 @pytest.mark.parametrize(("generation", "case", "how"), CASES)
@@ -113,6 +112,6 @@ def test_cut_at_a_request(rws, generation, case, how, tmp_path):
     if not LONG and (generation.value, case, how) not in SHORT:
         pytest.skip("RAPIDGEN_LONG")
     log = run_cut(rws, generation, tmp_path / "whole", case, None, how)
-    for cut in kinds(log):
+    for cut in kinds(log) if LONG else kinds(log)[1::2]:
         print(cut, *log[cut - 1])
         run_cut(rws, generation, tmp_path / f"{cut}", case, cut, how)

@@ -120,6 +120,23 @@ def test_no_restart_but_a_warm_one_and_only_when_it_was_said(rws, cell, wanted):
     assert not [t for _, t in line.log if "reset" in t]
 
 
+def test_a_controller_that_restarts_is_busy_for_a_while(rws, cell, wanted):
+    cabinet, transport = cell
+    line, busy = transport.services._carrier.line, []
+    handle = line.handle
+
+    def slow(got):
+        if cabinet.restarts and len(busy) < 10:
+            rws.pass_time(cabinet, 0.5)
+            busy.append(got.target)
+            return rws.busy
+        return handle(got)
+
+    line.handle = slow
+    rws.run(transport, wanted)
+    assert len(busy) == 10
+
+
 def test_an_update_and_the_way_back(rws, cell, wanted):
     _, transport = cell
     newer = rws.build(Generation.ONE, "trajectory.capacity=500")
