@@ -16,6 +16,7 @@ def deploy(
     ] = None,
     overwrite: options.Overwrite = False,
     restart: options.Restart = False,
+    wait: options.WaitForPeople = 0.0,
     yes: options.Yes = False,
     overrides: options.Overrides = None,
     user: options.User = "",
@@ -28,7 +29,8 @@ def deploy(
 ) -> int:
     """Put the driver on one or several controllers: backup, upload, verify, switch.
 
-    Starts no motors, changes no mode, restarts nothing: the plan says what people do then.
+    Starts no motors and changes no mode; the plan says what people do then. Over web services
+    (rws://) cfg is loaded, too, and with --restart the controller restarted and read back.
     A run that was cut is finished or undone by the next.
 
     rapidgen deploy cell1.yaml --to "ftp://192.168.125.1/hd0a/SYSTEM/HOME"
@@ -61,6 +63,7 @@ def deploy(
         parallel,
         backup,
         restart=restart,
+        wait=wait,
         hello=hello,
     )
     plans = plan_all(job)

@@ -88,6 +88,10 @@ Overwrite = Annotated[
 Restart = Annotated[
     bool, typer.Option("--restart", help="Restart the controller (warm) where that is needed.")
 ]
+WaitForPeople = Annotated[
+    float,
+    typer.Option("--wait", help="Seconds for automatic mode, a stop, a mastership.", metavar="S"),
+]
 
 # Of the verbs that talk to a controller's Robot Web Services.
 WebServices = Annotated[

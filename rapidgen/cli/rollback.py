@@ -18,6 +18,7 @@ def rollback(
     ] = False,
     overwrite: options.Overwrite = False,
     restart: options.Restart = False,
+    wait: options.WaitForPeople = 0.0,
     yes: options.Yes = False,
     user: options.User = "",
     secrets: options.Secrets = None,
@@ -67,6 +68,7 @@ def rollback(
         parallel,
         backup,
         restart=restart,
+        wait=wait,
         hello=hello,
     )
     plans = plan_all(job)

@@ -16,6 +16,7 @@ def uninstall(
         typer.Option("--overwrite", help="Take hand edits away too; copies go to .rapidgen/."),
     ] = False,
     restart: options.Restart = False,
+    wait: options.WaitForPeople = 0.0,
     yes: options.Yes = False,
     user: options.User = "",
     secrets: options.Secrets = None,
@@ -60,6 +61,7 @@ def uninstall(
         parallel,
         backup,
         restart=restart,
+        wait=wait,
         hello=hello,
     )
     plans = plan_all(job)

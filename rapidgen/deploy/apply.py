@@ -15,9 +15,8 @@ from rapidgen.deploy.keep import (
     new_manifest,
     now,
 )
-from rapidgen.deploy.live.carry import Live, after_files, before_files, check
+from rapidgen.deploy.live.carry import Live, LiveOptions, after_files, before_files, check
 from rapidgen.deploy.live.plan import InMemory
-from rapidgen.deploy.live.proof import Proof
 from rapidgen.deploy.neighbour import Neighbour
 from rapidgen.deploy.plan import DAMAGED, FileChange, Plan
 from rapidgen.deploy.planning import make_plan
@@ -43,12 +42,10 @@ def apply(
     plan: Plan,
     *,
     overwrite: bool = False,
-    restart: bool = False,
-    proof: Proof = Proof(),  # noqa: B008 - frozen
+    live: LiveOptions | None = None,
     say: Say = lambda _: None,
 ) -> None:
-    """Do exactly what `plan` says; nothing when it is empty. `restart`: the controller may be
-    restarted, warm, and `proof` says how it is looked whether the driver serves then.
+    """Do exactly what `plan` says; nothing when it is empty. `live` is for web services.
 
     Raises DiagnosticError: RG520, RG521, RG531, RG534, RG535, RG537, RG541 (conflicts), RG522,
     RG540 (the controller moved on, is another one), RG527, RG543 (cut), RG542 (not in this
@@ -60,7 +57,7 @@ def apply(
     run = None
     if transport.services is not None and plan.live is not None:
         work = Work(transport, plan, "none", say)
-        run = Live(transport.services, work, plan.live, restart, proof)
+        run = Live(transport.services, work, plan.live, live or LiveOptions())
         check(run)
     now_there = make_plan(transport, plan.wanted, verb=plan.verb, loaded=plan.cfg_present)
     if now_there.fingerprint != plan.fingerprint:

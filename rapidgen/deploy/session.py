@@ -13,7 +13,7 @@ from rapidgen.deploy.apply import apply, conflicts_of, moved_on
 from rapidgen.deploy.driverset import DriverSet, digest, from_files, from_folder
 from rapidgen.deploy.fleet import TargetOutcome, connected, on_all
 from rapidgen.deploy.keep import backup_set
-from rapidgen.deploy.live.carry import another
+from rapidgen.deploy.live.carry import LiveOptions, another
 from rapidgen.deploy.live.proof import Hello, Proof
 from rapidgen.deploy.plan import Plan, Verb, plan_json
 from rapidgen.deploy.planning import find_layout, make_plan
@@ -44,6 +44,8 @@ class FleetJob:
     """A backup of the one controller, for what its transport does not see."""
     restart: bool = False
     """Whether a controller may be restarted, warm."""
+    wait: float = 0.0
+    """s for what only people do at a controller."""
     hello: Hello | None = None
     """Which build serves a state port; looked at after a restart."""
 
@@ -125,8 +127,7 @@ def apply_all(job: FleetJob, plans: Sequence[Plan], say: Say) -> list[TargetOutc
                 transport,
                 plan,
                 overwrite=job.overwrite,
-                restart=job.restart,
-                proof=Proof(job.hello, target.host),
+                live=LiveOptions(job.restart, job.wait, Proof(job.hello, target.host)),
                 say=lambda line: say(prefix + line),
             )
         count = sum(1 for c in plan.changes if c.action != "same")

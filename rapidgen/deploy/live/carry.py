@@ -5,9 +5,10 @@ before its files go. Program memory comes last, right before the restart. All of
 by the next plan, which looks at the controller and not at notes.
 """
 
-from collections.abc import Iterator, Sequence
+import time
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from datetime import UTC, datetime
 
 from rapidgen.client.errors import RobotError
@@ -22,7 +23,21 @@ from rapidgen.deploy.work import Work
 from rapidgen.diagnostics import DiagnosticError, error
 from rapidgen.system import CfgText, write_cfg
 
+_LOOK = 1.0
+"""s between two looks whether a person has done it."""
 _SCRATCH = "TEMP/rapidgen_{}.cfg"
+
+
+@dataclass(frozen=True, slots=True)
+class LiveOptions:
+    """What may be done over web services, and how long is waited for people."""
+
+    restart: bool = False
+    """Whether the controller may be restarted, warm."""
+    wait: float = 0.0
+    """s for automatic mode, for a program to be stopped, for somebody else's mastership."""
+    proof: Proof = field(default_factory=Proof)
+    pause: Callable[[float], None] = time.sleep
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,9 +47,7 @@ class Live:
     services: Controller
     work: Work
     live: LivePlan
-    restart: bool
-    """Whether the controller may be restarted, warm."""
-    proof: Proof
+    options: LiveOptions
 
     @property
     def plan(self) -> Plan:
@@ -46,7 +59,7 @@ class Live:
         the driver that goes."""
         live = self.live
         stops = set(live.started) - (set(live.owned) if self.plan.wanted is None else set())
-        return live.touches_memory and (self.restart or not stops)
+        return live.touches_memory and (self.options.restart or not stops)
 
 
 def check(run: Live) -> None:
@@ -56,20 +69,7 @@ def check(run: Live) -> None:
         raise another(run.plan, live.id)
     if live.is_empty:
         return
-    mode = run.services.panel().mode
-    if mode != "AUTO":
-        raise refused(
-            "RG542",
-            f"{target} is in mode {mode}, which lets nobody write from afar",
-            "switch it to automatic at the pendant, acknowledge, and run this again",
-        )
-    stops = (run.restart and live.restart) or run.rearranges
-    if stops and run.services.execution().running:
-        raise refused(
-            "RG542",
-            f"the program of {target} runs, and what is planned stops it",
-            f"when the robot may stop: `rapidgen halt {target}`, then run this again",
-        )
+    _await(run)
     if run.plan.wanted is None and live.touches_memory and not run.rearranges:
         others = sorted(set(live.started) - set(live.owned))
         raise refused(
@@ -77,6 +77,34 @@ def check(run: Live) -> None:
             f"taking modules out stops {', '.join(others)} on {target}, which is not the driver's",
             "say --restart: a warm start brings it back",
         )
+
+
+def _await(run: Live) -> None:
+    """Wait for what only people do. Raises DiagnosticError RG542 when the time is over."""
+    left, told = run.options.wait, ""
+    while (missing := _missing(run)) is not None:
+        what, mend = missing
+        if left <= 0:
+            raise refused("RG542", what, f"{mend}, then run this again (--wait S waits)")
+        if what != told:
+            run.work.say(f"waiting for a person: {what}; {mend}")
+            told = what
+        run.options.pause(_LOOK)
+        left -= _LOOK
+
+
+def _missing(run: Live) -> tuple[str, str] | None:
+    """What is in the way, and what a person does about it."""
+    target = run.plan.target
+    mode = run.services.panel().mode
+    if mode != "AUTO":
+        what = f"{target} is in mode {mode or '?'}, which lets nobody write from afar"
+        return what, "switch it to automatic at the pendant and acknowledge"
+    stops = (run.options.restart and run.live.restart) or run.rearranges
+    if stops and run.services.execution().running:
+        what = f"the program of {target} runs, and what is planned stops it"
+        return what, f"when the robot may stop: `rapidgen halt {target}`"
+    return None
 
 
 def another(plan: Plan, id: str) -> DiagnosticError:
@@ -99,7 +127,7 @@ def before_files(run: Live) -> None:
             forget_saved(run.work, run.live)
         if not run.live.touches_cfg:
             return
-        with run.services.mastership("cfg"):
+        with run.services.mastership("cfg", wait=run.options.wait):
             _delete(run, run.live.delete)
             if run.plan.wanted is None:
                 _set(run)
@@ -112,7 +140,7 @@ def after_files(run: Live) -> None:
     with _steps(run):
         if run.plan.wanted is not None:
             if run.live.touches_cfg:
-                with run.services.mastership("cfg"):
+                with run.services.mastership("cfg", wait=run.options.wait):
                     _set(run)
                     _delete(run, run.live.again)
                     _load(run)
@@ -120,14 +148,14 @@ def after_files(run: Live) -> None:
                 rearrange(run.services, run.work, run.live)
     if not run.live.restart:
         return
-    if not run.restart:
+    if not run.options.restart:
         run.work.say("restart pending: what was loaded counts after a warm start (--restart)")
         return
     with _steps(run):
         last = max((event.number for event in run.services.log(count=1)), default=0)
         run.work.say("restarting (a warm start)")
         run.services.restart()
-    prove(run.services, run.plan, run.live, last, run.proof, run.work.say)
+    prove(run.services, run.plan, run.live, last, run.options.proof, run.work.say)
     with _steps(run):
         _point(run)
 

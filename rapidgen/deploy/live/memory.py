@@ -3,11 +3,12 @@
 A controller loads and unloads only while nothing is executed: background tasks, too [real 7.21].
 """
 
+from contextlib import suppress
 from pathlib import PurePosixPath
 
-from rapidgen.client.rws import Controller
+from rapidgen.client.rws import Controller, RwsError
 from rapidgen.deploy.driverset import STATE
-from rapidgen.deploy.live.plan import InMemory, LivePlan
+from rapidgen.deploy.live.plan import InMemory, LivePlan, has_main
 from rapidgen.deploy.live.view import LiveView
 from rapidgen.deploy.transports.transport import Transport, TransportFault
 from rapidgen.deploy.work import Work, delete, delete_folder, write
@@ -54,12 +55,23 @@ def rearrange(services: Controller, work: Work, live: LivePlan) -> None:
         work.say(f"stopping {', '.join(live.started)}")
         services.stop(everything=True)
     with services.mastership("rapid"):
+        _leave(services, live)
         for module in (*live.clash, *live.unload):
             work.say(f"unloading {module.shown}")
             services.unload_module(module.task, module.module)
         for module in (*live.replace, *live.restore):
             work.say(f"loading {module.shown}")
             services.load_module(module.task, f"HOME/{module.path}", replace=True)
+
+
+def _leave(services: Controller, live: LivePlan) -> None:
+    """Program pointers of tasks whose modules go to their main: what a stopped program stands in
+    cannot be unloaded [code: a RobotWare 6 client]. Other tasks keep theirs."""
+    for module in (*live.clash, *live.unload, *live.replace):
+        if has_main(services, module.task, module.module):
+            # Refused where the program has errors: then no pointer stands in it either.
+            with suppress(RwsError):
+                services.set_pointer(module.task, module.module, "main")
 
 
 def forget_saved(work: Work, live: LivePlan) -> None:

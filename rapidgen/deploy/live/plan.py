@@ -198,7 +198,7 @@ def find_clashes(
                 continue
             if low in mine:
                 found.append(InMemory(task.upper(), name, why="has a name of ours"))
-            elif main and _has_main(services, task, name):
+            elif main and has_main(services, task, name):
                 found.append(InMemory(task.upper(), name, why="has a main, too"))
     real = {t.name.casefold(): t.name for t in view.tasks}
     return tuple(InMemory(real[m.task.casefold()], m.module, why=m.why) for m in found)
@@ -346,7 +346,8 @@ def _module_name(data: bytes) -> str:
     return found[1].decode("latin-1") if found else ""
 
 
-def _has_main(services: Controller, task: str, module: str) -> bool:
+def has_main(services: Controller, task: str, module: str) -> bool:
+    """Whether a module in a task declares a main. Raises RobotError."""
     try:
         text = services.module_text(task, module)
     except RwsError as error:

@@ -11,7 +11,7 @@ from at_desk import PASSWORD, Line, connect, pass_time
 from rapidgen.config import load_config
 from rapidgen.controller.cabinet import Cabinet
 from rapidgen.deploy import apply, make_plan
-from rapidgen.deploy.live.proof import Proof
+from rapidgen.deploy.live.carry import LiveOptions
 from rapidgen.deploy.session import wanted_set
 from rapidgen.faces.rws.asking import HttpReply
 from rapidgen.system import read_files, write_cfg
@@ -68,11 +68,11 @@ def cfg_of(cabinet):
     return [write_cfg(text) for text in texts]
 
 
-def run(transport, wanted, verb="deploy", *, overwrite=True, restart=True, proof=None, said=None):
+def run(transport, wanted, verb="deploy", *, overwrite=True, said=None, restart=True, **live):
     """Plan and carry out; the plan."""
     plan = make_plan(transport, wanted, verb=verb)
     say = (said if said is not None else []).append
-    apply(transport, plan, overwrite=overwrite, restart=restart, proof=proof or Proof(), say=say)
+    apply(transport, plan, overwrite=overwrite, live=LiveOptions(restart, **live), say=say)
     return plan
 
 

@@ -38,7 +38,9 @@ def test_a_plan_and_a_look_change_nothing(rws, cell, wanted, tmp_path):
     assert (rws.home_of(cabinet), rws.cfg_of(cabinet)) == before
     text = plan_text(plan)
     assert "(virtual, RobotWare 6.15" in text
-    assert "  > load 10 instances of EIO by add\n  > load 32 instances of SYS by add\n" in text
+    for cfg in wanted.cfg:
+        count = sum(len(section.instances) for section in cfg.sections)
+        assert f"  > load {count} instances of {cfg.domain} by add\n" in text
     assert "> save and unload T_ROB1/MainModule, which has a main, too (--overwrite)" in text
     assert "! you: a warm start: --restart does it" in text
     write_plans(tmp_path / "plan.json", [plan])
@@ -90,6 +92,37 @@ def test_manual_mode_is_a_persons_step(rws, cell, wanted):
     assert "! pendant: automatic mode (it is MANR)" in plan_text(make_plan(transport, wanted))
     assert "RG542" in refused(rws.run, transport, wanted)
     assert not rws.home_of(cabinet)
+
+
+def test_people_are_waited_for(rws, cell, wanted):
+    cabinet, transport = cell
+    rws.run(transport, wanted)
+    transport.services.motors(True)
+    transport.services.start()
+    cabinet.controller.set_mode("manual_reduced")
+    acts = [lambda: cabinet.controller.set_mode("auto")]
+
+    def person(seconds):
+        rws.pass_time(cabinet, seconds)
+        if acts:
+            acts.pop()()
+
+    said = []
+    rws.run(transport, None, "uninstall", wait=30, pause=person, said=said)
+    (waited,) = [line for line in said if line.startswith("waiting")]
+    assert "is in mode MANR" in waited
+    assert modules(cabinet) == ["MainModule"]
+
+
+def test_nothing_is_held_and_nobody_is_logged_in_at_the_end(rws, cell, wanted):
+    _, transport = cell
+    rws.run(transport, wanted, restart=False)
+    desk = transport.services._carrier.line.desk
+    for domain in ("cfg", "rapid"):
+        assert transport.services.holder(domain) is None
+    assert len(desk.sessions) == 1
+    transport.close()
+    assert len(desk.sessions) == 0
 
 
 def test_a_restart_that_is_pending_is_told_until_it_was(rws, cell, wanted):
