@@ -14,7 +14,7 @@ from rapidgen.deploy.driverset import DriverSet, digest, from_files, from_folder
 from rapidgen.deploy.fleet import TargetOutcome, connected, on_all
 from rapidgen.deploy.keep import backup_set
 from rapidgen.deploy.live.carry import LiveOptions, another
-from rapidgen.deploy.live.proof import Hello, Proof
+from rapidgen.deploy.live.proof import Hello, ReadBack
 from rapidgen.deploy.plan import Plan, Verb, plan_json
 from rapidgen.deploy.planning import find_layout, make_plan
 from rapidgen.deploy.state import Past, read_state
@@ -127,7 +127,7 @@ def apply_all(job: FleetJob, plans: Sequence[Plan], say: Say) -> list[TargetOutc
                 transport,
                 plan,
                 overwrite=job.overwrite,
-                live=LiveOptions(job.restart, job.wait, Proof(job.hello, target.host)),
+                live=LiveOptions(job.restart, job.wait, ReadBack(job.hello, target.host)),
                 say=lambda line: say(prefix + line),
             )
         count = sum(1 for c in plan.changes if c.action != "same")

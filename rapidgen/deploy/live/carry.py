@@ -15,7 +15,7 @@ from rapidgen.client.errors import RobotError
 from rapidgen.client.rws import Controller, RwsError
 from rapidgen.deploy.live.memory import forget_saved, rearrange
 from rapidgen.deploy.live.plan import LivePlan
-from rapidgen.deploy.live.proof import Proof, prove, way_back
+from rapidgen.deploy.live.proof import ReadBack, prove, way_back
 from rapidgen.deploy.live.view import Row
 from rapidgen.deploy.plan import Plan
 from rapidgen.deploy.transports.transport import TransportFault, refused
@@ -36,7 +36,7 @@ class LiveOptions:
     """Whether the controller may be restarted, warm."""
     wait: float = 0.0
     """s for automatic mode, for a program to be stopped, for somebody else's mastership."""
-    proof: Proof = field(default_factory=Proof)
+    proof: ReadBack = field(default_factory=ReadBack)
     pause: Callable[[float], None] = time.sleep
 
 

@@ -24,7 +24,7 @@ BY_SERVICES = "web services"
 
 
 @dataclass(frozen=True, slots=True)
-class Change:
+class AttributeChange:
     """Attributes of one instance that get new values; `old` ones are written down."""
 
     domain: str
@@ -58,7 +58,7 @@ class LivePlan:
     """Instances that go."""
     again: tuple[Row, ...] = ()
     """Those that come back changed."""
-    change: tuple[Change, ...] = ()
+    change: tuple[AttributeChange, ...] = ()
     load: tuple[CfgText, ...] = ()
     """What is loaded, by `add`: signals before what names them."""
     optional: tuple[CfgText, ...] = ()
@@ -260,7 +260,7 @@ def _wanted(wanted: DriverSet | None, name: str) -> Instance:
     raise KeyError(name)
 
 
-def _change(row: Row, new: Instance) -> Change:
+def _change(row: Row, new: Instance) -> AttributeChange:
     def plain(instance: Instance) -> dict[str, str]:
         # A flag is true or not there.
         return {
@@ -275,7 +275,7 @@ def _change(row: Row, new: Instance) -> Change:
     def values(of: dict[str, str]) -> dict[str, str]:
         return {n: of.get(n, "false" if n in flags else "") for n in names}
 
-    return Change(row.domain, row.section, row.title, values(after), values(before))
+    return AttributeChange(row.domain, row.section, row.title, values(after), values(before))
 
 
 def _dependents_first(rows: list[Row]) -> tuple[Row, ...]:

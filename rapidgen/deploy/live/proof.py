@@ -20,7 +20,7 @@ _LOOK = 0.5
 
 
 @dataclass(frozen=True, slots=True)
-class Proof:
+class ReadBack:
     """How it is looked whether the driver serves. `host` is where its ports are."""
 
     hello: Hello | None = None
@@ -34,7 +34,7 @@ def prove(
     plan: Plan,
     live: LivePlan,
     last: int,
-    proof: Proof,
+    proof: ReadBack,
     say: Callable[[str], None],
 ) -> None:
     """Look at everything, and tell all that is wrong at once. `last` is the number of the last
@@ -101,7 +101,7 @@ def _events(services: Controller, last: int) -> tuple[LogEvent, ...]:
     return tuple(event for event in events if event.type == "error")
 
 
-def _ports(plan: Plan, proof: Proof) -> list[str]:
+def _ports(plan: Plan, proof: ReadBack) -> list[str]:
     """State ports that do not tell our BUILD_ID."""
     if proof.hello is None or plan.wanted is None:
         return []
@@ -121,7 +121,7 @@ def _ports(plan: Plan, proof: Proof) -> list[str]:
     return faults
 
 
-def _told(proof: Proof, port: int, end: float) -> str | None:
+def _told(proof: ReadBack, port: int, end: float) -> str | None:
     """BUILD_ID of what answers, '' for another program; None: nobody does."""
     assert proof.hello is not None
     while True:

@@ -6,7 +6,7 @@ from dataclasses import replace
 import pytest
 
 from rapidgen.deploy import backup_set, make_plan, plan_json
-from rapidgen.deploy.live.proof import Proof
+from rapidgen.deploy.live.proof import ReadBack
 from rapidgen.deploy.session import check_plans, write_plans
 from rapidgen.deploy.show import plan_text
 from rapidgen.wire.rws.bodies import Generation
@@ -214,7 +214,7 @@ def test_a_port_must_serve_our_build(rws, cell, wanted):
         asked.append((host, port))
         return "another-one!"
 
-    proof = Proof(other, "cell")
+    proof = ReadBack(other, "cell")
     (found,) = refusal(rws.run, transport, wanted, proof=proof).diagnostics
     assert (found.code, asked) == ("RG544", [("cell", 11002)])
     assert "rob1 state cell:11002 serves another-one!" in found.message
