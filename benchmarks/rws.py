@@ -29,7 +29,7 @@ from rapidgen.faces.rws.server import serve_rws
 from rapidgen.system import read_files
 from rapidgen.system.model import SignalSpec
 from rapidgen.wire.rws.bodies import Generation
-from rapidgen.wire.rws.events import Wanted, read_events, write_wanted
+from rapidgen.wire.rws.events import WantedResource, read_events, write_wanted
 from rapidgen.wire.rws.forms import form_type, write_form
 
 MAIN = """MODULE MainModule
@@ -171,7 +171,7 @@ def events(generation, sockets, seconds):
     def listen():
         with process.client() as client:
             resources = [topics.signal(f"do{i}").resource(generation) for i in range(HIGH)]
-            form = write_form(write_wanted([Wanted(r, 2) for r in resources]))
+            form = write_form(write_wanted([WantedResource(r, 2) for r in resources]))
             carrier = client._carrier
             headers = {"Content-Type": form_type(generation)}
             if generation is not Generation.ONE:

@@ -20,7 +20,7 @@ _ROWS = 40
 
 
 @dataclass(frozen=True)
-class Wanted:
+class Outputs:
     """What a user asked for. `profile` is a file, or `-` for stderr."""
 
     trace: bool = False
@@ -55,7 +55,7 @@ class Observed:
     """Watches a controller from before its program starts; `write` at the end."""
 
     controller: "VirtualController"
-    wanted: Wanted
+    wanted: Outputs
     _profile: "Profile | None" = None
     _coverage: "Coverage | None" = None
     _recorders: "dict[str, Recorder]" = field(default_factory=dict)

@@ -89,12 +89,12 @@ def run(
     """
     from rapidgen.cli.bootable import answers_told, chosen
     from rapidgen.cli.memory import at_most
-    from rapidgen.cli.observed import Observed, Wanted
+    from rapidgen.cli.observed import Observed, Outputs
     from rapidgen.controller.controller import VirtualController
     from rapidgen.machine.operator import read_answers
 
     _limits(max_time, max_statements)
-    wanted = Wanted(trace, profile, tuple(coverage or ()), plot)
+    wanted = Outputs(trace, profile, tuple(coverage or ()), plot)
     wanted.refuse_unwritable()
     _no_configuration(files)
     found = chosen(

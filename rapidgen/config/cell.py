@@ -6,9 +6,9 @@ RAPID's: deg, mm, kg. What it does to a controller is the business of `controlle
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 from rapidgen.config.assemble import keys_of, shown_path
 from rapidgen.config.draft import DraftFindings
@@ -128,14 +128,16 @@ def load_cell(path: Path) -> CellDescription:
         },
         keys.signals,
         tuple(
-            tool_of(ToolKeys(**_parts(tool), name=name), ("tools", name), report)
-            for name, tool in keys.tools.items()
+            tool_of(ToolKeys(given.held, given.frame, given.load, name), ("tools", name), report)
+            for name, given in keys.tools.items()
         ),
         tuple(
             work_object_of(
-                WorkObjectKeys(**_parts(wobj), name=name), ("work_objects", name), report
+                WorkObjectKeys(given.held, given.user_frame, given.object_frame, name),
+                ("work_objects", name),
+                report,
             )
-            for name, wobj in keys.work_objects.items()
+            for name, given in keys.work_objects.items()
         ),
         {name: load_of(load, ("loads", name), report) for name, load in keys.loads.items()},
         keys.devices,
@@ -143,7 +145,3 @@ def load_cell(path: Path) -> CellDescription:
     if any(d.severity is Severity.ERROR for d in report.found):
         raise DiagnosticError(few(report.found))
     return cell
-
-
-def _parts(keys: ToolDataKeys | WorkObjectDataKeys) -> dict[str, Any]:
-    return {part.name: getattr(keys, part.name) for part in fields(keys)}

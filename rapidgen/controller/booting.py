@@ -4,29 +4,24 @@ backup, or RAPID files with a cell around them. `run`, `sim`, tests and Python l
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
+import rapidgen.system as files
 from rapidgen.config import from_manifest, load_config
-from rapidgen.config.cell import CellDescription, load_cell
 from rapidgen.config.model import GroupConfig, RobotConfig
-from rapidgen.controller.cell import in_its_cell
-from rapidgen.controller.guessing import Guess, guess
 from rapidgen.controller.mechanics import mechanics
-from rapidgen.controller.starts import start_of, usual_start
+from rapidgen.controller.starts import in_front, start_of, usual_start
 from rapidgen.controller.surroundings import Surroundings, furnish
 from rapidgen.diagnostics import Diagnostic, refusal, suggest
-from rapidgen.generate import build, make_system
-from rapidgen.system import (
-    is_backup,
-    is_generated,
-    read_backup,
-    read_files,
-    read_folder,
-    read_manifest,
-)
-from rapidgen.system.backup import backup_cfg
-from rapidgen.system.controller_cfg import ControllerCfg
 from rapidgen.system.model import System
 
+if TYPE_CHECKING:
+    from rapidgen.config.cell import CellDescription, CellRobotKeys
+    from rapidgen.controller.guessing import Guess
+    from rapidgen.system.controller_cfg import ControllerCfg
+
+# Descriptions, guesses, generated drivers and backups are imported where there is one: the run of a
+# small program takes hardly longer than its imports.
 GUESS = "guess"
 """Instead of a cell's file: whatever the programs name is there."""
 Source = Path | str
@@ -59,8 +54,8 @@ class Bootable:
     driver: bool
     notes: tuple[Diagnostic, ...] = ()
     surroundings: Surroundings = field(default_factory=Surroundings)
-    guessed: Guess | None = None
-    cfg: ControllerCfg | None = None
+    guessed: "Guess | None" = None
+    cfg: "ControllerCfg | None" = None
     """All domains of a backup."""
 
 
@@ -70,19 +65,24 @@ def load_target(targets: Sequence[Source], wishes: Wishes | None = None) -> Boot
     first = Path(targets[0]) if len(targets) == 1 and not wishes.tasks else None
     if first is not None and is_configuration(first):
         _only_of_folders(str(first), wishes)
+        from rapidgen.generate import build, make_system
+
         config = load_config(str(targets[0]), overrides=tuple(wishes.overrides))
         system = make_system(config, build(config))
         return _driver(config, system, tuple(config.diagnostics), wishes)
     notes: list[Diagnostic] = []
-    if first is not None and first.is_dir() and is_generated(first):
-        config = from_manifest(read_manifest(first)["configuration"])
-        system = read_folder(first, wishes.backup, notes=notes)
+    folder = first if first is not None and first.is_dir() else None
+    if folder is not None and files.is_generated(folder):
+        config = from_manifest(files.read_manifest(folder)["configuration"])
+        system = files.read_folder(folder, wishes.backup, notes=notes)
         return _driver(config, system, tuple(notes), wishes)
     _only_of_folders(" ".join(map(str, targets)), wishes)
-    if first is not None and first.is_dir() and is_backup(first):
-        system = _entered(read_backup(first, notes=notes), wishes.entry)
+    if folder is not None and files.is_backup(folder):
+        from rapidgen.system.backup import backup_cfg
+
+        system = _entered(files.read_backup(folder, notes=notes), wishes.entry)
         found = _foreign(system, notes, wishes)
-        return replace(found, cfg=backup_cfg(first, system.robotware, []))
+        return replace(found, cfg=backup_cfg(folder, system.robotware, []))
     # Loose files have no mechanics that could be told.
     return _foreign(_loose(targets, wishes), None, wishes)
 
@@ -102,12 +102,12 @@ def _loose(targets: Sequence[Source], wishes: Wishes) -> System:
             "nothing to run",
             "name a module, a folder with modules, a generated folder or a backup",
         )
-    by_task = {task: list(files) for task, files in wishes.tasks.items()}
+    by_task = {task: list(names) for task, names in wishes.tasks.items()}
     if targets:
         own = by_task.pop("T_ROB1", [])
         by_task = {"T_ROB1": [*own, *targets], **by_task}
     name = Path(next(iter(by_task.values()))[0]).stem
-    return read_files(by_task, entry=wishes.entry or "main", name=name)
+    return files.read_files(by_task, entry=wishes.entry or "main", name=name)
 
 
 def _entered(system: System, entry: str) -> System:
@@ -128,6 +128,8 @@ def _driver(
     config: RobotConfig, system: System, notes: tuple[Diagnostic, ...], wishes: Wishes
 ) -> Bootable:
     """A generated driver's robots are those of its configuration; they start at 0."""
+    from rapidgen.controller.cell import in_its_cell
+
     if wishes.robot:
         raise refusal(
             "RG901",
@@ -142,29 +144,39 @@ def _driver(
 
 def _foreign(system: System, notes: list[Diagnostic] | None, wishes: Wishes) -> Bootable:
     cell = _described(wishes)
-    system = _moving(system, cell)
-    groups, which = mechanics(system, wishes.robot, cell.robots)
+    robots = cell.robots if cell is not None else {}
+    system = _moving(system, robots)
+    groups, which = mechanics(system, wishes.robot, robots)
     told = () if notes is None else (*notes, *which)
     return _surrounded(Bootable(system.name, system, groups, False, told), cell, wishes)
 
 
-def _described(wishes: Wishes) -> CellDescription:
-    told = str(wishes.cell) not in ("", GUESS)
-    return load_cell(Path(wishes.cell)) if told else CellDescription()
+def _described(wishes: Wishes) -> "CellDescription | None":
+    if str(wishes.cell) in ("", GUESS):
+        return None
+    from rapidgen.config.cell import load_cell
+
+    return load_cell(Path(wishes.cell))
 
 
-def _surrounded(found: Bootable, cell: CellDescription, wishes: Wishes) -> Bootable:
+def _surrounded(found: Bootable, cell: "CellDescription | None", wishes: Wishes) -> Bootable:
     guessed = None
     if str(wishes.cell) == GUESS:
+        from rapidgen.controller.guessing import guess
+
         units = [u for g in found.groups for u in (g.mechanical_unit, *g.external_units)]
-        guessed = guess(found.system, units)
+        guessed = guess(found.system, units, in_front(found.groups[0]))
         cell = guessed.cell
+    usual = not found.driver
+    if cell is None:
+        starts = dict(_starts(found.groups, {}, wishes.start, usual=usual))
+        return replace(found, surroundings=Surroundings(starts))
     inputs = [name.casefold() for name, keys in cell.signals.items() if keys.kind.endswith("I")]
     return replace(
         found,
         system=furnish(found.system, cell),
         surroundings=Surroundings(
-            dict(_starts(found.groups, cell, wishes.start, usual=not found.driver)),
+            dict(_starts(found.groups, cell.robots, wishes.start, usual=usual)),
             tuple(reaction for rows in cell.devices.values() for reaction in rows),
             frozenset(inputs if guessed is not None else ()),
             guessed.polled if guessed is not None else (),
@@ -173,10 +185,10 @@ def _surrounded(found: Bootable, cell: CellDescription, wishes: Wishes) -> Boota
     )
 
 
-def _moving(system: System, cell: CellDescription) -> System:
+def _moving(system: System, robots: "Mapping[str, CellRobotKeys]") -> System:
     """The tasks that a cell has a robot for are motion tasks."""
     names = {task.name.casefold(): task.name for task in system.tasks}
-    for task in cell.robots:
+    for task in robots:
         if task.casefold() not in names:
             raise refusal(
                 "RG434",
@@ -184,7 +196,7 @@ def _moving(system: System, cell: CellDescription) -> System:
                 f"the cell has a robot for {task}, and there is no such task",
                 suggest(task, list(names.values())) or f"there are {', '.join(names.values())}",
             )
-    moved = {task.casefold() for task in cell.robots}
+    moved = {task.casefold() for task in robots}
     tasks = (
         replace(t, motion=t.motion or t.name.casefold() in moved) if moved else t
         for t in system.tasks
@@ -193,9 +205,13 @@ def _moving(system: System, cell: CellDescription) -> System:
 
 
 def _starts(
-    groups: Sequence[GroupConfig], cell: CellDescription, first: Sequence[float], *, usual: bool
+    groups: Sequence[GroupConfig],
+    robots: "Mapping[str, CellRobotKeys]",
+    first: Sequence[float],
+    *,
+    usual: bool,
 ) -> Iterator[tuple[str, tuple[float, ...]]]:
-    described = {task.casefold(): robot.start for task, robot in cell.robots.items()}
+    described = {task.casefold(): robot.start for task, robot in robots.items()}
     for i, group in enumerate(groups):
         values = described.get(group.task.casefold())
         if first and i == 0:

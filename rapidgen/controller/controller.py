@@ -8,7 +8,6 @@ from typing import Literal, Self, TypedDict, TypeVar, Unpack
 
 from rapidgen.config.model import GroupConfig, RobotConfig
 from rapidgen.controller.booting import Bootable, Wishes, load_target
-from rapidgen.controller.cell import in_its_cell
 from rapidgen.controller.event_log import ControllerLog
 from rapidgen.controller.faults import FaultPlan
 from rapidgen.controller.faults import schedule as schedule_faults
@@ -18,7 +17,6 @@ from rapidgen.controller.surroundings import Surroundings, settle
 from rapidgen.controller.system_signals import SystemSignals
 from rapidgen.controller.thread import ControllerThread
 from rapidgen.controller.views import Signals, TaskView
-from rapidgen.generate import build, make_system
 from rapidgen.machine.arc_equipment import ArcEquipment
 from rapidgen.machine.costs import Costs
 from rapidgen.machine.files import FileSystem
@@ -275,6 +273,9 @@ class VirtualController:
         """
         if not isinstance(config, RobotConfig):
             return cls.boot(load_target([str(config)], Wishes(overrides=overrides)), **options)
+        from rapidgen.controller.cell import in_its_cell
+        from rapidgen.generate import build, make_system
+
         options.setdefault("robots", tuple(config.groups))
         return cls(in_its_cell(make_system(config, build(config)), config), **options)
 

@@ -3,8 +3,8 @@
 A public program seldom has its controller's configuration beside it. The type of a name is that of
 the parameter that it is an argument of; where it is only read, its first letters tell as ABB's
 examples name signals (di, do, gi, go, ai, ao), and what is compared with 0 or 1 is a digital input.
-Tools have the load of tool0 and stand at the flange, work objects are wobj0. Values of other types
-say something about the program that nobody can guess; they stay unknown.
+Tools have the load of tool0 and are the flange; a work object is a table in front of the robot.
+Values of other types say something about the program that nobody can guess; they stay unknown.
 """
 
 import re
@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from typing import Literal, cast
 
 from rapidgen.config.cell import CellDescription, CellSignalKeys
-from rapidgen.config.model import Load, Tool, WorkObject
+from rapidgen.config.model import Load, Placement, Tool, WorkObject
 from rapidgen.controller.polling import Polled, polled
 from rapidgen.diagnostics import Span
 from rapidgen.rapid import Dialect, parse
@@ -61,8 +61,13 @@ class Guess:
     """Comparisons of guessed inputs in loops."""
 
 
-def guess(system: System, units: Iterable[str] = ()) -> Guess:
-    """The cell that the programs of `system` seem to stand in. `units` are its mechanical units."""
+def guess(
+    system: System, units: Iterable[str] = (), table: tuple[float, float, float] = (0.0, 0.0, 0.0)
+) -> Guess:
+    """The cell that the programs of `system` seem to stand in.
+
+    `units` are its mechanical units, `table` is where work objects are, m.
+    """
     found: dict[str, Named] = {}
     assigned: set[str] = set()
     looked_at: list[Polled] = []
@@ -77,7 +82,7 @@ def guess(system: System, units: Iterable[str] = ()) -> Guess:
             for f in spec.modules
         ]
         for scope in scopes:
-            looked_at += polled(scope)
+            looked_at += polled(scope, spec.entry)
             assigned |= _assigned(scope)
             for one in _undeclared(scope):
                 before = found.setdefault(one.name.casefold(), one)
@@ -96,7 +101,11 @@ def guess(system: System, units: Iterable[str] = ()) -> Guess:
             if kind.startswith("signal")
         },
         tools=tuple(Tool(name, load=_LOAD) for name, kind in made.items() if kind == "tooldata"),
-        work_objects=tuple(WorkObject(name) for name, kind in made.items() if kind == "wobjdata"),
+        work_objects=tuple(
+            WorkObject(name, user_frame=Placement(table))
+            for name, kind in made.items()
+            if kind == "wobjdata"
+        ),
         loads={name: _LOAD for name, kind in made.items() if kind == "loaddata"},
     )
     named = [one for one in found.values() if _can_be_made(one.type)]

@@ -3,14 +3,15 @@
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 from rapidgen.config import load_config, shipped_names
-from rapidgen.config.catalogue import model_description
-from rapidgen.config.cell import CellRobotKeys
 from rapidgen.config.model import GroupConfig
-from rapidgen.config.of_variant import ASSUMED_SPEED, group_of, variant_named, variants_of
 from rapidgen.diagnostics import Diagnostic, Severity, error, refusal
 from rapidgen.system.model import System
+
+if TYPE_CHECKING:
+    from rapidgen.config.cell import CellRobotKeys
 
 DEFAULT_ROBOT = "irb120"
 # MOC.cfg of backups: ROB1_4600_2.55_40, ROB_R_14000_05_05, ROB1_910SC_0.55_3, ROB1_15000_0_95_5.
@@ -54,7 +55,7 @@ def groups_for(system: System, robots: Sequence[GroupConfig]) -> tuple[GroupConf
 
 
 def mechanics(
-    system: System, robot: str = "", own: Mapping[str, CellRobotKeys] | None = None
+    system: System, robot: str = "", own: "Mapping[str, CellRobotKeys] | None" = None
 ) -> tuple[tuple[GroupConfig, ...], tuple[Diagnostic, ...]]:
     """A robot for each motion task: the one that is named for it (`own`, by task) or for all
     (`robot`), else of the type that a backup tells.
@@ -68,8 +69,8 @@ def mechanics(
     groups: list[GroupConfig] = []
     notes: list[Diagnostic] = []
     for i, task in enumerate(motion_tasks(system)):
-        keys = given.get(task.casefold(), CellRobotKeys())
-        model = keys.model or robot
+        keys = given.get(task.casefold())
+        model = (keys.model if keys is not None else "") or robot
         robots: Sequence[GroupConfig] = ()
         if model:
             robots = _chosen(model)
@@ -82,19 +83,24 @@ def mechanics(
             notes.append(_stands_in(f"nothing tells the mechanics: moving an {DEFAULT_ROBOT}"))
         group = next(g for g in groups_for(system, robots) if g.task == task)
         taken = any(other.name == group.name for other in groups)
-        groups.append(
-            replace(
+        if taken:
+            group = replace(group, name=f"{group.name}_{i + 1}")
+        if keys is not None:
+            group = replace(
                 group,
-                name=f"{group.name}_{i + 1}" if taken else group.name,
                 mechanical_unit=keys.mechanical_unit or group.mechanical_unit,
                 external_units=tuple(keys.external_units) or group.external_units,
             )
-        )
+        groups.append(group)
     return tuple(groups), tuple(dict.fromkeys(notes))
 
 
 def _chosen(name: str) -> Sequence[GroupConfig]:
     """The robots that a user names: a shipped model, a configuration, a variant of the library."""
+    from rapidgen.config.of_variant import group_of, variant_named
+
+    if name in shipped_names():
+        return load_config(name).groups
     variant = variant_named(name)
     group = group_of(variant) if variant is not None else None
     return (group,) if group is not None else load_config(name).groups
@@ -102,6 +108,9 @@ def _chosen(name: str) -> Sequence[GroupConfig]:
 
 def _of_type(name: str, unit: str) -> tuple[Sequence[GroupConfig], list[Diagnostic]]:
     """The robots of a type in MOC.cfg: of the very variant, else of the model of its number."""
+    from rapidgen.config.catalogue import model_description
+    from rapidgen.config.of_variant import ASSUMED_SPEED, group_of, variants_of
+
     very, kin = variants_of(name)
     model = model_of(name)
     if very is not None and not very.model:

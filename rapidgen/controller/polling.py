@@ -36,13 +36,14 @@ class Polled:
     value: float
 
 
-def polled(scope: ModuleScope) -> Iterator[Polled]:
-    """All of a module."""
+def polled(scope: ModuleScope, entry: str) -> Iterator[Polled]:
+    """All of a module. The routine that a task starts in is a loop: it is executed in cycles."""
     source = scope.tree.source
     for routine in scope.tree.routines:
         inside = scope.routine(routine)
         for loop in walk(routine):
-            if not isinstance(loop, n.While):
+            cycle = loop is routine and routine.name.lower() == entry.lower()
+            if not cycle and not isinstance(loop, n.While):
                 continue
             lines = source.line(loop.first), source.line(loop.last)
             for node in walk(loop):

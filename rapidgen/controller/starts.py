@@ -8,6 +8,7 @@ import math
 import re
 from collections.abc import Sequence
 
+from rapidgen.axes.kinematics import Kinematics
 from rapidgen.axes.mapping import JointMap
 from rapidgen.config.model import GroupConfig
 from rapidgen.diagnostics import refusal
@@ -34,6 +35,16 @@ def usual_start(group: GroupConfig) -> tuple[float, ...]:
         min(max(math.radians(degrees.get(joint.axis, 0.0)), joint.lower), joint.upper)
         for joint in group.joints
     )
+
+
+def in_front(group: GroupConfig) -> tuple[float, float, float]:
+    """Where a table may stand that the robot reaches: below its flange at the usual start, at a
+    third of the height. The origin for a model without geometry."""
+    kinematics = Kinematics.of(group)
+    if kinematics is None:
+        return (0.0, 0.0, 0.0)
+    (x, y, z), _ = kinematics.forward(usual_start(group))
+    return (x, y, z / 3)
 
 
 def start_of(group: GroupConfig, values: Sequence[float], where: str) -> tuple[float, ...]:

@@ -3,18 +3,22 @@ where its robots stand at first, and devices that answer signals."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
-from rapidgen.config.cell import CellDescription, ReactionKeys
-from rapidgen.controller.polling import Buttons, Polled
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, error, suggest
-from rapidgen.generate.context import load_literal, tool_literal, work_object_literal
 from rapidgen.machine.io import Awaited, IOSystem
+from rapidgen.machine.log import EventLog
 from rapidgen.machine.scheduler import S, Scheduler
 from rapidgen.motion.system import MotionSystem
 from rapidgen.runtime.task.task import Task
 from rapidgen.system.model import ModuleFile, SignalSpec, System
 
+if TYPE_CHECKING:
+    from rapidgen.config.cell import CellDescription, ReactionKeys
+    from rapidgen.controller.polling import Polled
+
+GUESSED = 49_910
+"""Event: an input that nobody drives became what a program waits for. The number is ours."""
 _PATIENCE = 0.5
 """Seconds that a program waits for a guessed input."""
 Posture = tuple[float, ...]
@@ -27,15 +31,19 @@ class Surroundings:
 
     starts: Mapping[str, Posture] = field(default_factory=dict)
     """Where the robots stand, by motion group; others stand at 0."""
-    reactions: Sequence[ReactionKeys] = ()
+    reactions: "Sequence[ReactionKeys]" = ()
     guessed: frozenset[str] = frozenset()
     """Inputs that nobody drives, lower case: they become what somebody waits for."""
-    polled: tuple[Polled, ...] = ()
+    polled: "tuple[Polled, ...]" = ()
     """Where programs look for them in loops."""
 
 
 class Booted(Protocol):
     """A controller that is put into its surroundings."""
+
+    @property
+    def log(self) -> EventLog:
+        """Its event log."""
 
     io: IOSystem
     motion: MotionSystem
@@ -43,7 +51,7 @@ class Booted(Protocol):
     rapid_tasks: dict[str, Task]
 
 
-def furnish(system: System, cell: CellDescription) -> System:
+def furnish(system: System, cell: "CellDescription") -> System:
     """`system` with the signals and the data of `cell` that it does not have itself.
 
     The data are those of an installed module: a program's own hide them. Raises DiagnosticError
@@ -79,7 +87,9 @@ def furnish(system: System, cell: CellDescription) -> System:
     return replace(system, tasks=tuple(tasks))
 
 
-def _data(cell: CellDescription) -> Iterator[tuple[str, str, str]]:
+def _data(cell: "CellDescription") -> Iterator[tuple[str, str, str]]:
+    from rapidgen.generate.context import load_literal, tool_literal, work_object_literal
+
     for tool in cell.tools:
         yield "tooldata", tool.name, tool_literal(tool)
     for wobj in cell.work_objects:
@@ -88,7 +98,7 @@ def _data(cell: CellDescription) -> Iterator[tuple[str, str, str]]:
         yield "loaddata", name, load_literal(load)
 
 
-def _nameless(system: System, cell: CellDescription) -> Iterator[Diagnostic]:
+def _nameless(system: System, cell: "CellDescription") -> Iterator[Diagnostic]:
     names = {signal.name.casefold(): signal.name for signal in system.signals}
     for device, reactions in cell.devices.items():
         for reaction in reactions:
@@ -117,6 +127,7 @@ def settle(controller: Booted, around: Surroundings) -> list[tuple[str, float]]:
         def give() -> None:
             if value is not None and not awaited.holds():
                 answered.append((signal.name, value))
+                controller.log.info(GUESSED, "Guessed input", f"{signal.name} becomes {value:g}")
                 controller.io.set(signal, value)
 
         if signal.name.casefold() in around.guessed:
@@ -125,11 +136,13 @@ def settle(controller: Booted, around: Surroundings) -> list[tuple[str, float]]:
     if around.guessed:
         controller.io.on_awaited = answer
     if around.polled:
+        from rapidgen.controller.polling import Buttons
+
         Buttons(controller, around.polled, answered)
     return answered
 
 
-def _watch(controller: Booted, reaction: ReactionKeys) -> None:
+def _watch(controller: Booted, reaction: "ReactionKeys") -> None:
     io = controller.io
     held = False
 

@@ -38,7 +38,7 @@ def loopback(host: str) -> str:
             "RG560",
             None,
             f"the servers of a virtual controller listen on loopback only, not on {host}",
-            "use --host 127.0.0.1, or leave out --ftp and --sftp",
+            "use --host 127.0.0.1, or leave out --ftp and --sftp; --rws wants a RAPIDGEN_PASSWORD",
         )
     return name
 

@@ -35,7 +35,7 @@ class Shape(Protocol):
 
 
 @dataclass(frozen=True, slots=True)
-class Box:
+class BoxVolume:
     """Sides parallel to the world's."""
 
     low: Vector

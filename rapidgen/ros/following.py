@@ -15,7 +15,7 @@ from rapidgen.client.aio import AsyncExecution, AsyncRobot
 from rapidgen.client.core.motion import Result
 from rapidgen.client.errors import MotionError, MotionStopped, RobotError, StopFailed
 from rapidgen.client.trajectory import Array, Trajectory
-from rapidgen.ros.goals import Asked, Code, Defaults, Ending, Goal, GoalRefused, Outcome, judge
+from rapidgen.ros.goals import Code, Defaults, Ending, Goal, GoalRefused, JudgedGoal, Outcome, judge
 from rapidgen.wire.simple_message.spec import Feature, TrajectoryState
 
 _APPROACH = 0.1
@@ -130,7 +130,7 @@ class Follower:
         self._current = under
 
     async def _carried_out(
-        self, asked: Asked, under: UnderWay, tell: Callable[[GoalFeedback], None]
+        self, asked: JudgedGoal, under: UnderWay, tell: Callable[[GoalFeedback], None]
     ) -> Outcome:
         if await self._waited(asked.start or 0.0, under):
             return _ended_early(under, "before it started: nothing moved")
@@ -160,7 +160,7 @@ class Follower:
             await _cancelled(ending)
         return under.ending.is_set()
 
-    def _fitted(self, asked: Asked) -> Asked:
+    def _fitted(self, asked: JudgedGoal) -> JudgedGoal:
         """The points as the user's policy has them sent. Raises GoalRefused."""
         if asked.watches_path and not self._measures:
             raise GoalRefused(
@@ -180,7 +180,7 @@ class Follower:
     def _measures(self) -> bool:
         return Feature.FEEDBACK in self._robot.driver.features
 
-    def _approached(self, asked: Asked) -> Asked:
+    def _approached(self, asked: JudgedGoal) -> JudgedGoal:
         group, state, trajectory = self._robot.group, self._robot.state, asked.trajectory
         here, first = np.array(state.joints), trajectory.positions[0]
         # Where the controller takes it as it is, nothing is added.
@@ -215,7 +215,7 @@ class Follower:
 
     async def _until_over(
         self,
-        asked: Asked,
+        asked: JudgedGoal,
         execution: AsyncExecution,
         under: UnderWay,
         tell: Callable[[GoalFeedback], None],
@@ -242,7 +242,7 @@ class Follower:
         finally:
             await _cancelled(result, watching, ending)
 
-    async def _watch(self, asked: Asked, tell: Callable[[GoalFeedback], None]) -> Outcome:
+    async def _watch(self, asked: JudgedGoal, tell: Callable[[GoalFeedback], None]) -> Outcome:
         """Tell feedback; returns when a tolerance is violated."""
         since: float | None = None
         before = desired = 0.0
@@ -284,7 +284,7 @@ class Follower:
                 state = await robot.next_state(math.inf)
                 yield state.time, np.array(state.joints), np.array(state.velocity)
 
-    def _reached(self, asked: Asked, result: Result) -> Outcome:
+    def _reached(self, asked: JudgedGoal, result: Result) -> Outcome:
         """DONE, and whether the robot stands where it was asked to."""
         off = np.abs(np.array(result.state.joints) - asked.trajectory.positions[-1])
         worst = int(np.argmax(off - asked.goal))
@@ -299,7 +299,7 @@ class Follower:
         return Outcome(Ending.SUCCEEDED, Code.SUCCESSFUL, "; ".join((told, *asked.notes)))
 
 
-def resampled(asked: Asked, shortest: float) -> Asked:
+def resampled(asked: JudgedGoal, shortest: float) -> JudgedGoal:
     """Points at least `shortest` s apart, where some are nearer; how far off is noted."""
     trajectory = asked.trajectory
     times = trajectory.times
@@ -317,7 +317,7 @@ def resampled(asked: Asked, shortest: float) -> Asked:
     return asked.with_trajectory(fresh, note)
 
 
-def with_time_to_stop(asked: Asked, shortest: float) -> Asked:
+def with_time_to_stop(asked: JudgedGoal, shortest: float) -> JudgedGoal:
     """A last segment below `shortest` s is given that time; the way is the same.
 
     Planners that sample at a period leave such a rest at the end of nearly every path.
@@ -332,7 +332,7 @@ def with_time_to_stop(asked: Asked, shortest: float) -> Asked:
     return asked.with_trajectory(fresh, note)
 
 
-def _violation(asked: Asked, told: GoalFeedback, window: float) -> Outcome | None:
+def _violation(asked: JudgedGoal, told: GoalFeedback, window: float) -> Outcome | None:
     """What of the tolerances does not hold, or None.
 
     When the robot began to move is known to one sample: it is compared with all that was asked

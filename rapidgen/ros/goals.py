@@ -111,7 +111,7 @@ class Defaults:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Asked:
+class JudgedGoal:
     """A goal that may be sent: `trajectory` in the robot's order of joints, `velocities` (n, k)
     rad/s or m/s where they were given; tolerances (k,), `inf` where nothing is looked at."""
 
@@ -145,12 +145,12 @@ class Asked:
         """Whether the way, not only its end, has a tolerance."""
         return bool(np.isfinite(self.path).any() or np.isfinite(self.path_velocity).any())
 
-    def with_trajectory(self, trajectory: Trajectory, *notes: str) -> "Asked":
+    def with_trajectory(self, trajectory: Trajectory, *notes: str) -> "JudgedGoal":
         """The same by other points of the same way."""
         return replace(self, trajectory=trajectory, velocities=None, notes=(*self.notes, *notes))
 
 
-def judge(goal: Goal, names: Sequence[str], defaults: Defaults, now: float) -> Asked:
+def judge(goal: Goal, names: Sequence[str], defaults: Defaults, now: float) -> JudgedGoal:
     """A goal for the joints `names`, at `now` s of ROS time. Raises GoalRefused."""
     _check_names(goal.names, names)
     if goal.has_multi_dof:
@@ -172,7 +172,7 @@ def judge(goal: Goal, names: Sequence[str], defaults: Defaults, now: float) -> A
     tolerances = _Tolerances(names, defaults)
     path = tolerances.read(goal.path_tolerance, "path_tolerance", defaults.path)
     end = tolerances.read(goal.goal_tolerance, "goal_tolerance", defaults.goal)
-    return Asked(
+    return JudgedGoal(
         Trajectory(times, positions, tuple(names)),
         velocities,
         _start(goal.stamp, now, defaults.late),

@@ -7,6 +7,7 @@ from rapidgen.config.cell import load_cell
 from rapidgen.controller import VirtualController
 from rapidgen.controller.booting import Wishes, load_target
 from rapidgen.controller.starts import shown, usual_start
+from rapidgen.controller.surroundings import GUESSED
 from rapidgen.diagnostics import DiagnosticError
 
 PROGRAM = r"""MODULE work
@@ -89,6 +90,9 @@ def test_a_guessed_cell_has_what_the_program_names(program):
     }
     assert [(one.name, one.type) for one in found.guessed.unknown] == [("clock9", "clock")]
     assert found.guessed.named[0].span.line == 3
+    (table,) = found.guessed.cell.work_objects
+    x, y, z = table.user_frame.position
+    assert (0.3 < x < 0.4, y, 0.1 < z < 0.3) == (True, 0, True), "an IRB 120 reaches it"
 
 
 def test_what_a_program_waits_for_on_a_guessed_input_comes_half_a_second_later(tmp_path):
@@ -101,6 +105,9 @@ def test_what_a_program_waits_for_on_a_guessed_input_comes_half_a_second_later(t
         assert controller.run(max_time=60) == "finished"
         assert controller.answered == [("diA", 1), ("diA", 0), ("giB", 7), ("giB", 2), ("diA", 1)]
         assert controller.now == pytest.approx(2.0, abs=0.25)
+        said = [event.texts for event in controller.log if event.code == GUESSED]
+        assert said[0] == ("diA becomes 1",)
+        assert len(said) == 5
 
 
 def test_without_a_cell_nothing_is_made_up(program):
@@ -175,6 +182,16 @@ def test_a_guessed_input_that_is_looked_at_in_a_loop_is_pressed(tmp_path):
         assert controller.run(max_time=20) == "finished"
         assert controller.answered[:2] == [("DI_1", 1), ("start", 1)]
         assert controller.signals["DI_1"] == 0, "a button is let go"
+
+
+def test_the_routine_that_a_task_starts_in_is_such_a_loop(tmp_path):
+    path = tmp_path / "cycles.mod"
+    path.write_text(
+        "MODULE cycles\n PERS num done := 0;\n PROC main()\n  IF DI_1 = 1 Incr done;\n"
+        "  WaitTime 0.1;\n ENDPROC\nENDMODULE\n"
+    )
+    with VirtualController.from_files([path], cell="guess", cycle="forever") as controller:
+        assert controller.run_until(lambda: controller.task("T_ROB1")["cycles:done"] > 1, timeout=5)
 
 
 def test_a_guessed_cell_does_not_hide_a_deadlock(tmp_path):

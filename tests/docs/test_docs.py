@@ -1,9 +1,10 @@
 """The documentation's commands and Python examples run as they stand.
 
 Fenced blocks: `console` (lines starting with `$ `, run in order in one scratch folder for each
-document; a command ending in ` &` is waited for until it says `ready`), `python` (all blocks of
-a document are one program). `sh` blocks set a machine up, `text` blocks are output: not run, but
-the commands and options that stand anywhere as code exist.
+document, where blocks that have a file's name behind their kind lie as files; a command ending in
+` &` is waited for until it says `ready`), `python` (all blocks of a document are one program). `sh`
+blocks set a machine up, `text` blocks are output: not run, but the commands and options that stand
+anywhere as code exist.
 A comment `# exit N` behind a command states its exit code.
 """
 
@@ -32,6 +33,13 @@ def blocks(path, kind):
     ]
 
 
+def files(path):
+    """(name, text) of the blocks that are files: ```yaml cell.yaml."""
+    return re.findall(
+        r"^```\w+ ([\w.]+)\n(.*?)^```$", path.read_text("utf-8"), re.MULTILINE | re.DOTALL
+    )
+
+
 @pytest.fixture
 def environment():
     binaries = str(Path(sys.executable).parent)
@@ -41,6 +49,8 @@ def environment():
 @pytest.mark.parametrize("path", [p for p in PAGES if blocks(p, "console")], ids=lambda p: p.name)
 def test_commands(path, tmp_path, environment):
     servers = []
+    for name, text in files(path):
+        (tmp_path / name).write_text(text, encoding="utf-8")
     try:
         for block in blocks(path, "console"):
             for line in re.sub(r"\\\n", "", block).splitlines():
@@ -48,7 +58,7 @@ def test_commands(path, tmp_path, environment):
                     continue
                 command, _, wanted = line[2:].partition("# exit ")
                 words = shlex.split(command, comments=True)
-                assert words[0] in ("rapidgen", "cat", "ls"), line
+                assert words[0] in ("rapidgen", "cat", "ls", "pytest"), line
                 if words[-1] == "&":
                     server = subprocess.Popen(
                         words[:-1], stdout=subprocess.PIPE, text=True, cwd=tmp_path, env=environment

@@ -1,8 +1,8 @@
 """What clients of Robot Web Services find here, as Python calls instead of HTTP.
 
-`Face` has the methods of `abb_robot_client.rws.RWS` that public clients use. The controller
-has no HTTP server: a trial puts a face in that class's place, and everything else of the client
-stays as it is.
+`Face` has the methods of `abb_robot_client.rws.RWS` that public clients use. A trial that is not
+about HTTP puts a face in that class's place, and everything else of the client stays as it is;
+`tests/faces/rws/test_foreign_clients.py` has the class itself against the served face.
 """
 
 from collections import namedtuple

@@ -15,11 +15,12 @@ import statistics
 import sys
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from rapidgen.controller import VirtualController
 from rapidgen.controller.booting import Wishes, load_target
+from rapidgen.controller.controller import Cycle
 from rapidgen.controller.tracing import Coverage
 from rapidgen.diagnostics import DiagnosticError, Severity
 from rapidgen.rapid import check
@@ -34,6 +35,7 @@ _MISFIT = re.compile("REACH|ROBLIMIT|not compatible|singularity")
 _PARTNER = re.compile(r"Socket|bytes from|waits for an answer|message|ERR_SOCK|ERR_FILE|ERR_TP_")
 _TIME = 300.0
 _STATEMENTS = 2_000_000
+_LITTLE = 0.6
 GOOD = ("whole", "waits for a partner", "goes round")
 
 
@@ -53,13 +55,22 @@ class Outcome:
 
 
 def trial(program: Program, robot: str = "") -> Outcome:
+    """One cycle of main; where that reaches little, and looks at inputs, cycles for a while."""
+    once = cycles(program, robot, "once")
+    if once.end == "whole" and once.share < _LITTLE:
+        more = cycles(program, robot, "forever")
+        return replace(more, end="whole" if more.end == "goes round" else more.end)
+    return once
+
+
+def cycles(program: Program, robot: str, cycle: Cycle) -> Outcome:
     """Load, start, run until it ends, or for a while."""
     try:
         found = load_target(program.files, Wishes(cell="guess", robot=robot))
         errors = [d for d in check(found.system, gaps=True) if d.severity is Severity.ERROR]
         if errors:
             raise DiagnosticError(errors)
-        controller = VirtualController.boot(found, cycle="once", tracing=True, autostart=False)
+        controller = VirtualController.boot(found, cycle=cycle, tracing=True, autostart=False)
     except DiagnosticError as error:
         wrong = [d for d in error.diagnostics if d.severity is Severity.ERROR]
         notes = tuple(

@@ -109,3 +109,11 @@ def test_what_no_program_can_write():
     data = signatures.predefined().values()
     assert {d.name for d in data if d.readonly and d.kind != "CONST"} == {"ERRNO", "INTNO"}
     assert [d.name for d in data if not d.readonly and d.kind == "CONST"] == ["vmax"]
+
+
+def test_what_is_known_whole_stands_in_no_list_of_bare_names():
+    listed = signatures.option_names
+    assert {n.lower() for n in signatures.type_names()} & listed("types") == set()
+    routines = {n.lower() for n in signatures.routine_names()}
+    assert routines & (listed("procedures") | listed("functions")) == set()
+    assert set(signatures.predefined()) & listed("values") == set()

@@ -108,10 +108,25 @@ def test_a_statement_that_looks_into_them_says_what_it_needs(statement):
     out, controller = printed(f'TPWrite "before";\n{statement}', DATA, USES)
     fault = controller.task("T_ROB1").fault
     assert out == ["before"]
-    assert fault.arguments[0].startswith("nothing declares pm_info, the type of ")
+    assert fault.arguments[0].startswith("nothing declares pm_info, which ")
 
 
-@pytest.mark.parametrize("body", ["SetTmSignal n;"])
+def test_data_whose_size_another_module_has_are_missed_when_they_are_reached():
+    """[code] ROS_motion.mod of abb_driver alone: MAX_TRAJ_LENGTH is in ROS_common.sys."""
+    data = "VAR robtarget way{MAX_LENGTH};\nCONST num half := MAX_LENGTH / 2;\nVAR num n;"
+    out, controller = printed('TPWrite "before";\nway{1} := CRobT();\nn := half;', data)
+    fault = controller.task("T_ROB1").fault
+    assert out == ["before"]
+    assert fault.arguments == ("nothing declares max_length, which way needs",)
+    assert [d.code for d in controller.diagnostics] == ["RG404"]
+
+
+def test_a_signal_that_is_not_here_may_be_named_like_a_type():
+    out, _ = printed('TPWrite "before";\nWaitDI SENSOR, 1;\nTPWrite "after";')
+    assert out == ["before", UNKNOWN, "after"]
+
+
+@pytest.mark.parametrize("body", ["SetTmSignal n;", "n := PathLengthGet();"])
 def test_a_routine_of_an_option_is_missed_when_it_is_reached(body):
     out, controller = printed(f'TPWrite "before";\n{body}', "VAR num n;")
     assert out == ["before"]

@@ -215,8 +215,8 @@ def test_hostile_authorization_lets_nobody_in(text):
 
 def test_a_subscription_is_asked_for_and_told():
     wanted = [
-        events.Wanted("/rw/panel/opmode", 1),
-        events.Wanted("/rw/iosystem/signals/a;state", 2),
+        events.WantedResource("/rw/panel/opmode", 1),
+        events.WantedResource("/rw/iosystem/signals/a;state", 2),
     ]
     assert events.read_wanted(read_form(write_form(events.write_wanted(wanted)))) == wanted
     # Indices from 0, one `resources` for all, `;` as %3B: public clients do so.

@@ -36,7 +36,7 @@ class HttpReply:
 
 
 @dataclass(frozen=True, slots=True)
-class Asked:
+class RwsRequest:
     """A request that has been let in, taken apart. `names` are the path's own."""
 
     generation: Generation

@@ -10,7 +10,7 @@ from functools import partial
 
 from rapidgen.controller.cabinet import Cabinet
 from rapidgen.faces.rws import handlers as handlers
-from rapidgen.faces.rws.asking import Asked, Denied, HttpReply, Received, Served
+from rapidgen.faces.rws.asking import Denied, HttpReply, Received, RwsRequest, Served
 from rapidgen.faces.rws.office import Accounts, Office
 from rapidgen.faces.rws.routing import find
 from rapidgen.faces.rws.sessions import Session, Sessions
@@ -154,7 +154,7 @@ class Desk:
                 raise Denied(405, "E_INVALIDARG", f"{got.method} {path}")
             raise Denied(404, "E_UNRESOLVED_URL", path)
         form = got.method == "POST" or path.startswith("/subscription")
-        asked = Asked(
+        asked = RwsRequest(
             self.generation, session, path, suffix, found.names, query,
             self._form(got) if form else (), got.body,
             plain(got.headers.get("content-type", "")), got.headers.get("host", ""),

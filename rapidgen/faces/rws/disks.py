@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rapidgen.faces.rws.asking import Asked, Denied
+from rapidgen.faces.rws.asking import Denied, RwsRequest
 from rapidgen.machine.files import DiskFault
 
 if TYPE_CHECKING:
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 VOLUMES = ("HOME", "TEMP", "BACKUP", "RAMDISK")
 
 
-def disk_path(office: "Office", words: str, asked: Asked) -> Path:
+def disk_path(office: "Office", words: str, asked: RwsRequest) -> Path:
     """Where `$HOME/a`, `HOME/a`, `HOME:/a` or `/fileservice/...` of these lies.
 
     Denied: it names no volume, or leads out of one.

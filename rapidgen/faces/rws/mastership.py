@@ -7,7 +7,7 @@ belongs to a control station and outlives the session [VC 6.16, VC 7.21, VC 8.1.
 from collections.abc import Callable
 from typing import Literal
 
-from rapidgen.faces.rws.asking import Asked, Denied
+from rapidgen.faces.rws.asking import Denied, RwsRequest
 from rapidgen.faces.rws.sessions import Session
 from rapidgen.wire.rws.bodies import Generation
 
@@ -62,7 +62,7 @@ class Masters:
         if domain not in self.domains:
             raise Denied(404, "E_UNRESOLVED_URL", f"no domain {domain}")
 
-    def need(self, asked: Asked, domain: Domain) -> None:
+    def need(self, asked: RwsRequest, domain: Domain) -> None:
         """What this request does takes mastership. Denied: the session does not have it."""
         self.need_mode()
         if self._generation is Generation.EIGHT:
@@ -88,7 +88,7 @@ class Masters:
         if self._mode() != "auto" and self._strict:
             raise Denied(403, "E_MODE_REJECT", "not in automatic mode", -4_502)
 
-    def need_start(self, asked: Asked) -> None:
+    def need_start(self, asked: RwsRequest) -> None:
         """A start: on RobotWare 8 with write access, and motion allowed [real 8.1.0]."""
         if self._generation is Generation.EIGHT:
             self.need(asked, "rapid")

@@ -2,12 +2,12 @@
 
 from collections.abc import Sequence
 
-from rapidgen.faces.rws.asking import Asked, Denied, Served, show
+from rapidgen.faces.rws.asking import Denied, RwsRequest, Served, show
 from rapidgen.wire.rws.bodies import Item
 
 
 def page(
-    asked: Asked, items: Sequence[Item], most: int, name: str, *, always: bool = False
+    asked: RwsRequest, items: Sequence[Item], most: int, name: str, *, always: bool = False
 ) -> Served:
     """The asked page of items, at most `most`; `always`: RWS 1.0 cuts them, too."""
     if asked.is_one and not always:

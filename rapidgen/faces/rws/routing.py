@@ -6,14 +6,14 @@ from dataclasses import dataclass
 from functools import cache
 from typing import TYPE_CHECKING
 
-from rapidgen.faces.rws.asking import Asked, Served
+from rapidgen.faces.rws.asking import RwsRequest, Served
 from rapidgen.wire.rws.bodies import Generation
 from rapidgen.wire.rws.operations import Route, RwsOperation
 
 if TYPE_CHECKING:
     from rapidgen.faces.rws.office import Office
 
-Handler = Callable[["Office", Asked], Served | None]
+Handler = Callable[["Office", RwsRequest], Served | None]
 _TABLE: list[tuple[RwsOperation, Handler]] = []
 
 

@@ -7,11 +7,11 @@ Events are XHTML in either generation; a signal's event repeats the text that wa
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 
-from rapidgen.faces.rws.asking import Asked, Denied
+from rapidgen.faces.rws.asking import Denied, RwsRequest
 from rapidgen.faces.rws.sessions import Session
 from rapidgen.machine.scheduler import Scheduler, Timer
 from rapidgen.wire.rws.bodies import Generation, Item
-from rapidgen.wire.rws.events import Wanted, write_events
+from rapidgen.wire.rws.events import WantedResource, write_events
 
 _PERIODS = {0: 5_000_000_000, 1: 200_000_000, 2: 0}
 MOST_RESOURCES, MOST_GROUPS, MOST_HIGH = 1000, 2, 64
@@ -38,7 +38,7 @@ class Watched:
 class _Watch:
     """One resource of a group."""
 
-    wanted: Wanted
+    wanted: WantedResource
     seen: Watched
     timer: Timer | None = None
     end: Callable[[], None] = lambda: None
@@ -66,7 +66,7 @@ class Groups:
         self,
         generation: Generation,
         scheduler: Callable[[], Scheduler],
-        watched: Callable[[Asked, Wanted], Watched],
+        watched: Callable[[RwsRequest, WantedResource], Watched],
     ) -> None:
         """`watched` finds a resource, or refuses it."""
         self._generation = generation
@@ -82,7 +82,7 @@ class Groups:
             raise Denied(404, "E_UNRESOLVED_URL", f"no subscription {number}")
         return group
 
-    def begin(self, asked: Asked, wanted: Iterable[Wanted]) -> EventGroup:
+    def begin(self, asked: RwsRequest, wanted: Iterable[WantedResource]) -> EventGroup:
         """A new group. Denied: too many, or something that cannot be watched."""
         own = sum(g.session is asked.session for g in self._groups.values())
         if own >= MOST_GROUPS:
@@ -94,7 +94,7 @@ class Groups:
         asked.session.on_end.append(lambda: self.end(group))
         return group
 
-    def add(self, asked: Asked, group: EventGroup, wanted: Iterable[Wanted]) -> None:
+    def add(self, asked: RwsRequest, group: EventGroup, wanted: Iterable[WantedResource]) -> None:
         """More resources for a group, all or none. Denied."""
         found = [_Watch(one, self._watched(asked, one)) for one in wanted]
         every = [*group.watches, *found]

@@ -5,7 +5,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 from urllib.parse import unquote
 
-from rapidgen.faces.rws.asking import Asked, Denied
+from rapidgen.faces.rws.asking import Denied, RwsRequest
 from rapidgen.faces.rws.handlers import execution, panel, signals, symbols, tasks
 from rapidgen.faces.rws.subscriptions import Told, Watched
 from rapidgen.machine.log import Event
@@ -13,14 +13,14 @@ from rapidgen.machine.scheduler import WaitSet
 from rapidgen.runtime.text import literal_text
 from rapidgen.runtime.values import PersistentCell
 from rapidgen.wire.rws.bodies import Item
-from rapidgen.wire.rws.events import Wanted
+from rapidgen.wire.rws.events import WantedResource
 from rapidgen.wire.rws.operations import SYMBOL
 
 if TYPE_CHECKING:
     from rapidgen.faces.rws.office import Office
 
 
-def watched(office: "Office", asked: Asked, wanted: Wanted) -> Watched:
+def watched(office: "Office", asked: RwsRequest, wanted: WantedResource) -> Watched:
     """The resource of a text such as `/rw/panel/ctrlstate`. Denied: nothing of the kind."""
     path, _, suffix = wanted.resource.partition(";")
     path = unquote(path).rstrip("/")
@@ -31,7 +31,7 @@ def watched(office: "Office", asked: Asked, wanted: Wanted) -> Watched:
     raise Denied(400, "E_INVALIDARG", f"cannot be subscribed: {wanted.resource}")
 
 
-_Make = Callable[["Office", Asked, str, str, re.Match[str]], Watched]
+_Make = Callable[["Office", RwsRequest, str, str, re.Match[str]], Watched]
 
 
 def _on(wait: WaitSet, now: Callable[[], object], item: Callable[[], Item]) -> Watched:
@@ -53,7 +53,9 @@ def _on(wait: WaitSet, now: Callable[[], object], item: Callable[[], Item]) -> W
 
 
 def _panel(kind: str, name: str, read: Callable[["Office"], str]) -> _Make:
-    def make(office: "Office", _a: Asked, text: str, suffix: str, _m: re.Match[str]) -> Watched:
+    def make(
+        office: "Office", _a: RwsRequest, text: str, suffix: str, _m: re.Match[str]
+    ) -> Watched:
         if suffix not in ("", name):
             raise Denied(400, "E_INVALIDARG", f"cannot be subscribed: {text}")
         href = text.partition(";")[0]
@@ -67,7 +69,7 @@ def _panel(kind: str, name: str, read: Callable[["Office"], str]) -> _Make:
 
 
 def _execution(
-    office: "Office", _asked: Asked, text: str, suffix: str, _m: re.Match[str]
+    office: "Office", _asked: RwsRequest, text: str, suffix: str, _m: re.Match[str]
 ) -> Watched:
     kinds = {"ctrlexecstate": "rap-ctrlexecstate-ev", "rapidexeccycle": "rap-execcycle-ev"}
     if suffix not in kinds:
@@ -83,7 +85,7 @@ def _execution(
     return _on(office.controller.operation.changed, read, item)
 
 
-def _task(office: "Office", asked: Asked, text: str, suffix: str, m: re.Match[str]) -> Watched:
+def _task(office: "Office", asked: RwsRequest, text: str, suffix: str, m: re.Match[str]) -> Watched:
     task = tasks.find_task(office, m["task"], asked)
     if suffix != "excstate":
         raise Denied(400, "E_INVALIDARG", f"cannot be subscribed: {text}")
@@ -95,7 +97,7 @@ def _task(office: "Office", asked: Asked, text: str, suffix: str, m: re.Match[st
     return _on(office.controller.operation.changed, lambda: task.state, item)
 
 
-def _signal(office: "Office", _a: Asked, text: str, suffix: str, m: re.Match[str]) -> Watched:
+def _signal(office: "Office", _a: RwsRequest, text: str, suffix: str, m: re.Match[str]) -> Watched:
     if suffix != "state":
         raise Denied(400, "E_INVALIDARG", f"cannot be subscribed: {text}")
     signal = signals.find(office, m["signal"])
@@ -114,7 +116,9 @@ def _signal(office: "Office", _a: Asked, text: str, suffix: str, m: re.Match[str
     return Watched(item, watch, fast=True)
 
 
-def _symbol(office: "Office", asked: Asked, text: str, suffix: str, m: re.Match[str]) -> Watched:
+def _symbol(
+    office: "Office", asked: RwsRequest, text: str, suffix: str, m: re.Match[str]
+) -> Watched:
     route = SYMBOL.route(asked.generation)
     assert route is not None
     if suffix != "value":
@@ -140,7 +144,7 @@ def _symbol(office: "Office", asked: Asked, text: str, suffix: str, m: re.Match[
     return Watched(item, watch, fast=True)
 
 
-def _elog(office: "Office", _a: Asked, text: str, _suffix: str, m: re.Match[str]) -> Watched:
+def _elog(office: "Office", _a: RwsRequest, text: str, _suffix: str, m: re.Match[str]) -> Watched:
     domain = int(m["domain"])
 
     def event_item(event: Event) -> Item:

@@ -222,7 +222,7 @@ class TypeChecker:
     def _may_be_hidden(self) -> bool:
         """Whether something that is not here, as a signal, may have the name of a predefined
         object."""
-        return not self.findings.given.system
+        return not self.findings.given.knows_all
 
     def _indexed(self, node: Index) -> str | None:
         for index in node.indices:

@@ -5,7 +5,6 @@ Templates are in `templates/ros2` and `templates/ros1`; all of them see the same
 
 import re
 from pathlib import Path
-from typing import Any
 
 import jinja2
 
@@ -74,7 +73,7 @@ def write(files: dict[str, str], folder: Path) -> None:
         write_whole(folder / path, text.encode())
 
 
-def _rendered(kind: str, name: str, context: dict[str, Any]) -> dict[str, str]:
+def _rendered(kind: str, name: str, context: dict[str, object]) -> dict[str, str]:
     folder = data_folder("templates") / kind
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(folder),
@@ -92,7 +91,7 @@ def _rendered(kind: str, name: str, context: dict[str, Any]) -> dict[str, str]:
     return files
 
 
-def _context(config: RobotConfig, name: str, drawn: urdf.Drawn, source: str) -> dict[str, Any]:
+def _context(config: RobotConfig, name: str, drawn: urdf.Drawn, source: str) -> dict[str, object]:
     tolerance = config.trajectory.start_tolerance
     return {
         "config": config,
@@ -105,7 +104,7 @@ def _context(config: RobotConfig, name: str, drawn: urdf.Drawn, source: str) -> 
     }
 
 
-def _group(group: GroupConfig, drawn: urdf.Drawn) -> dict[str, Any]:
+def _group(group: GroupConfig, drawn: urdf.Drawn) -> dict[str, object]:
     return {
         "name": group.name,
         "controller": f"{group.name}_controller",

@@ -19,7 +19,7 @@ _THICKNESS = 0.12
 
 
 @dataclass(frozen=True, slots=True)
-class Branch:
+class LinkChain:
     """A chain of links from the root: of an arm (with its tool0) or of a positioner."""
 
     links: tuple[str, ...]
@@ -37,9 +37,9 @@ class Drawn:
     """A URDF and what of it others need to name."""
 
     root: ET.Element
-    arms: dict[str, Branch]
+    arms: dict[str, LinkChain]
     """By motion group."""
-    positioners: dict[str, tuple[Branch, ...]]
+    positioners: dict[str, tuple[LinkChain, ...]]
 
     @property
     def text(self) -> str:
@@ -93,7 +93,7 @@ class _Drawer:
     joints: dict[str, Joint]
     coupled: str
 
-    def branch(self, base: str, chain: Sequence[ChainLink], tip: str) -> Branch:
+    def branch(self, base: str, chain: Sequence[ChainLink], tip: str) -> LinkChain:
         ET.SubElement(self.root, "link", name=base)
         self._joint(f"{base}_joint", "fixed", ROOT, base, (0, 0, 0), (0, 0, 0))
         links, joints = [base], []
@@ -106,7 +106,7 @@ class _Drawer:
             ET.SubElement(self.root, "link", name=tip)
             self._joint(f"{tip}_joint", "fixed", links[-1], tip, (0, 0, 0), (0, 0, 0))
             links.append(tip)
-        return Branch(tuple(links), tuple(joints))
+        return LinkChain(tuple(links), tuple(joints))
 
     def _step(self, parent: str, step: ChainLink, child: str) -> list[str]:
         """Links behind `parent`; it is drawn as a bar to where the next one begins."""

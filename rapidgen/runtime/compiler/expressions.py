@@ -5,7 +5,7 @@ from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.compiler.context import E, Unit, failing
 from rapidgen.runtime.compiler.inline import function_call
 from rapidgen.runtime.compiler.operators import binary, unary
-from rapidgen.runtime.compiler.references import read, undeclared
+from rapidgen.runtime.compiler.references import read
 from rapidgen.runtime.compiler.storing import by_value
 from rapidgen.runtime.compiler.symbols import CannotCompile
 from rapidgen.runtime.values import BOOL, DNUM, NUM, STRING, Type, attribute
@@ -68,10 +68,19 @@ def _name(unit: Unit, node: n.Name, want: Type | None) -> E:
     return read(unit, data)
 
 
+def _is_undeclared(base: E) -> bool:
+    return base.code.startswith("FAIL('ERR_REFUNKDAT'")
+
+
+def _undeclared(base: E, want: Type | None) -> E:
+    """A part of what nothing declares: of the type that its place wants."""
+    return E(base.code, want or NUM, fails=True, effect=base.effect, exact=True)
+
+
 def _index(unit: Unit, node: n.Index, want: Type | None) -> E:
-    if name := undeclared(unit, node):
-        return failing("ERR_REFUNKDAT", name, want or NUM)
     base = compile_expression(unit, node.base, None, ())
+    if _is_undeclared(base):
+        return _undeclared(base, want)
     if len(base.dims) != len(node.indices):
         raise CannotCompile("the number of indices is not the number of dimensions", node)
     indices = [unit.value_of(i, NUM, (), "index") for i in node.indices]
@@ -81,9 +90,9 @@ def _index(unit: Unit, node: n.Index, want: Type | None) -> E:
 
 
 def _member(unit: Unit, node: n.Member, want: Type | None) -> E:
-    if name := undeclared(unit, node):
-        return failing("ERR_REFUNKDAT", name, want or NUM)
     base = compile_expression(unit, node.base, None, ())
+    if _is_undeclared(base):
+        return _undeclared(base, want)
     kind = base.type.component(node.component.lower())
     if kind is None or base.dims:
         raise CannotCompile(f"{base.type.name} has no component {node.component}", node)

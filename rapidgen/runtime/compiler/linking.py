@@ -25,6 +25,7 @@ from rapidgen.rapid.binding.symbols import (
 )
 from rapidgen.rapid.builtins import signatures
 from rapidgen.rapid.syntax import nodes as n
+from rapidgen.rapid.syntax.walk import walk
 from rapidgen.runtime.compiler import predefined
 from rapidgen.runtime.compiler.evaluate import evaluate
 from rapidgen.runtime.compiler.runtime import GlobalRef
@@ -60,7 +61,8 @@ class Shared:
         """Data of shared modules by module and name: cells of atoms, else the object itself."""
         self.records: dict[tuple[object, ...], Type] = {}
         self.unknown: dict[str, Type] = {}
-        """Types that nothing declares, by lower-case name."""
+        """Types that nothing declares, and of data whose size or value nothing declares, by what
+        is missing, lower case."""
         self.configured = configured if configured is not None else {}
         """Signals, mechanical units and taskids by lower-case name."""
         self.names = installed_objects((k, t.name) for k, (t, _) in self.configured.items())
@@ -178,7 +180,8 @@ class Linker:
         module.types[name] = found
         return found
 
-    def _unknown(self, module: LoadedModule, name: str, node: n.Node) -> Type:
+    def _unknown(self, module: LoadedModule, name: str, node: n.Node, what: str = "type") -> Type:
+        """The type of data that need what nothing declares: nothing can look into them."""
         found = self.shared.unknown.get(name.lower())
         if found is None:
             found = self.shared.unknown[name.lower()] = predefined.unknown_type(name)
@@ -187,7 +190,7 @@ class Linker:
                 error(
                     "RG404",
                     module.span(node),
-                    f"the type {name} is not declared in any module, nor built in",
+                    f"the {what} {name} is not declared in any module, nor built in",
                     "" if option else "load the module that declares it",
                     label="statements that look into it stop the task",
                     notes=("it belongs to an option or add-in of RobotWare",) if option else (),
@@ -285,8 +288,14 @@ class Linker:
         try:
             kind, dims, value = self.evaluate(module, module.scope, d)
         except CannotCompile as fault:
-            self._fault(module, str(fault), fault.node)
+            names = (part.name for part in walk(d) if isinstance(part, n.Name))
+            missing = next((name for name in names if module.scope.find(name) is None), None)
             found = self.find_type(module, d.type, d)
+            if missing is not None:
+                # Its size or value needs a constant of another module.
+                found = self._unknown(module, missing, d, "constant")
+            else:
+                self._fault(module, str(fault), fault.node)
             if found is None:
                 return None
             kind, dims, value = found, (), found.default()

@@ -98,7 +98,7 @@ class Program:
                 if module.installed and not (module.file.shared and d.scope == "TASK"):
                     continue
                 data = self.find_data(module, key)
-                if data is not None:
+                if data is not None and data.type.name not in self.shared.unknown:
                     self.space[data.code] = self.evaluate(module, module.scope, d)[2]
 
     # -- names -----------------------------------------------------------------------------------

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 
+from rapidgen.rapid.binding.symbols import TypeSymbol
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.rapid.syntax.walk import walk_own
 from rapidgen.runtime.compiler.context import CALLS, SHARED, E, Unit, failing, same_type
@@ -69,8 +70,11 @@ def undeclared(unit: Unit, node: n.Node) -> str:
     Statements inside are left out: each finds its own.
     """
     for part in walk_own(node):
-        if isinstance(part, n.Name) and unit.names.find(part.name) is None:
-            return part.name
+        if isinstance(part, n.Name):
+            symbol = unit.names.find(part.name)
+            # A signal that is not here may have the name of a predefined type.
+            if symbol is None or (isinstance(symbol, TypeSymbol) and symbol.module is None):
+                return part.name
     return ""
 
 
@@ -79,7 +83,7 @@ def unknown_type(unit: Unit, node: n.Node) -> str:
     for part in walk_own(node):
         data = unit.data(part.name) if isinstance(part, n.Name) else None
         if data is not None and data.type.name in unit.linker.shared.unknown:
-            return f"{data.type.name}, the type of {data.name}"
+            return f"{data.type.name}, which {data.name} needs"
     return ""
 
 

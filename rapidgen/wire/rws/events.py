@@ -20,14 +20,14 @@ _TWINS = {"rap-value-ev": ("rap-data",)}
 
 
 @dataclass(frozen=True, slots=True)
-class Wanted:
+class WantedResource:
     """A resource and its priority: 0 each 5 s, 1 each 200 ms, 2 at once."""
 
     resource: str
     priority: int = 1
 
 
-def write_wanted(wanted: Sequence[Wanted]) -> list[tuple[str, str]]:
+def write_wanted(wanted: Sequence[WantedResource]) -> list[tuple[str, str]]:
     """The form that asks for a subscription."""
     fields: list[tuple[str, str]] = []
     for i, one in enumerate(wanted, 1):
@@ -35,7 +35,7 @@ def write_wanted(wanted: Sequence[Wanted]) -> list[tuple[str, str]]:
     return fields
 
 
-def read_wanted(pairs: Iterable[tuple[str, str]]) -> list[Wanted]:
+def read_wanted(pairs: Iterable[tuple[str, str]]) -> list[WantedResource]:
     """What a form asks for. Indices may begin at 0, `resources` may come once for all.
 
     ValueError: nothing is asked for, or at no priority.
@@ -47,7 +47,7 @@ def read_wanted(pairs: Iterable[tuple[str, str]]) -> list[Wanted]:
         priority = found.get(f"{number}-p", "1")
         if priority not in ("0", "1", "2"):
             raise ValueError(f"priority {priority}")
-        wanted.append(Wanted(found[str(number)], int(priority)))
+        wanted.append(WantedResource(found[str(number)], int(priority)))
     if not wanted:
         raise ValueError("no resources")
     return wanted

@@ -13,7 +13,7 @@ from rapidgen.faces.rws.desk import SESSION
 from rapidgen.faces.rws.server import serve_rws
 from rapidgen.wire.rws import media
 from rapidgen.wire.rws.bodies import Generation
-from rapidgen.wire.rws.events import Wanted, read_events, write_wanted
+from rapidgen.wire.rws.events import WantedResource, read_events, write_wanted
 from rapidgen.wire.rws.forms import form_type, write_form
 
 BASIC = "Basic " + base64.b64encode(b"Default User:robotics").decode()
@@ -36,7 +36,9 @@ def subscribe(port):
     link = http.client.HTTPSConnection("127.0.0.1", port, context=context)
 
     def ask(*resources):
-        form = write_form(write_wanted([Wanted(r, 2 if "signals" in r else 1) for r in resources]))
+        form = write_form(
+            write_wanted([WantedResource(r, 2 if "signals" in r else 1) for r in resources])
+        )
         headers = {"Authorization": BASIC, "Accept": media.HAL}
         link.request(
             "POST", "/subscription", form, {**headers, "Content-Type": form_type(Generation.TWO)}
@@ -93,7 +95,7 @@ def test_nothing_is_lost_between_the_answer_and_the_upgrade(tmp_path):
         context = ssl.create_default_context()
         context.check_hostname, context.verify_mode = False, ssl.CERT_NONE
         link = http.client.HTTPSConnection("127.0.0.1", service.port, context=context)
-        form = write_form(write_wanted([Wanted("/rw/iosystem/signals/diStart;state", 2)]))
+        form = write_form(write_wanted([WantedResource("/rw/iosystem/signals/diStart;state", 2)]))
         headers = {"Accept": media.HAL, "Content-Type": form_type(Generation.TWO)}
         link.request("POST", "/subscription", form, {**headers, "Authorization": BASIC})
         answer = link.getresponse()

@@ -60,6 +60,8 @@ def restart(core: RwsCore, *, wait: float = 180.0) -> Flow[None]:
     yield from take(core, "cfg")
     try:
         yield from ask(core, ops.RESTART, form={"restart-mode": "restart"})
+    except ConnectionLost:
+        pass  # it was quicker than its answer; whether it restarts is looked at below
     except RwsError:
         if not own:
             yield from give(core, "cfg")

@@ -18,7 +18,7 @@ from rapidgen.client.rws.topics import Topic
 from rapidgen.wire.rws import operations as ops
 from rapidgen.wire.rws import xhtml
 from rapidgen.wire.rws.bodies import Item, Unreadable
-from rapidgen.wire.rws.events import Wanted, read_events, read_opened, write_wanted
+from rapidgen.wire.rws.events import WantedResource, read_events, read_opened, write_wanted
 
 _TWINS = ("rap-data",)
 """Comes with an event and says the same."""
@@ -36,7 +36,7 @@ class Opened:
 def subscribe(core: RwsCore, topics: Sequence[Topic]) -> Flow[Opened]:
     """Ask to be told of topics. Raises RwsError (RG650), NotRws (RG653)."""
     yield from connect(core)
-    wanted = [Wanted(topic.resource(core.generation), topic.priority) for topic in topics]
+    wanted = [WantedResource(topic.resource(core.generation), topic.priority) for topic in topics]
     _, response = yield from ask(core, ops.SUBSCRIBE, form=write_wanted(wanted))
     try:
         body = xhtml.read(response.body)

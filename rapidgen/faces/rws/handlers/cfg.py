@@ -5,7 +5,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from rapidgen.diagnostics import DiagnosticError
-from rapidgen.faces.rws.asking import Asked, Denied, Served, show
+from rapidgen.faces.rws.asking import Denied, RwsRequest, Served, show
 from rapidgen.faces.rws.disks import disk_path
 from rapidgen.faces.rws.paging import page
 from rapidgen.faces.rws.routing import serves
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from rapidgen.faces.rws.office import Office
 
 
-def _domain(office: "Office", asked: Asked) -> CfgText:
+def _domain(office: "Office", asked: RwsRequest) -> CfgText:
     name = asked.names["domain"].upper()
     for text in office.cabinet.cfg.domains:
         if text.domain == name:
@@ -32,7 +32,7 @@ def _title(section: str, instance: Instance) -> str:
 
 
 @serves(ops.CFG)
-def get_domains(office: "Office", asked: Asked) -> Served:
+def get_domains(office: "Office", asked: RwsRequest) -> Served:
     """The domains."""
     return show(
         *(Item("cfg-domain-li", text.domain) for text in office.cabinet.cfg.domains),
@@ -41,30 +41,30 @@ def get_domains(office: "Office", asked: Asked) -> Served:
 
 
 @serves(ops.CFG_DOMAIN)
-def get_types(office: "Office", asked: Asked) -> Served:
+def get_types(office: "Office", asked: RwsRequest) -> Served:
     """Types of a domain."""
     names = dict.fromkeys(section.name for section in _domain(office, asked).sections)
     return show(*(Item("cfg-dt-li", name) for name in names), collection=True)
 
 
 @serves(ops.CFG_INSTANCES)
-def get_instances(office: "Office", asked: Asked) -> Served:
+def get_instances(office: "Office", asked: RwsRequest) -> Served:
     """Instances of a type with their attributes: by seventy in RWS 2.0 [VC 7.21]."""
     found = [_item(asked, i) for i in _instances(office, asked)]
     return page(asked, found, 70, "instances", always=True)
 
 
 @serves(ops.CFG_INSTANCE)
-def get_instance(office: "Office", asked: Asked) -> Served:
+def get_instance(office: "Office", asked: RwsRequest) -> Served:
     """One instance."""
     return show(_item(asked, _one(office, asked)))
 
 
-def _instances(office: "Office", asked: Asked) -> Iterator[Instance]:
+def _instances(office: "Office", asked: RwsRequest) -> Iterator[Instance]:
     return _domain(office, asked).instances(asked.names["type"])
 
 
-def _one(office: "Office", asked: Asked) -> Instance:
+def _one(office: "Office", asked: RwsRequest) -> Instance:
     name, section = asked.names["instance"], asked.names["type"]
     for instance in _instances(office, asked):
         if _title(section, instance).casefold() == name.casefold():
@@ -72,7 +72,7 @@ def _one(office: "Office", asked: Asked) -> Instance:
     raise Denied(400 if asked.is_one else 404, "E_CFG_INSTANCE_INVALID", name)
 
 
-def _item(asked: Asked, instance: Instance) -> Item:
+def _item(asked: RwsRequest, instance: Instance) -> Item:
     kind = asked.kind("cfg-ia-t-li", "cfg-ia-t")
     within = tuple(
         Item(kind, a.name, {"value": _value(a), "rdonly": "false"}) for a in instance.attributes
@@ -89,7 +89,7 @@ def _value(attribute: Attribute) -> str:
 # -- single instances ----------------------------------------------------------------------------
 
 
-def _with(office: "Office", asked: Asked, instances: tuple[Instance, ...]) -> None:
+def _with(office: "Office", asked: RwsRequest, instances: tuple[Instance, ...]) -> None:
     """The database with these instances of a type, in place of those that it has."""
     text, name = _domain(office, asked), asked.names["type"]
     at = [i for i, s in enumerate(text.sections) if s.name.casefold() == name.casefold()]
@@ -126,7 +126,7 @@ def _attribute(name: str, value: str, *, is_one: bool) -> Attribute | None:
 
 
 @serves(ops.CFG_SET)
-def set_instance(office: "Office", asked: Asked) -> None:
+def set_instance(office: "Office", asked: RwsRequest) -> None:
     """Give attributes of an instance new values."""
     if not asked.is_one:  # RobotWare 6 takes mastership by itself [VC 6.16]
         office.masters.need(asked, "cfg")
@@ -142,7 +142,7 @@ def set_instance(office: "Office", asked: Asked) -> None:
 
 
 @serves(ops.CFG_CREATE)
-def create_instance(office: "Office", asked: Asked) -> Served:
+def create_instance(office: "Office", asked: RwsRequest) -> Served:
     """A new instance with a name and nothing else."""
     if not asked.is_one:
         office.masters.need(asked, "cfg")
@@ -155,7 +155,7 @@ def create_instance(office: "Office", asked: Asked) -> Served:
 
 
 @serves(ops.CFG_DELETE)
-def delete_instance(office: "Office", asked: Asked) -> None:
+def delete_instance(office: "Office", asked: RwsRequest) -> None:
     """Take an instance out."""
     if not asked.is_one:
         office.masters.need(asked, "cfg")
@@ -166,7 +166,7 @@ def delete_instance(office: "Office", asked: Asked) -> None:
 # -- whole files ---------------------------------------------------------------------------------
 
 
-def _load(office: "Office", asked: Asked) -> Loaded:
+def _load(office: "Office", asked: RwsRequest) -> Loaded:
     """The database with a file loaded; with `add` any conflict refuses it whole. Denied."""
     mode = asked.field("action-type", ("add", "replace", "add-with-reset"))
     words = asked.field("filepath")
@@ -195,7 +195,7 @@ def _why(loaded: Loaded) -> tuple[str, str]:
 
 
 @serves(ops.CFG_LOAD)
-def load(office: "Office", asked: Asked) -> Served | None:
+def load(office: "Office", asked: RwsRequest) -> Served | None:
     """Load a file; RWS 2.0 says where the job's end is told."""
     office.masters.need(asked, "cfg")
     loaded = _load(office, asked)
@@ -211,7 +211,7 @@ def load(office: "Office", asked: Asked) -> Served | None:
 
 
 @serves(ops.CFG_VALIDATE)
-def validate(office: "Office", asked: Asked) -> Served:
+def validate(office: "Office", asked: RwsRequest) -> Served:
     """What a load would say; nothing is changed."""
     loaded = _load(office, asked)
     if loaded.faults:
@@ -220,7 +220,7 @@ def validate(office: "Office", asked: Asked) -> Served:
 
 
 @serves(ops.CFG_SAVE)
-def save(office: "Office", asked: Asked) -> None:
+def save(office: "Office", asked: RwsRequest) -> None:
     """Write a domain to a file, whose path begins with /fileservice."""
     words = asked.field("filepath")
     if not words.startswith("/fileservice/"):

@@ -3,7 +3,7 @@
 from datetime import timedelta
 from typing import TYPE_CHECKING
 
-from rapidgen.faces.rws.asking import Asked, Denied, Served, show
+from rapidgen.faces.rws.asking import Denied, RwsRequest, Served, show
 from rapidgen.faces.rws.paging import page
 from rapidgen.faces.rws.routing import serves
 from rapidgen.machine.calendar import date_time
@@ -26,7 +26,7 @@ def _events(office: "Office", domain: str) -> list[Event]:
 
 
 @serves(ops.ELOGS)
-def get_domains(office: "Office", asked: Asked) -> Served:
+def get_domains(office: "Office", asked: RwsRequest) -> Served:
     """The domains, and how many entries each has."""
     found = []
     for domain in Domain:
@@ -38,7 +38,7 @@ def get_domains(office: "Office", asked: Asked) -> Served:
 
 
 @serves(ops.ELOG)
-def get_events(office: "Office", asked: Asked) -> Served:
+def get_events(office: "Office", asked: RwsRequest) -> Served:
     """Entries of a domain, newest first: by the fifty in RWS 2.0."""
     domain = asked.names["domain"]
     events = _events(office, domain)[::-1]
@@ -54,7 +54,7 @@ def get_events(office: "Office", asked: Asked) -> Served:
 
 
 @serves(ops.ELOG_EVENT)
-def get_event(office: "Office", asked: Asked) -> Served:
+def get_event(office: "Office", asked: RwsRequest) -> Served:
     """One entry."""
     domain, number = asked.names["domain"], asked.names["number"]
     for event in _events(office, domain):
@@ -88,7 +88,7 @@ def _item(office: "Office", domain: str, event: Event) -> Item:
 
 
 @serves(ops.CLEAR_ELOG)
-def clear(office: "Office", asked: Asked) -> None:
+def clear(office: "Office", asked: RwsRequest) -> None:
     """Forget all entries; here of all domains."""
     _events(office, asked.names["domain"])
     office.controller.log.clear()

@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from rapidgen.faces.rws.asking import Asked, Denied, Served, show
+from rapidgen.faces.rws.asking import Denied, RwsRequest, Served, show
 from rapidgen.faces.rws.routing import serves
 from rapidgen.wire.rws import operations as ops
 from rapidgen.wire.rws.bodies import Item
@@ -30,14 +30,14 @@ def execution(controller: "VirtualController") -> str:
 
 
 @serves(ops.EXECUTION)
-def get_execution(office: "Office", asked: Asked) -> Served:
+def get_execution(office: "Office", asked: RwsRequest) -> Served:
     """Whether the program runs, and whether it begins again at its end."""
     state = {"ctrlexecstate": execution(office.controller), "cycle": office.controller.cycle}
     return show(Item("rap-execution", "execution", state))
 
 
 @serves(ops.START)
-def start(office: "Office", asked: Asked) -> None:
+def start(office: "Office", asked: RwsRequest) -> None:
     """Start the program. The success says that it was asked for: it may not run [real 7.21]."""
     told = {name: asked.field(name, words) for name, words in _START.items()}
     controller = office.controller
@@ -57,7 +57,7 @@ def start(office: "Office", asked: Asked) -> None:
 
 
 @serves(ops.STOP)
-def stop(office: "Office", asked: Asked) -> None:
+def stop(office: "Office", asked: RwsRequest) -> None:
     """Stop the program; `alltsk` stops background tasks, too [real 7.21]."""
     mode = asked.field("stopmode", ("cycle", "instr", "stop", "qstop"))
     tasks = asked.form.get("usetsp", "normal")
@@ -74,7 +74,7 @@ def stop(office: "Office", asked: Asked) -> None:
 
 
 @serves(ops.RESET_PP)
-def reset_pp(office: "Office", asked: Asked) -> None:
+def reset_pp(office: "Office", asked: RwsRequest) -> None:
     """Program pointers of all tasks to main."""
     office.masters.need(asked, "rapid")
     controller = office.controller
@@ -89,7 +89,7 @@ def reset_pp(office: "Office", asked: Asked) -> None:
 
 
 @serves(ops.SET_CYCLE)
-def set_cycle(office: "Office", asked: Asked) -> None:
+def set_cycle(office: "Office", asked: RwsRequest) -> None:
     """Whether the program begins again at its end."""
     cycle = asked.field("cycle", ("forever", "asis", "once"))
     if cycle != "asis":

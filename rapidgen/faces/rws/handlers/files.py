@@ -5,7 +5,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rapidgen.faces.rws.asking import Asked, Denied, Served, show
+from rapidgen.faces.rws.asking import Denied, RwsRequest, Served, show
 from rapidgen.faces.rws.disks import VOLUMES, disk_path
 from rapidgen.faces.rws.routing import serves
 from rapidgen.wire.rws import operations as ops
@@ -16,24 +16,24 @@ if TYPE_CHECKING:
 
 
 @serves(ops.VOLUMES)
-def volumes(office: "Office", asked: Asked) -> Served:
+def volumes(office: "Office", asked: RwsRequest) -> Served:
     """Volumes: variables with a `$` in RWS 1.0 [VC 6.16]."""
     kind, sign = asked.kind("fs-device", "fs-dir"), asked.kind("$", "")
     return show(*(Item(kind, f"{sign}{name}") for name in VOLUMES), collection=True)
 
 
-def _path(office: "Office", asked: Asked) -> Path:
+def _path(office: "Office", asked: RwsRequest) -> Path:
     return disk_path(office, asked.names["path"], asked)
 
 
-def _missing(asked: Asked, what: str) -> Denied:
+def _missing(asked: RwsRequest, what: str) -> Denied:
     if asked.is_one:
         return Denied(404, "E_FAIL", f"no file {what}")
     return Denied(404, "E_DIR_NOT_EXIST", f"no file {what}")
 
 
 @serves(ops.READ_FILE)
-def read(office: "Office", asked: Asked) -> Served:
+def read(office: "Office", asked: RwsRequest) -> Served:
     """A file as it is, or what lies in a folder."""
     path = _path(office, asked)
     if path.is_dir():
@@ -57,7 +57,7 @@ def _entry(path: Path) -> Item:
 
 
 @serves(ops.WRITE_FILE)
-def write(office: "Office", asked: Asked) -> Served:
+def write(office: "Office", asked: RwsRequest) -> Served:
     """Write a file: 201 for a new one, 200 for another [VC 6.16, VC 7.21]."""
     path = _path(office, asked)
     if path.is_dir():
@@ -68,7 +68,7 @@ def write(office: "Office", asked: Asked) -> Served:
 
 
 @serves(ops.DELETE_FILE)
-def delete(office: "Office", asked: Asked) -> None:
+def delete(office: "Office", asked: RwsRequest) -> None:
     """Delete a file, or a folder with all that is in it."""
     path = _path(office, asked)
     if _is_volume(asked.names["path"]):
@@ -87,14 +87,14 @@ def _is_volume(path: str) -> bool:
 
 
 @serves(ops.FILE_ACTION)
-def act(office: "Office", asked: Asked) -> Served | None:
+def act(office: "Office", asked: RwsRequest) -> Served | None:
     """RWS 1.0: `fs-action` says what; it must stand in the body."""
     action = asked.field("fs-action", ("create", "copy", "rename"))
     return {"create": create, "copy": copy, "rename": rename}[action](office, asked)
 
 
 @serves(ops.CREATE_FOLDER)
-def create(office: "Office", asked: Asked) -> Served:
+def create(office: "Office", asked: RwsRequest) -> Served:
     """A new folder."""
     path = _new(office, asked, _path(office, asked), asked.names["path"])
     try:
@@ -107,7 +107,7 @@ def create(office: "Office", asked: Asked) -> Served:
 
 
 @serves(ops.COPY_FILE)
-def copy(office: "Office", asked: Asked) -> None:
+def copy(office: "Office", asked: RwsRequest) -> None:
     """Copy a file; a bare name stays in the folder [VC 7.21]."""
     path, target = _two(office, asked)
     if target.exists() and asked.form.get("fs-overwrite", "false").lower() != "true":
@@ -118,7 +118,7 @@ def copy(office: "Office", asked: Asked) -> None:
 
 
 @serves(ops.RENAME_FILE)
-def rename(office: "Office", asked: Asked) -> None:
+def rename(office: "Office", asked: RwsRequest) -> None:
     """Give a file or a folder another name."""
     path, target = _two(office, asked)
     if target.exists():
@@ -129,14 +129,14 @@ def rename(office: "Office", asked: Asked) -> None:
         raise _missing(asked, asked.names["path"]) from error
 
 
-def _two(office: "Office", asked: Asked) -> tuple[Path, Path]:
+def _two(office: "Office", asked: RwsRequest) -> tuple[Path, Path]:
     here = asked.names["path"]
     if _is_volume(here):
         raise Denied(403, "E_REJECT", "a volume stays what it is", -2)
     return _path(office, asked), _new(office, asked, None, here.rpartition("/")[0])
 
 
-def _new(office: "Office", asked: Asked, folder: Path | None, words: str) -> Path:
+def _new(office: "Office", asked: RwsRequest, folder: Path | None, words: str) -> Path:
     """The place that `fs-newname` names: in a folder, or a whole `/fileservice/...`."""
     name = asked.field("fs-newname")
     if name.startswith("/fileservice/"):

@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from rapidgen.faces.rws.asking import Asked, Denied, Served, show
+from rapidgen.faces.rws.asking import Denied, RwsRequest, Served, show
 from rapidgen.faces.rws.routing import serves
 from rapidgen.motion.group import MotionGroup
 from rapidgen.runtime.builtins.motion.arguments import joint_target
@@ -29,7 +29,7 @@ def _group(office: "Office", name: str) -> MotionGroup:
 
 
 @serves(ops.MECHUNITS)
-def get_units(office: "Office", asked: Asked) -> Served:
+def get_units(office: "Office", asked: RwsRequest) -> Served:
     """Robots; units of their own are not listed."""
     groups = office.controller.motion.groups.values()
     names = [group.config.mechanical_unit for group in groups]
@@ -38,7 +38,7 @@ def get_units(office: "Office", asked: Asked) -> Served:
 
 
 @serves(ops.MECHUNIT)
-def get_unit(office: "Office", asked: Asked) -> Served:
+def get_unit(office: "Office", asked: RwsRequest) -> Served:
     """One robot, with the tool and the object of its last move."""
     group = _group(office, asked.names["unit"])
     told = {
@@ -56,7 +56,7 @@ def get_unit(office: "Office", asked: Asked) -> Served:
 
 
 @serves(ops.JOINT_TARGET)
-def get_joints(office: "Office", asked: Asked) -> Served:
+def get_joints(office: "Office", asked: RwsRequest) -> Served:
     """Where the joints are."""
     group = _group(office, asked.names["unit"])
     value = joint_target(group.map, group.positions())
@@ -66,7 +66,7 @@ def get_joints(office: "Office", asked: Asked) -> Served:
     return show(Item("ms-jointtarget", "jointtarget", told))
 
 
-def _pose(office: "Office", asked: Asked) -> Value:
+def _pose(office: "Office", asked: RwsRequest) -> Value:
     """The TCP of a tool in a work object; `Base` is the world's here: robots stand at its origin
     unless their object says otherwise."""
     group = _group(office, asked.names["unit"])
@@ -98,7 +98,7 @@ def _datum(office: "Office", group: MotionGroup, name: str, kind: str) -> Value 
 
 
 @serves(ops.ROB_TARGET)
-def get_target(office: "Office", asked: Asked) -> Served:
+def get_target(office: "Office", asked: RwsRequest) -> Served:
     """Where the TCP is, as a robtarget."""
     value = _pose(office, asked)
     told = dict(zip(("x", "y", "z"), map(str, value.trans.values()), strict=True))
@@ -111,7 +111,7 @@ def get_target(office: "Office", asked: Asked) -> Served:
 
 
 @serves(ops.CARTESIAN)
-def get_cartesian(office: "Office", asked: Asked) -> Served:
+def get_cartesian(office: "Office", asked: RwsRequest) -> Served:
     """Where the TCP is; RWS 1.0 calls the configuration j1 to jx."""
     value = _pose(office, asked)
     names = ("j1", "j4", "j6", "jx") if asked.is_one else ("cf1", "cf4", "cf6", "cfx")

@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from rapidgen.faces.rws.asking import Asked, Denied, Served, show
+from rapidgen.faces.rws.asking import Denied, RwsRequest, Served, show
 from rapidgen.faces.rws.routing import serves
 from rapidgen.wire.rws import operations as ops
 from rapidgen.wire.rws.bodies import Item
@@ -38,13 +38,13 @@ def speed(controller: "VirtualController") -> int:
 
 
 @serves(ops.CTRL_STATE)
-def get_ctrl_state(office: "Office", asked: Asked) -> Served:
+def get_ctrl_state(office: "Office", asked: RwsRequest) -> Served:
     """Motors, emergency stop, system failure."""
     return show(Item("pnl-ctrlstate", "ctrlstate", {"ctrlstate": ctrl_state(office.controller)}))
 
 
 @serves(ops.SET_CTRL_STATE)
-def set_ctrl_state(office: "Office", asked: Asked) -> None:
+def set_ctrl_state(office: "Office", asked: RwsRequest) -> None:
     """Motors on or off."""
     on = asked.field("ctrl-state", ("motoron", "motoroff")) == "motoron"
     controller = office.controller
@@ -58,26 +58,26 @@ def set_ctrl_state(office: "Office", asked: Asked) -> None:
 
 
 @serves(ops.OPMODE)
-def get_opmode(office: "Office", asked: Asked) -> Served:
+def get_opmode(office: "Office", asked: RwsRequest) -> Served:
     """The operating mode."""
     return show(Item("pnl-opmode", "opmode", {"opmode": opmode(office.controller)}))
 
 
 @serves(ops.SET_OPMODE)
-def set_opmode(office: "Office", asked: Asked) -> None:
+def set_opmode(office: "Office", asked: RwsRequest) -> None:
     """The key of a virtual controller; a real one's cannot be turned from afar."""
     words = ("auto", "man", "manfs" if asked.is_one else "manf")
     office.controller.set_mode(_MODES[asked.field("opmode", words)])
 
 
 @serves(ops.SPEED)
-def get_speed(office: "Office", asked: Asked) -> Served:
+def get_speed(office: "Office", asked: RwsRequest) -> Served:
     """The override."""
     return show(Item("pnl-speedratio", "speedratio", {"speedratio": str(speed(office.controller))}))
 
 
 @serves(ops.SET_SPEED)
-def set_speed(office: "Office", asked: Asked) -> None:
+def set_speed(office: "Office", asked: RwsRequest) -> None:
     """The override in percent, in automatic mode."""
     text = asked.field("speed-ratio")
     if not text.isdecimal() or not 0 <= int(text) <= 100:
@@ -92,7 +92,7 @@ def set_speed(office: "Office", asked: Asked) -> None:
 
 
 @serves(ops.COLLISION)
-def get_collision(office: "Office", asked: Asked) -> Served:
+def get_collision(office: "Office", asked: RwsRequest) -> Served:
     """Collision detection; RobotWare 6 writes the class with a blank behind it."""
     name = asked.kind("coldetstate ", "coldetstate")
     return show(Item("pnl-coldetstate", "coldetstate", {name: "INIT"}))

@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from rapidgen.faces.rws.asking import Asked, Denied, Served, show
+from rapidgen.faces.rws.asking import Denied, RwsRequest, Served, show
 from rapidgen.faces.rws.paging import page
 from rapidgen.faces.rws.routing import serves
 from rapidgen.machine.io import Signal
@@ -44,7 +44,7 @@ def find(office: "Office", path: str) -> Signal:
     return signal
 
 
-def item(signal: Signal, kind: str, asked: Asked) -> Item:
+def item(signal: Signal, kind: str, asked: RwsRequest) -> Item:
     """A signal as an item."""
     told = {
         "name": signal.name,
@@ -67,21 +67,21 @@ def _is_writable(signal: Signal) -> bool:
 
 
 @serves(ops.SIGNALS)
-def get_signals(office: "Office", asked: Asked) -> Served:
+def get_signals(office: "Office", asked: RwsRequest) -> Served:
     """All signals: whole in RWS 1.0, by the hundred in 2.0 [VC 7.21]."""
     found = office.controller.io.signals.values()
     return page(asked, [item(s, "ios-signal-li", asked) for s in found], 100, "signals")
 
 
 @serves(ops.SIGNAL)
-def get_signal(office: "Office", asked: Asked) -> Served:
+def get_signal(office: "Office", asked: RwsRequest) -> Served:
     """One signal."""
     signal = find(office, asked.names["signal"])
     return show(item(signal, asked.kind("ios-signal", "ios-signal-li"), asked))
 
 
 @serves(ops.SET_SIGNAL)
-def set_signal(office: "Office", asked: Asked) -> None:
+def set_signal(office: "Office", asked: RwsRequest) -> None:
     """Set a signal, or pulse or invert it."""
     signal = find(office, asked.names["signal"])
     mode = asked.form.get("mode", "value")
@@ -103,7 +103,7 @@ def set_signal(office: "Office", asked: Asked) -> None:
 
 
 @serves(ops.SEARCH_SIGNALS)
-def search(office: "Office", asked: Asked) -> Served:
+def search(office: "Office", asked: RwsRequest) -> Served:
     """Signals whose name holds a text, of a type, of a device [VC 7.21]."""
     name, kind, device = (asked.form.get(k, "").lower() for k in ("name", "type", "device"))
     found = [
@@ -117,7 +117,7 @@ def search(office: "Office", asked: Asked) -> Served:
 
 
 @serves(ops.NETWORKS)
-def get_networks(office: "Office", asked: Asked) -> Served:
+def get_networks(office: "Office", asked: RwsRequest) -> Served:
     """Networks that signals stand on."""
     names = dict.fromkeys(map(network_of, _devices(office)))
     state = {"pstate": "running", "lstate": "started"}
@@ -125,7 +125,7 @@ def get_networks(office: "Office", asked: Asked) -> Served:
 
 
 @serves(ops.DEVICES)
-def get_devices(office: "Office", asked: Asked) -> Served:
+def get_devices(office: "Office", asked: RwsRequest) -> Served:
     """Devices that signals stand on."""
     state = {"lstate": "enabled", "pstate": "running", "address": "-"}
     found = [

@@ -2,24 +2,24 @@
 
 from typing import TYPE_CHECKING
 
-from rapidgen.faces.rws.asking import Asked, Denied, Served
+from rapidgen.faces.rws.asking import Denied, RwsRequest, Served
 from rapidgen.faces.rws.routing import serves
 from rapidgen.wire.rws import operations as ops
-from rapidgen.wire.rws.events import Wanted, read_wanted, write_opened
+from rapidgen.wire.rws.events import WantedResource, read_wanted, write_opened
 
 if TYPE_CHECKING:
     from rapidgen.faces.rws.office import Office
     from rapidgen.faces.rws.subscriptions import EventGroup
 
 
-def _wanted(asked: Asked) -> list[Wanted]:
+def _wanted(asked: RwsRequest) -> list[WantedResource]:
     try:
         return read_wanted(asked.pairs)
     except ValueError as error:
         raise Denied(400, "E_INVALIDARG", str(error)) from error
 
 
-def _opened(office: "Office", asked: Asked, group: "EventGroup", status: int) -> Served:
+def _opened(office: "Office", asked: RwsRequest, group: "EventGroup", status: int) -> Served:
     poll = f"{'ws' if asked.is_one else 'wss'}://{asked.host}/poll/{group.number}"
     body = write_opened(group.number, poll, office.groups.initial(group))
     kind = "application/xhtml+xml" if asked.is_one else "application/xhtml+xml;v=2.0"
@@ -27,13 +27,13 @@ def _opened(office: "Office", asked: Asked, group: "EventGroup", status: int) ->
 
 
 @serves(ops.SUBSCRIBE)
-def subscribe(office: "Office", asked: Asked) -> Served:
+def subscribe(office: "Office", asked: RwsRequest) -> Served:
     """A new group; the body is XHTML whatever was asked for."""
     return _opened(office, asked, office.groups.begin(asked, _wanted(asked)), 201)
 
 
 @serves(ops.ADD_SUBSCRIPTION)
-def add(office: "Office", asked: Asked) -> Served:
+def add(office: "Office", asked: RwsRequest) -> Served:
     """More resources for a group."""
     group = office.groups.find(asked.names["group"], asked.session)
     office.groups.add(asked, group, _wanted(asked))
@@ -41,14 +41,14 @@ def add(office: "Office", asked: Asked) -> Served:
 
 
 @serves(ops.UNSUBSCRIBE)
-def unsubscribe(office: "Office", asked: Asked) -> Served:
+def unsubscribe(office: "Office", asked: RwsRequest) -> Served:
     """Watch no more."""
     office.groups.end(office.groups.find(asked.names["group"], asked.session))
     return Served(200)
 
 
 @serves(ops.UNSUBSCRIBE_ONE)
-def unsubscribe_one(office: "Office", asked: Asked) -> Served:
+def unsubscribe_one(office: "Office", asked: RwsRequest) -> Served:
     """One resource less."""
     group = office.groups.find(asked.names["group"], asked.session)
     suffix = f";{asked.suffix}" if asked.suffix else ""

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from rapidgen.controller.views import TaskView
-from rapidgen.faces.rws.asking import Asked, Denied, Served, show
+from rapidgen.faces.rws.asking import Denied, RwsRequest, Served, show
 from rapidgen.faces.rws.handlers.tasks import find_task
 from rapidgen.faces.rws.routing import serves
 from rapidgen.rapid.syntax import nodes as n
@@ -45,7 +45,7 @@ class Datum:
         return value
 
 
-def find(office: "Office", path: str, asked: Asked) -> Datum:
+def find(office: "Office", path: str, asked: RwsRequest) -> Datum:
     """The datum of `TASK/MODULE/NAME` or `TASK/NAME`. Denied: there is none."""
     parts = path.split("/")
     if len(parts) not in (2, 3):
@@ -70,14 +70,14 @@ def find(office: "Office", path: str, asked: Asked) -> Datum:
     return Datum(task, name, type_, dims[len(element) :], element)
 
 
-def _unknown(asked: Asked, path: str) -> Denied:
+def _unknown(asked: RwsRequest, path: str) -> Denied:
     if asked.is_one:
         return Denied(400, "E_UNEXPECTED", f"no symbol {path}", -517)
     return Denied(404, "E_NO_SUCH_SYMBOL", f"no symbol {path}", -517)
 
 
 @serves(ops.SYMBOL)
-def get_symbol(office: "Office", asked: Asked) -> Served:
+def get_symbol(office: "Office", asked: RwsRequest) -> Served:
     """The value as a RAPID literal."""
     found = find(office, asked.names["symbol"], asked)
     text = literal_text(found.value, found.type)
@@ -89,7 +89,7 @@ def get_symbol(office: "Office", asked: Asked) -> Served:
 
 
 @serves(ops.SET_SYMBOL)
-def set_symbol(office: "Office", asked: Asked) -> None:
+def set_symbol(office: "Office", asked: RwsRequest) -> None:
     """Give a datum a value: at once, wherever it is read."""
     if asked.is_one:
         office.masters.need_mode()  # RobotWare 6 takes mastership by itself
@@ -116,7 +116,7 @@ def set_symbol(office: "Office", asked: Asked) -> None:
 
 
 @serves(ops.SYMBOL_PROPERTIES)
-def get_properties(office: "Office", asked: Asked) -> Served:
+def get_properties(office: "Office", asked: RwsRequest) -> Served:
     """What a datum is."""
     path = asked.names["symbol"]
     found = find(office, path, asked)
@@ -127,7 +127,7 @@ def get_properties(office: "Office", asked: Asked) -> Served:
 
 
 @serves(ops.SEARCH_SYMBOLS)
-def search(office: "Office", asked: Asked) -> Served:
+def search(office: "Office", asked: RwsRequest) -> Served:
     """Data of a task or a module by kind, type and a pattern of the name."""
     form = asked.form
     if not asked.is_one and "task" in form:

@@ -3,7 +3,7 @@
 from typing import TYPE_CHECKING
 
 from rapidgen.controller.backing_up import back_up
-from rapidgen.faces.rws.asking import Asked, Denied, Served, show
+from rapidgen.faces.rws.asking import Denied, RwsRequest, Served, show
 from rapidgen.faces.rws.disks import disk_path
 from rapidgen.faces.rws.routing import serves
 from rapidgen.machine.calendar import date_time
@@ -25,7 +25,7 @@ def version(office: "Office") -> tuple[int, int]:
 
 
 @serves(ops.CONTROLLER, ops.IDENTITY)
-def identity(office: "Office", asked: Asked) -> Served:
+def identity(office: "Office", asked: RwsRequest) -> Served:
     """Who this controller is; it says that it is a virtual one."""
     told = {
         "ctrl-name": office.controller.system.name,
@@ -37,7 +37,7 @@ def identity(office: "Office", asked: Asked) -> Served:
 
 
 @serves(ops.SYSTEM)
-def get_system(office: "Office", asked: Asked) -> Served:
+def get_system(office: "Office", asked: RwsRequest) -> Served:
     """Name and RobotWare."""
     (major, minor), name = version(office), office.controller.system.name
     if asked.is_one:
@@ -66,13 +66,13 @@ def _options(kind: str) -> list[Item]:
 
 
 @serves(ops.OPTIONS)
-def get_options(office: "Office", asked: Asked) -> Served:
+def get_options(office: "Office", asked: RwsRequest) -> Served:
     """What is installed."""
     return show(*_options("sys-option"), collection=True)
 
 
 @serves(ops.PRODUCTS)
-def get_products(office: "Office", asked: Asked) -> Served:
+def get_products(office: "Office", asked: RwsRequest) -> Served:
     """Products: RobotWare alone."""
     major, minor = version(office)
     told = {"version": f"{major}.{minor}", "version-name": f"{major}.{minor}.0"}
@@ -80,14 +80,14 @@ def get_products(office: "Office", asked: Asked) -> Served:
 
 
 @serves(ops.ROBOT_TYPE)
-def get_robot_type(office: "Office", asked: Asked) -> Served:
+def get_robot_type(office: "Office", asked: RwsRequest) -> Served:
     """The robot's type, where a backup tells it."""
     types = office.controller.system.robot_types
     return show(Item("sys-robottype", "robottype", {"robot-type": types[0][1] if types else ""}))
 
 
 @serves(ops.CLOCK)
-def get_clock(office: "Office", asked: Asked) -> Served:
+def get_clock(office: "Office", asked: RwsRequest) -> Served:
     """Date and time."""
     now = date_time(office.controller.scheduler)
     told = {"datetime": now.strftime("%Y-%m-%d T %H:%M:%S")}
@@ -95,7 +95,7 @@ def get_clock(office: "Office", asked: Asked) -> Served:
 
 
 @serves(ops.VARIABLE)
-def get_variable(office: "Office", asked: Asked) -> Served:
+def get_variable(office: "Office", asked: RwsRequest) -> Served:
     """Where a variable points to: here to the volume of that name."""
     name = asked.names["variable"]
     folder = _VARIABLES.get(name.upper())
@@ -105,7 +105,7 @@ def get_variable(office: "Office", asked: Asked) -> Served:
 
 
 @serves(ops.RESTART, ops.RESTART_AT_CTRL)
-def restart(office: "Office", asked: Asked) -> None:
+def restart(office: "Office", asked: RwsRequest) -> None:
     """A warm start: everybody is logged out. Other kinds are not offered here."""
     office.masters.need(asked, "cfg")
     mode = asked.field("restart-mode", (*_MODES, "xstart", "shutdown"))
@@ -115,7 +115,7 @@ def restart(office: "Office", asked: Asked) -> None:
 
 
 @serves(ops.PROGRESS)
-def get_progress(office: "Office", asked: Asked) -> Served:
+def get_progress(office: "Office", asked: RwsRequest) -> Served:
     """How far a job is: all are done at once here."""
     code = office.progress.get(asked.names["id"])
     if code is None:
@@ -124,7 +124,7 @@ def get_progress(office: "Office", asked: Asked) -> Served:
 
 
 @serves(ops.BACKUP)
-def back_up_now(office: "Office", asked: Asked) -> Served:
+def back_up_now(office: "Office", asked: RwsRequest) -> Served:
     """A backup into a new folder: done when it is answered."""
     words = asked.field("backup")
     if not words.startswith("/fileservice/"):
@@ -141,6 +141,6 @@ def back_up_now(office: "Office", asked: Asked) -> Served:
 
 
 @serves(ops.BACKUP_STATE)
-def backup_state(office: "Office", asked: Asked) -> Served:
+def backup_state(office: "Office", asked: RwsRequest) -> Served:
     """Whether a backup is under way: never, here."""
     return show(Item("ctrl-backup", "state", {"state": "0", "backup-state": "idle"}))

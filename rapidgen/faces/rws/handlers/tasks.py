@@ -3,7 +3,7 @@
 from typing import TYPE_CHECKING
 
 from rapidgen.controller.programs import CannotLoad
-from rapidgen.faces.rws.asking import Asked, Denied, Served, show
+from rapidgen.faces.rws.asking import Denied, RwsRequest, Served, show
 from rapidgen.faces.rws.disks import disk_path
 from rapidgen.faces.rws.routing import serves
 from rapidgen.runtime.loading import module_text
@@ -27,7 +27,7 @@ _STATUS = {
 }  # fmt: skip
 
 
-def find_task(office: "Office", name: str, asked: Asked) -> Task:
+def find_task(office: "Office", name: str, asked: RwsRequest) -> Task:
     """A task by name. Denied: there is none (400 on RobotWare 6, 404 on 7)."""
     for task in office.controller.rapid_tasks.values():
         if task.name.lower() == name.lower():
@@ -35,13 +35,13 @@ def find_task(office: "Office", name: str, asked: Asked) -> Task:
     raise Denied(400 if asked.is_one else 404, "E_INVALIDARG", f"no task {name}")
 
 
-def execution_state(task: Task, asked: Asked) -> str:
+def execution_state(task: Task, asked: RwsRequest) -> str:
     """A task's execution state; RobotWare 6 cuts the words to four letters [code: librws]."""
     word = _EXECUTION[task.state]
     return word[:4] if asked.is_one else word
 
 
-def _item(office: "Office", task: Task, kind: str, asked: Asked) -> Item:
+def _item(office: "Office", task: Task, kind: str, asked: RwsRequest) -> Item:
     kind_of_task = task.spec.type.lower()
     modules = office.cabinet.programs.modules(task)
     state = "linked" if task.state != "empty" else "loaded" if modules else "empty"
@@ -60,20 +60,20 @@ def _item(office: "Office", task: Task, kind: str, asked: Asked) -> Item:
 
 
 @serves(ops.TASKS)
-def get_tasks(office: "Office", asked: Asked) -> Served:
+def get_tasks(office: "Office", asked: RwsRequest) -> Served:
     """All tasks."""
     tasks = office.controller.rapid_tasks.values()
     return show(*(_item(office, t, "rap-task-li", asked) for t in tasks), collection=True)
 
 
 @serves(ops.TASK)
-def get_task(office: "Office", asked: Asked) -> Served:
+def get_task(office: "Office", asked: RwsRequest) -> Served:
     """One task."""
     return show(_item(office, find_task(office, asked.names["task"], asked), "rap-task", asked))
 
 
 @serves(ops.ACTIVATE, ops.DEACTIVATE)
-def activate(office: "Office", asked: Asked) -> None:
+def activate(office: "Office", asked: RwsRequest) -> None:
     """The task selection panel: here all tasks are selected, and none can be left out."""
     find_task(office, asked.names.get("task") or asked.field("task"), asked)
     if "deactivate" in (asked.query.get("action"), asked.path.rpartition("/")[2]):
@@ -83,13 +83,13 @@ def activate(office: "Office", asked: Asked) -> None:
 # -- modules -------------------------------------------------------------------------------------
 
 
-def _task_asked(office: "Office", asked: Asked) -> Task:
+def _task_asked(office: "Office", asked: RwsRequest) -> Task:
     name = asked.names.get("task") or asked.query.get("task", "")
     return find_task(office, name, asked)
 
 
 @serves(ops.MODULES)
-def get_modules(office: "Office", asked: Asked) -> Served:
+def get_modules(office: "Office", asked: RwsRequest) -> Served:
     """Modules of a task; they stand in `state` in HAL, though they are many [VC 7.21]."""
     found = office.cabinet.programs.modules(_task_asked(office, asked))
     return show(
@@ -105,7 +105,7 @@ def get_modules(office: "Office", asked: Asked) -> Served:
 
 
 @serves(ops.MODULE)
-def get_module(office: "Office", asked: Asked) -> Served:
+def get_module(office: "Office", asked: RwsRequest) -> Served:
     """One module: its file; in RWS 1.0 with `resource=module-text` its text."""
     task, name = _task_asked(office, asked), asked.names["module"]
     found = [m for m in office.cabinet.programs.modules(task) if m.name.lower() == name.lower()]
@@ -119,12 +119,12 @@ def get_module(office: "Office", asked: Asked) -> Served:
 
 
 @serves(ops.MODULE_TEXT)
-def get_text(office: "Office", asked: Asked) -> Served:
+def get_text(office: "Office", asked: RwsRequest) -> Served:
     """The source of a module."""
     return _text(office, asked, _task_asked(office, asked), asked.names["module"])
 
 
-def _text(office: "Office", asked: Asked, task: Task, name: str) -> Served:
+def _text(office: "Office", asked: RwsRequest, task: Task, name: str) -> Served:
     text = office.cabinet.programs.text(task, name)
     if text is None:
         raise Denied(400 if asked.is_one else 404, "E_NO_SUCH_SYMBOL", f"no module {name}", -517)
@@ -133,7 +133,7 @@ def _text(office: "Office", asked: Asked, task: Task, name: str) -> Served:
 
 
 @serves(ops.LOAD_MODULE)
-def load_module(office: "Office", asked: Asked) -> Served | None:
+def load_module(office: "Office", asked: RwsRequest) -> Served | None:
     """Load a module; what is wrong in it is told by `builderror`, not here [VC 7.21]."""
     office.masters.need(asked, "rapid")
     task = find_task(office, asked.names["task"], asked)
@@ -150,7 +150,7 @@ def load_module(office: "Office", asked: Asked) -> Served | None:
 
 
 @serves(ops.UNLOAD_MODULE)
-def unload_module(office: "Office", asked: Asked) -> None:
+def unload_module(office: "Office", asked: RwsRequest) -> None:
     """Take a module out of a task."""
     office.masters.need(asked, "rapid")
     task = find_task(office, asked.names["task"], asked)
@@ -161,13 +161,13 @@ def unload_module(office: "Office", asked: Asked) -> None:
         raise _refused(asked, fault, name) from fault
 
 
-def _refused(asked: Asked, fault: CannotLoad, what: str) -> Denied:
+def _refused(asked: RwsRequest, fault: CannotLoad, what: str) -> Denied:
     name = str(fault)
     return Denied(_STATUS[name][0 if asked.is_one else 1], name, what, -507)
 
 
 @serves(ops.SAVE_MODULE)
-def save_module(office: "Office", asked: Asked) -> None:
+def save_module(office: "Office", asked: RwsRequest) -> None:
     """Write a module with the present values of its persistents; an ending is put behind."""
     task, name = _task_asked(office, asked), asked.names["module"]
     module = task.program.modules.get(name.lower())
@@ -183,7 +183,7 @@ def save_module(office: "Office", asked: Asked) -> None:
 
 
 @serves(ops.PROGRAM)
-def get_program(office: "Office", asked: Asked) -> Served | None:
+def get_program(office: "Office", asked: RwsRequest) -> Served | None:
     """The program of a task; nothing where there is none."""
     task = find_task(office, asked.names["task"], asked)
     if not office.cabinet.programs.modules(task):
@@ -192,7 +192,7 @@ def get_program(office: "Office", asked: Asked) -> Served | None:
 
 
 @serves(ops.BUILD_ERRORS)
-def get_build_errors(office: "Office", asked: Asked) -> Served:
+def get_build_errors(office: "Office", asked: RwsRequest) -> Served:
     """What is wrong with the program of a task."""
     task = find_task(office, asked.names["task"], asked)
     names = {m.file.path: m.name for m in office.cabinet.programs.modules(task)}
@@ -210,7 +210,7 @@ def get_build_errors(office: "Office", asked: Asked) -> Served:
 
 
 @serves(ops.POINTER)
-def get_pointer(office: "Office", asked: Asked) -> Served:
+def get_pointer(office: "Office", asked: RwsRequest) -> Served:
     """Program pointer of a task."""
     task = find_task(office, asked.names["task"], asked)
     stack = task.stack()
@@ -230,7 +230,7 @@ def get_pointer(office: "Office", asked: Asked) -> Served:
 
 
 @serves(ops.POINTER_TO_ROUTINE)
-def pointer_to_routine(office: "Office", asked: Asked) -> None:
+def pointer_to_routine(office: "Office", asked: RwsRequest) -> None:
     """Program pointer of one task to a routine."""
     office.masters.need(asked, "rapid")
     task = find_task(office, asked.names["task"], asked)

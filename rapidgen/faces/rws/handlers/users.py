@@ -3,7 +3,7 @@
 import re
 from typing import TYPE_CHECKING
 
-from rapidgen.faces.rws.asking import Asked, Denied, Served, show
+from rapidgen.faces.rws.asking import Denied, RwsRequest, Served, show
 from rapidgen.faces.rws.routing import serves
 from rapidgen.wire.rws import operations as ops
 from rapidgen.wire.rws.bodies import Generation, Item
@@ -21,14 +21,14 @@ _GUID = re.compile(r"\{[0-9A-Fa-f]{8}(-[0-9A-Fa-f]{4}){3}-[0-9A-Fa-f]{12}\}")
 
 
 @serves(ops.LOGOUT)
-def logout(office: "Office", asked: Asked) -> Served:
+def logout(office: "Office", asked: RwsRequest) -> Served:
     """End the session; what it held is free, but RobotWare 8's write access."""
     office.end_session(asked.session)
     return show(title="logout")
 
 
 @serves(ops.REGISTER_USER)
-def register(office: "Office", asked: Asked) -> Served:
+def register(office: "Office", asked: RwsRequest) -> Served:
     """Say who it is, for others to read."""
     session = asked.session
     session.alias = asked.form.get("username", "")
@@ -38,18 +38,18 @@ def register(office: "Office", asked: Asked) -> Served:
 
 
 @serves(ops.LOGIN_INFO)
-def login_info(office: "Office", asked: Asked) -> Served:
+def login_info(office: "Office", asked: RwsRequest) -> Served:
     """Who is logged in."""
     return show(Item("user-login-info", asked.session.user, {"name": asked.session.user}))
 
 
-def _grants(office: "Office", asked: Asked) -> list[str]:
+def _grants(office: "Office", asked: RwsRequest) -> list[str]:
     denied = office.login.denied if asked.session.user == "Default User" else frozenset[str]()
     return [grant for grant in GRANTS if grant not in denied]
 
 
 @serves(ops.GRANTS)
-def grants(office: "Office", asked: Asked) -> Served:
+def grants(office: "Office", asked: RwsRequest) -> Served:
     """What this user may do."""
     if asked.is_one:
         return show(*(Item("user-grant", g) for g in _grants(office, asked)), collection=True)
@@ -58,7 +58,7 @@ def grants(office: "Office", asked: Asked) -> Served:
 
 
 @serves(ops.GRANT_EXISTS)
-def grant_exists(office: "Office", asked: Asked) -> Served:
+def grant_exists(office: "Office", asked: RwsRequest) -> Served:
     """Whether this user may do one thing."""
     wanted = asked.query.get("grant", "")
     told = "true" if wanted in _grants(office, asked) else "false"
@@ -66,7 +66,7 @@ def grant_exists(office: "Office", asked: Asked) -> Served:
 
 
 @serves(ops.RETCODE)
-def retcode(office: "Office", asked: Asked) -> Served:
+def retcode(office: "Office", asked: RwsRequest) -> Served:
     """What a code means."""
     try:
         code = int(asked.query.get("code", ""))
@@ -82,7 +82,7 @@ def retcode(office: "Office", asked: Asked) -> Served:
 
 
 @serves(ops.ASK_RMMP)
-def ask_rmmp(office: "Office", asked: Asked) -> Served:
+def ask_rmmp(office: "Office", asked: RwsRequest) -> Served:
     """Ask the pendant's user for the right to write in manual mode."""
     _no_rmmp_on_8(office)
     asked.field("privilege", ("modify", "exec"))
@@ -90,13 +90,13 @@ def ask_rmmp(office: "Office", asked: Asked) -> Served:
 
 
 @serves(ops.CANCEL_RMMP)
-def cancel_rmmp(office: "Office", asked: Asked) -> None:
+def cancel_rmmp(office: "Office", asked: RwsRequest) -> None:
     """Ask no more."""
     _no_rmmp_on_8(office)
 
 
 @serves(ops.RMMP)
-def rmmp(office: "Office", asked: Asked) -> Served:
+def rmmp(office: "Office", asked: RwsRequest) -> Served:
     """Who may write in manual mode: nobody."""
     _no_rmmp_on_8(office)
     told = {"userid": "0", "alias": "", "location": "", "application": "", "privilege": "none"}
@@ -104,7 +104,7 @@ def rmmp(office: "Office", asked: Asked) -> Served:
 
 
 @serves(ops.RMMP_POLL)
-def poll_rmmp(office: "Office", asked: Asked) -> Served:
+def poll_rmmp(office: "Office", asked: RwsRequest) -> Served:
     """Whether it was granted: in automatic mode it need not be."""
     _no_rmmp_on_8(office)
     granted = office.controller.mode == "auto"
@@ -126,14 +126,14 @@ def _gone(office: "Office") -> None:
 
 
 @serves(ops.MASTERSHIPS)
-def masterships(office: "Office", asked: Asked) -> Served:
+def masterships(office: "Office", asked: RwsRequest) -> Served:
     """The domains."""
     _gone(office)
     return show(*(Item("msh-resource-li", d) for d in office.masters.domains), collection=True)
 
 
 @serves(ops.MASTERSHIP)
-def mastership(office: "Office", asked: Asked) -> Served:
+def mastership(office: "Office", asked: RwsRequest) -> Served:
     """Who has a domain."""
     _gone(office)
     domain = asked.names["domain"]
@@ -153,7 +153,7 @@ def mastership(office: "Office", asked: Asked) -> Served:
 
 
 @serves(ops.REQUEST, ops.REQUEST_ALL, ops.REQUEST_PLAIN)
-def request(office: "Office", asked: Asked) -> None:
+def request(office: "Office", asked: RwsRequest) -> None:
     """Take one domain, or all of them."""
     _gone(office)
     office.masters.need_mode()
@@ -162,14 +162,14 @@ def request(office: "Office", asked: Asked) -> None:
 
 
 @serves(ops.RELEASE, ops.RELEASE_ALL)
-def release(office: "Office", asked: Asked) -> None:
+def release(office: "Office", asked: RwsRequest) -> None:
     """Give one domain back, or all of them."""
     _gone(office)
     for domain in _named(office, asked):
         office.masters.release(asked.session, domain)
 
 
-def _named(office: "Office", asked: Asked) -> tuple[str, ...]:
+def _named(office: "Office", asked: RwsRequest) -> tuple[str, ...]:
     domain = asked.names.get("domain")
     return (domain,) if domain else office.masters.domains
 
@@ -178,7 +178,7 @@ def _named(office: "Office", asked: Asked) -> tuple[str, ...]:
 
 
 @serves(ops.STATION_REGISTER)
-def register_station(office: "Office", asked: Asked) -> None:
+def register_station(office: "Office", asked: RwsRequest) -> None:
     """The session becomes part of a control station; its id stands in braces."""
     guid = asked.field("control-station-id")
     if not _GUID.fullmatch(guid):
@@ -189,7 +189,7 @@ def register_station(office: "Office", asked: Asked) -> None:
 
 
 @serves(ops.WRITE_ACCESS)
-def write_access(office: "Office", asked: Asked) -> Served:
+def write_access(office: "Office", asked: RwsRequest) -> Served:
     """Which control station may write."""
     masters = office.masters
     told = {
@@ -202,7 +202,7 @@ def write_access(office: "Office", asked: Asked) -> Served:
 
 
 @serves(ops.WRITE_REQUEST)
-def request_write(office: "Office", asked: Asked) -> None:
+def request_write(office: "Office", asked: RwsRequest) -> None:
     """Take write access."""
     masters, station = office.masters, asked.session.station
     if not station:
@@ -213,7 +213,7 @@ def request_write(office: "Office", asked: Asked) -> None:
 
 
 @serves(ops.WRITE_RELEASE)
-def release_write(office: "Office", asked: Asked) -> None:
+def release_write(office: "Office", asked: RwsRequest) -> None:
     """Give write access back."""
     masters, station = office.masters, asked.session.station
     if not station or masters.station != station:
@@ -222,14 +222,14 @@ def release_write(office: "Office", asked: Asked) -> None:
 
 
 @serves(ops.MOTION_ALLOWED)
-def motion_allowed(office: "Office", asked: Asked) -> Served:
+def motion_allowed(office: "Office", asked: RwsRequest) -> Served:
     """Whether a start may move something."""
     told = {"is-enabled": "true" if office.masters.motion_allowed else "false"}
     return show(Item("controstation-allow-motion-control", "allowmotioncontrol", told))
 
 
 @serves(ops.ALLOW_MOTION)
-def allow_motion(office: "Office", asked: Asked) -> None:
+def allow_motion(office: "Office", asked: RwsRequest) -> None:
     """Let a start move something."""
     office.masters.need(asked, "motion")
     told = asked.field("allow-motion-control", ("true", "false"))

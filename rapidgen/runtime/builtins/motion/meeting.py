@@ -32,6 +32,11 @@ def _members(task: Task, tasks: Ref) -> frozenset[str]:
     return members
 
 
+def _missing(absent: frozenset[str]) -> str:
+    tasks = ", ".join(sorted(absent))
+    return f"waits for {tasks} to come here" if tasks else "all have come to where it waits"
+
+
 def _meet(
     task: Task, point: object, members: frozenset[str], time_out: float | None, error: str
 ) -> None:
@@ -50,7 +55,7 @@ def _meet(
             lambda: meeting.complete,
             on=(meeting.changed,),
             timeout=time_out,
-            why=lambda: f"waits for {', '.join(sorted(members - meeting.arrived))} to come here",
+            why=lambda: _missing(members - meeting.arrived),
         )
     finally:
         if not meeting.complete:

@@ -9,7 +9,7 @@ from math import inf
 
 from rapidgen.axes.mapping import ABSENT
 from rapidgen.motion.group import MotionGroup
-from rapidgen.motion.zones import Ball, Box, Cylinder, JointSpace, Shape, WorldZone
+from rapidgen.motion.zones import Ball, BoxVolume, Cylinder, JointSpace, Shape, WorldZone
 from rapidgen.runtime.builtins.io import dionum
 from rapidgen.runtime.builtins.motion.access import geometry_of, group_of
 from rapidgen.runtime.errors import FatalError
@@ -66,7 +66,7 @@ def box(
     if any(abs(a - b) < _LEAST_SIDE / 1000 for a, b in corners):
         raise _refused(f"a side of the box is shorter than {_LEAST_SIDE:g} mm")
     low, high = (tuple(map(end, corners)) for end in (min, max))
-    _put(shape, inside, outside, Box((low[0], low[1], low[2]), (high[0], high[1], high[2])))
+    _put(shape, inside, outside, BoxVolume((low[0], low[1], low[2]), (high[0], high[1], high[2])))
 
 
 @builtin("WZCylDef")
