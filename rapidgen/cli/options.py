@@ -61,7 +61,7 @@ Start = Annotated[
 Controllers = Annotated[
     list[str],
     typer.Option(
-        help="Controller: dir://, ftp:// or sftp:// [USER@]HOST/HOME-FOLDER; or @FILE.",
+        help="Controller: dir://, ftp://, sftp:// [USER@]HOST/HOME-FOLDER, rws://HOST; or @FILE.",
         metavar="URL",
     ),
 ]

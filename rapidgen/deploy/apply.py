@@ -6,6 +6,8 @@ trajectory is taken), the files, the fence's own files, everything read back onc
 manifest, and last the journal's end. Until `switching` stands, nothing old was touched.
 """
 
+from contextlib import nullcontext
+
 from rapidgen.deploy.driverset import FENCE, NEW, DriverSet, SetFile, digest
 from rapidgen.deploy.keep import (
     back_up,
@@ -15,7 +17,7 @@ from rapidgen.deploy.keep import (
     new_manifest,
     now,
 )
-from rapidgen.deploy.live.carry import Live, LiveOptions, after_files, before_files, check
+from rapidgen.deploy.live.carry import Live, LiveOptions, after_files, before_files, check, writing
 from rapidgen.deploy.live.plan import InMemory
 from rapidgen.deploy.neighbour import Neighbour
 from rapidgen.deploy.plan import DAMAGED, FileChange, Plan
@@ -65,7 +67,8 @@ def apply(
     if run is not None:
         before_files(run)
     if not plan.files_are_done:
-        _apply_files(transport, plan, say)
+        with writing(run) if run is not None else nullcontext():
+            _apply_files(transport, plan, say)
     if run is not None:
         after_files(run)
 

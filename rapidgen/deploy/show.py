@@ -67,7 +67,8 @@ def plan_text(plan: Plan) -> str:
             out.append(f"  ! {step.who}: {step.what}{stop}")
     if not plan.steps and not plan.is_empty:
         out.append("  = no restart: no module and nothing that is loaded changes")
-    out.append(f"  ? switching: {plan.rename}")
+    if plan.live is None or not plan.files_are_done:
+        out.append(f"  ? switching: {plan.rename}")
     out += [f"  ? {line}" for line in plan.unseen]
     out.append(_summary(plan))
     return "\n".join(out) + "\n"
@@ -188,6 +189,8 @@ def _note(change: CfgChange) -> str:
 def _summary(plan: Plan) -> str:
     if plan.is_empty:
         return "Plan: nothing to do."
+    if plan.files_are_done:
+        return f"Plan: no file; {'a restart' if plan.is_pending else 'what stands above'}."
     counts = Counter(c.action for c in plan.changes)
     words = [
         f"{counts['add']} to add",

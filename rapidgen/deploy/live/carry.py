@@ -22,6 +22,7 @@ from rapidgen.deploy.transports.transport import TransportFault, refused
 from rapidgen.deploy.work import Work
 from rapidgen.diagnostics import DiagnosticError, error
 from rapidgen.system import CfgText, write_cfg
+from rapidgen.wire.rws.bodies import Generation
 
 _LOOK = 1.0
 """s between two looks whether a person has done it."""
@@ -131,6 +132,16 @@ def before_files(run: Live) -> None:
             _delete(run, run.live.delete)
             if run.plan.wanted is None:
                 _set(run)
+
+
+@contextmanager
+def writing(run: Live) -> Iterator[None]:
+    """What files are written under: write access on RobotWare 8 [real 8.1.0], else nothing."""
+    if run.services.generation is not Generation.EIGHT:
+        yield
+        return
+    with run.services.mastership("cfg", wait=run.options.wait):
+        yield
 
 
 def after_files(run: Live) -> None:
