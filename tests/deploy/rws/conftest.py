@@ -1,5 +1,6 @@
 import sys
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -46,6 +47,7 @@ def overrides_of(generation):
     return [ware, "controller.type=omnicore"] if major > 6 else [ware]
 
 
+@cache
 def build(generation, *overrides):
     """The driver of an irb120."""
     return wanted_set("irb120", [*overrides_of(generation), *overrides])
