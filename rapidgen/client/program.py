@@ -15,7 +15,7 @@ from rapidgen.axes.frames import Pose
 from rapidgen.axes.kinematics import AxisConfiguration
 from rapidgen.client.errors import InvalidProgram
 from rapidgen.diagnostics import suggest
-from rapidgen.wire.simple_message.spec import Instruction, Mark
+from rapidgen.wire.simple_message.spec import Instruction, MarkPlace
 
 _MM = 0.001
 
@@ -106,23 +106,23 @@ class Trigger:
 
     signal: str
     value: float
-    kind: Mark
+    kind: MarkPlace
     place: float
 
     @classmethod
     def after(cls, metres: float, signal: str, value: float = 1.0) -> "Trigger":
         """So many m behind the beginning of the move."""
-        return cls(signal, value, Mark.START, metres)
+        return cls(signal, value, MarkPlace.START, metres)
 
     @classmethod
     def before(cls, metres: float, signal: str, value: float = 1.0) -> "Trigger":
         """So many m before its end."""
-        return cls(signal, value, Mark.END, metres)
+        return cls(signal, value, MarkPlace.END, metres)
 
     @classmethod
     def ahead(cls, seconds: float, signal: str, value: float = 1.0) -> "Trigger":
         """So many s before its end."""
-        return cls(signal, value, Mark.TIME, seconds)
+        return cls(signal, value, MarkPlace.TIME, seconds)
 
 
 def pulse(signal: str, after: float, length: float) -> tuple[Trigger, Trigger]:

@@ -106,7 +106,7 @@ class Payload:
 
 
 @dataclass(frozen=True, slots=True)
-class Parameter:
+class OwnParameter:
     """A parameter of a routine; `inout`: its value then is a result."""
 
     name: str
@@ -120,7 +120,7 @@ class OwnRoutine:
 
     name: str
     call: str
-    parameters: tuple[Parameter, ...] = ()
+    parameters: tuple[OwnParameter, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -107,5 +107,7 @@ def routine_of(
                 (*path, "parameters", number, "mode"),
                 help="results are num and bool",
             )
-    parameters = tuple(model.Parameter(p.name, p.type, p.mode == "inout") for p in given.parameters)
+    parameters = tuple(
+        model.OwnParameter(p.name, p.type, p.mode == "inout") for p in given.parameters
+    )
     return model.OwnRoutine(name, given.call, parameters)

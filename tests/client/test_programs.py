@@ -12,6 +12,7 @@ from rapidgen.client import (
     NotSupported,
     Program,
     RoutineFailed,
+    Speed,
     Trigger,
     pulse,
 )
@@ -281,6 +282,10 @@ def test_another_tool_in_another_object():
         Program().set("valve", 2),
         Program().wait_for("flow", timeout=1),
         Program().wait(-1),
+        Program().wait(2500),
+        Program().set("level", 5000),
+        Program().set("flow", float("nan")),
+        Program(speed=Speed(0.1, rotary=5000)).move_joints(BENT),
         Program().wait(float("nan")),
         Program(speed=0).move_joints(BENT),
         Program(zone=-1).move_joints(BENT),

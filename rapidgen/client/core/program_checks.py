@@ -7,7 +7,7 @@ joints at the end of each instruction, by which the driver checks it once more.
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from math import ceil, isfinite, sqrt
+from math import ceil, isfinite, radians, sqrt
 
 from rapidgen.axes import frames
 from rapidgen.axes.frames import Pose
@@ -20,7 +20,7 @@ from rapidgen.client.errors import InvalidProgram
 from rapidgen.client.program import Program, ProgramStep, Speed, Trigger, Zone
 from rapidgen.diagnostics import Diagnostic, Severity, error, suggest
 from rapidgen.wire.simple_message import instructions
-from rapidgen.wire.simple_message.spec import LONGEST_TEXT, Instruction
+from rapidgen.wire.simple_message.spec import FIXED_LIMIT, LONGEST_TEXT, Instruction
 
 _STEP, _TURN = 0.02, 0.1
 """m and rad of the TCP between two looks at a way."""
@@ -28,11 +28,11 @@ _JUMP = 0.6
 """rad that an axis turns between two looks, at most: more is a singularity."""
 _UNIT = 1e-3
 """A quaternion's length may be off by so much."""
-_FASTEST, _WIDEST = 10.0, 1.0
-"""m/s and m that the driver takes, at most; 1,000 times as much in degrees of angles."""
+_FASTEST, _TURNING, _WIDEST = 10.0, radians(10_000), 1.0
+"""m/s, rad/s and m or rad that the driver takes, at most."""
 _LARGEST = 3.4e38
 """Of a RAPID num."""
-_LONGEST = 3600.0
+_LONGEST = 2000.0
 """s of a wait."""
 _MOVES = frozenset(
     (Instruction.MOVE_ABSJ, Instruction.MOVE_J, Instruction.MOVE_L, Instruction.MOVE_C)
@@ -197,7 +197,7 @@ def _signal(walk: _Walk, name: str, value: float, *, sets: bool) -> int:
         walk.say("RG670", f"signal '{name}' is exposed for reading only", "`access: write`")
     digital = signal.kind[0] == "D" and value not in (0, 1)
     group = signal.kind[0] == "G" and not (value >= 0 and value == int(value))
-    if digital or group or not isfinite(value):
+    if digital or group or not abs(value) <= FIXED_LIMIT:
         walk.say("RG670", f"signal '{name}' ({signal.kind}) cannot be {value:g}")
     if not sets and signal.kind[0] == "A":
         walk.say("RG670", f"signal '{name}' is analogue: nobody waits for a value of it")
@@ -272,7 +272,7 @@ def _seconds(walk: _Walk, step: ProgramStep) -> float:
 
 
 def _speed(walk: _Walk, speed: Speed) -> None:
-    limits = (_FASTEST, 1000 * _FASTEST, _FASTEST, 1000 * _FASTEST)
+    limits = (_FASTEST, _TURNING, _FASTEST, _TURNING)
     if not all(0 < value <= most for value, most in zip(speed.words, limits, strict=True)):
         walk.say("RG670", f"{speed} is outside what a robot is asked", "m/s and rad/s, above 0")
 

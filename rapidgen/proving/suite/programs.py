@@ -7,7 +7,14 @@ from rapidgen.proving import messages
 from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import RawLink
-from rapidgen.proving.messages import RawInstruction, RawReason, RawTrajectoryState, millionths
+from rapidgen.proving.messages import (
+    PROGRAM,
+    RawInstruction,
+    RawReason,
+    RawTrajectoryState,
+    millionths,
+    words_frame,
+)
 from rapidgen.proving.model import Broken
 from rapidgen.proving.programs import (
     ALL,
@@ -240,3 +247,63 @@ def _superseded(bench: Bench) -> None:
         bench.rests(5, 1, "neither is under way")
         client.takes("a program", program)
     bench.wait_until_at(program[-1].joints, 60)
+
+
+@case("program-waits", "a wait stands between moves, and STOP ends it")
+def _waits(bench: Bench) -> None:
+    """The move before it is a stop point, whatever its zone; what cannot be is refused."""
+    client = Programmer(bench)
+    first, *_, last = orders(bench, 6, random.Random(4))
+    there = replace(last, kind=MOVE_ABSJ, pose=None, zone=0.01)
+
+    def sends(seconds: float) -> messages.RawContent:
+        client.number += 1
+        wait = [int(RawInstruction.WAIT), *millionths([seconds])]
+        words = [*millionths(bench.position), *there.words, *wait, *first.words]
+        return client.say(words, 3, ALL)
+
+    if not isinstance(sends(1.5), messages.RawPointsAccepted):
+        raise Broken("a program with a wait is refused")
+    bench.wait_until_at(there.joints, 60)
+    bench.stays(1.2, "the program waits")
+    bench.wait_until_at(first.joints, 60)
+    for seconds in (-1.0, 2001.0):
+        client.refused(sends(seconds), RawReason.BAD_VALUE, 1, f"a wait of {seconds} s")
+    sends(1000.0)
+    bench.wait_until_at(there.joints, 60)
+    bench.run(0.5)
+    client.link.stop()
+    bench.stays(2, "STOP has ended a wait")
+    for words, reason in (
+        ([1024 + MOVE_ABSJ, *millionths([99.0, 0.0])], RawReason.NO_FRAME),
+        ([1024 + MOVE_ABSJ, *millionths([0.0, 0.5])], RawReason.NO_FRAME),
+        ([int(RawInstruction.SET), *millionths([99.0, 0.0])], None),
+        ([9, 0], RawReason.NO_INSTRUCTION),
+    ):
+        client.number += 1
+        start = millionths(bench.position)
+        told = client.say([*start, *words, *start], 1, ALL)
+        if not isinstance(told, messages.RawPointsRefused) or told.point != 0:
+            raise Broken(f"the instruction {words} is answered by {told}")
+        if reason is not None:
+            client.refused(told, reason, 0, f"the instruction {words}")
+    bench.stays(1, "no instruction was right")
+
+
+plain = Theme("programs")
+
+
+@plain("program-basic", "a driver of the basic profile says that it takes no programs")
+def _basic(bench: Bench) -> None:
+    """HELLO does not tell PROGRAMS, and PROGRAM is answered by a failure."""
+    link = bench.motion()
+    told = bench.says_hello(bench.state())
+    if bool(told.features & messages.RawFeature.PROGRAMS) is not bench.streams:
+        raise Broken(f"HELLO tells the features {told.features}")
+    if bench.streams:
+        return
+    place = millionths(bench.position)
+    link.send(words_frame(1, 0, 1, [*place, MOVE_ABSJ, *place], ALL, number=PROGRAM))
+    if not isinstance(link.reply(PROGRAM), messages.RawFailure):
+        raise Broken("a driver of the basic profile takes a program")
+    bench.stays(1, "nothing was taken")

@@ -43,7 +43,9 @@ def rapid_constants() -> tuple[RapidConstant, ...]:
     ]
     found += [RapidConstant(f"ROS_STREAM_{f.name}", f, "flag of POINTS") for f in spec.StreamFlag]
     found += [RapidConstant(f"ROS_DO_{i.name}", i, "instruction") for i in spec.Instruction]
-    found += [RapidConstant(f"ROS_MARK_{m.name}", m, "where a signal is set") for m in spec.Mark]
+    found += [
+        RapidConstant(f"ROS_MARK_{m.name}", m, "where a signal is set") for m in spec.MarkPlace
+    ]
     found += [RapidConstant(f"ROS_SET_{m.name}", m, "before operands") for m in spec.Modal]
     found += [RapidConstant(f"ROS_EVENT_{e.name}", e, "type of an event") for e in spec.EventType]
     found += [RapidConstant(f"ROS_REASON_{r.name}", r, r.text) for r in spec.Reason]

@@ -151,7 +151,7 @@ class Modal(IntFlag):
     SIGNALS = 2048
 
 
-class Mark(IntEnum):
+class MarkPlace(IntEnum):
     """Where on its move a signal is set."""
 
     START = 0

@@ -10,7 +10,7 @@ MODULE ROS_programs
     ! pose. So the limits are those of the joints, the configuration is the one that the controller
     ! gives, and a client whose robot is another one is refused before anything moves.
 
-    CONST string ROS_BUILD_PROGRAMS := "87d9d58597a4";
+    CONST string ROS_BUILD_PROGRAMS := "60dbb83bca3c";
 
     ! mm/s and deg/s of a speed, mm and deg of a zone, at most.
     LOCAL CONST num TCP_SPEED := 1000;
@@ -21,7 +21,7 @@ MODULE ROS_programs
     LOCAL CONST dnum DEG := 5.729577951308232E-05;
     LOCAL CONST dnum MM := 0.001;
     ! s of a wait, at most.
-    LOCAL CONST num LONGEST := 3600;
+    LOCAL CONST num LONGEST := 2000;
     ! A pose is reached when it is no farther away than this (mm), and no more turned than this cosine of
     ! half an angle: 0.2 degrees.
     LOCAL CONST num NEAR := 1;
