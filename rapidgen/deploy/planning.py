@@ -68,7 +68,7 @@ def make_plan(
         if r.kind == "module"
     }
     if services is not None:
-        symbols = build_symbols(_modules(changes), _builds(base, wanted))
+        symbols = build_symbols(wanted) if wanted is not None else {}
         references = keyed((*old_cfg, *(wanted.cfg if wanted else ())))
         view = look(services, references, _tasks(wanted, old), symbols)
         texts = view.texts
@@ -313,17 +313,6 @@ def _file_changes(
 
 def _live_print(live: LivePlan | None) -> list[Members]:
     return [live.fingerprint] if live is not None else []
-
-
-def _modules(changes: list[FileChange]) -> list[tuple[bytes, tuple[str, ...]]]:
-    """Modules that come and that lie there, with their tasks."""
-    found = [(c.after, c.tasks) for c in changes if c.kind == "module" and c.after is not None]
-    there = [(c.before, c.tasks) for c in changes if c.kind == "module" and c.before is not None]
-    return found + there
-
-
-def _builds(base: _Base, wanted: DriverSet | None) -> list[str]:
-    return [s.build_id for s in (wanted, base.had) if s is not None]
 
 
 def _tasks(wanted: DriverSet | None, old: Mapping[str, tuple[str, ...]]) -> list[str]:

@@ -72,7 +72,7 @@ class LivePlan:
     """Saved modules that come back."""
     restart: bool = False
     """Whether something counts only after a restart."""
-    symbols: Mapping[str, str] = field(default_factory=dict)
+    symbols: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     """Where BUILD_ID is in each task."""
     started: tuple[str, ...] = ()
     """Background tasks that run: whatever changes memory stops them."""
@@ -119,7 +119,7 @@ def make_live_plan(
     old: Mapping[str, tuple[str, ...]],
     ours: frozenset[str],
     before: Mapping[str, Json],
-    symbols: Mapping[str, str],
+    symbols: Mapping[str, tuple[str, ...]],
     clash: tuple[InMemory, ...],
     restore: tuple[InMemory, ...],
 ) -> LivePlan:

@@ -88,7 +88,7 @@ def _driver(services: Controller, plan: Plan, live: LivePlan, there: dict[str, s
             continue
         wrong = services.build_errors(task)
         faults += [f"{task}: {e.module} line {e.row}: {e.text}" for e in wrong]
-        build = build_in(services, task, live.symbols.get(name, ""))
+        build = build_in(services, task, live.symbols.get(name, ()))
         if not wrong and build != plan.wanted.build_id:
             faults.append(f"{task} runs build {build or '(none)'}, not {plan.wanted.build_id}")
     return faults

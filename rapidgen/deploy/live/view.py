@@ -11,6 +11,8 @@ from dataclasses import dataclass
 from rapidgen.client.rws import Controller, RwsError
 from rapidgen.client.rws.model import CfgInstance, TaskState
 from rapidgen.deploy.cfg import Keyed, shown_key
+from rapidgen.deploy.driverset import DriverSet
+from rapidgen.deploy.neighbour import MODULE
 from rapidgen.system import Attribute, CfgText, Instance, Section
 
 SECTIONS = (
@@ -80,7 +82,7 @@ def look(
     services: Controller,
     references: Keyed,
     tasks: Iterable[str],
-    symbols: Mapping[str, str],
+    symbols: Mapping[str, tuple[str, ...]],
 ) -> LiveView:
     """Read all of it. `references` are the instances that we write or have written, `tasks` those
     whose memory matters, `symbols` where BUILD_ID is in each (`MODULE/NAME`). Raises RobotError."""
@@ -88,6 +90,7 @@ def look(
     there = services.tasks()
     known = {t.name.casefold(): t.name for t in there}
     mine = [known[t.casefold()] for t in dict.fromkeys(tasks) if t.casefold() in known]
+    normal = {t.name for t in there if t.kind == "normal"}
     kind = "virtual, " if who.is_virtual else ""
     return LiveView(
         who.id,
@@ -99,36 +102,42 @@ def look(
         there,
         tuple(_rows(services, references)),
         {t.casefold(): tuple(m.name for m in services.modules(t)) for t in mine},
-        {t.casefold(): build_in(services, t, symbols.get(t, "")) for t in mine},
+        {
+            # A cut may leave old and new modules in what a restart keeps; others are read whole.
+            t.casefold(): build_in(services, t, symbols.get(t, ())[: None if t in normal else 1])
+            for t in mine
+        },
     )
 
 
-def build_in(services: Controller, task: str, symbol: str) -> str:
-    """BUILD_ID in a task's memory; empty where there is none. Raises RobotError."""
-    if not symbol:
-        return ""
-    try:
-        value = services.symbol(f"{task}/{symbol}")
-    except RwsError as error:
-        if error.status >= 500:
-            raise
-        return ""
-    return value if isinstance(value, str) else ""
+def build_in(services: Controller, task: str, symbols: Sequence[str]) -> str:
+    """BUILD_ID in a task's memory; empty where there is none, or where its modules differ.
+
+    Raises RobotError.
+    """
+    found: set[str] = set()
+    for symbol in symbols:
+        try:
+            value = services.symbol(f"{task}/{symbol}")
+        except RwsError as error:
+            if error.status >= 500:
+                raise
+            value = ""
+        found.add(value if isinstance(value, str) else "")
+    return found.pop() if len(found) == 1 else ""
 
 
-def build_symbols(
-    files: Iterable[tuple[bytes, Sequence[str]]], builds: Iterable[str]
-) -> dict[str, str]:
-    """Where BUILD_ID is in each task: `MODULE/NAME`, of files with their tasks."""
-    known = "|".join(re.escape(b) for b in builds if b)
-    pattern = re.compile(rf'^\s*CONST string (\w+) := "(?:{known})"'.encode(), re.M | re.I)
-    found: dict[str, str] = {}
-    for data, tasks in files:
-        module = re.search(rb"^\s*MODULE\s+(\w+)", data, re.M | re.I)
-        name = pattern.search(data) if known else None
-        if module and name:
-            for task in tasks:
-                found.setdefault(task, f"{module[1].decode()}/{name[1].decode()}")
+def build_symbols(wanted: DriverSet) -> dict[str, tuple[str, ...]]:
+    """Where BUILD_ID is in each task: `MODULE/NAME` for each module that has it."""
+    declared = rf'^\s*(?:LOCAL\s+)?CONST\s+string\s+(\w+)\s*:=\s*"{re.escape(wanted.build_id)}"'
+    pattern = re.compile(declared.encode(), re.M | re.I)
+    found: dict[str, tuple[str, ...]] = {}
+    for file in wanted.files:
+        module, name = MODULE.search(file.data), pattern.search(file.data)
+        if file.kind == "module" and module and name:
+            symbol = f"{module[1].decode()}/{name[1].decode()}"
+            for task in file.tasks:
+                found[task] = (*found.get(task, ()), symbol)
     return found
 
 

@@ -184,6 +184,21 @@ def test_an_update_and_the_way_back(rws, cell, wanted):
     assert make_plan(transport, wanted).is_empty
 
 
+def test_old_and_new_modules_in_one_task_are_not_taken_for_new(rws, cell, wanted):
+    """What a cut after the first of them leaves: it has the new BUILD_ID, the others have not."""
+    cabinet, transport = cell
+    newer = rws.build(Generation.ONE, "trajectory.capacity=500")
+    rws.run(transport, wanted)
+    rws.run(transport, newer, restart=False)
+    transport.services.stop(everything=True)
+    transport.services.load_module("T_ROB1", "HOME/rapidgen/ROS_common.sys", replace=True)
+    cabinet.ask_restart()
+    rws.pass_time(cabinet, 1.0)
+    assert "T_ROB1/ROS_motion" in [m.shown for m in make_plan(transport, newer).live.replace]
+    rws.run(transport, newer)
+    assert make_plan(transport, newer).is_empty
+
+
 def test_success_and_then_a_system_failure(rws, cell, wanted):
     """2xx on all of it, and what boots is broken: the way back is offered, and works."""
     cabinet, transport = cell
