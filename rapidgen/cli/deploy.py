@@ -15,23 +15,29 @@ def deploy(
         Path | None, typer.Option(help="Do exactly this plan, or refuse.", metavar="FILE")
     ] = None,
     overwrite: options.Overwrite = False,
+    restart: options.Restart = False,
+    wait: options.WaitForPeople = 0.0,
     yes: options.Yes = False,
     overrides: options.Overrides = None,
     user: options.User = "",
     secrets: options.Secrets = None,
     identity: options.Identity = "",
     known_hosts: options.KnownHosts = "",
+    fingerprint: options.Fingerprint = "",
     parallel: options.Parallel = 8,
     backup: options.LoadedCfg = None,
 ) -> int:
     """Put the driver on one or several controllers: backup, upload, verify, switch.
 
-    Starts no motors, changes no mode, restarts nothing: the plan says what people do then.
+    Starts no motors and changes no mode; the plan says what people do then. Over web services
+    (rws://) cfg is loaded, too, and with --restart the controller restarted and read back.
     A run that was cut is finished or undone by the next.
 
     rapidgen deploy cell1.yaml --to "ftp://192.168.125.1/hd0a/SYSTEM/HOME"
     """
     from rapidgen.cli.carrying_out import carry_out, make_sure, show_plans
+    from rapidgen.cli.hello import hello
+    from rapidgen.cli.web_services import agree
     from rapidgen.deploy.fleet import parse_targets
     from rapidgen.deploy.session import (
         FleetJob,
@@ -44,9 +50,22 @@ def deploy(
     from rapidgen.deploy.target import Access
 
     wanted = wanted_set(config, overrides or ())
-    access = Access(user, secrets, identity, known_hosts, ask=True)
+    access = Access(
+        user, secrets, identity, known_hosts, ask=True, fingerprint=fingerprint, agree=agree()
+    )
     targets = parse_targets(to)
-    job = FleetJob("deploy", targets, access, lambda _: wanted, overwrite, parallel, backup)
+    job = FleetJob(
+        "deploy",
+        targets,
+        access,
+        lambda _: wanted,
+        overwrite,
+        parallel,
+        backup,
+        restart=restart,
+        wait=wait,
+        hello=hello,
+    )
     plans = plan_all(job)
     show_plans(plans)
     if plan is not None:

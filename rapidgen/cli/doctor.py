@@ -12,7 +12,8 @@ def doctor(
     to: Annotated[
         str,
         typer.Option(
-            help="Controller: dir://, ftp:// or sftp:// [USER@]HOST/HOME-FOLDER.", metavar="URL"
+            help="Controller: dir://, ftp://, sftp://, rws:// or rwss:// [USER@]HOST...",
+            metavar="URL",
         ),
     ],
     host: Annotated[
@@ -23,6 +24,7 @@ def doctor(
     secrets: options.Secrets = None,
     identity: options.Identity = "",
     known_hosts: options.KnownHosts = "",
+    fingerprint: options.Fingerprint = "",
     backup: options.LoadedCfg = None,
     as_json: Annotated[bool, typer.Option("--json", help="One JSON array.")] = False,
 ) -> int:
@@ -36,15 +38,19 @@ def doctor(
     import json
     from dataclasses import asdict
 
+    from rapidgen.cli.hello import hello
+    from rapidgen.cli.web_services import agree
     from rapidgen.deploy.doctor import examine
     from rapidgen.deploy.session import wanted_set
     from rapidgen.deploy.target import Access, parse_target
 
     checks = examine(
         parse_target(to),
-        Access(user, secrets, identity, known_hosts, ask=True),
+        Access(
+            user, secrets, identity, known_hosts, ask=True, fingerprint=fingerprint, agree=agree()
+        ),
         wanted_set(config, overrides or ()),
-        hello=_hello,
+        hello=hello,
         robot_host=host,
         backup=backup,
     )
@@ -57,37 +63,3 @@ def doctor(
             if check.mend and check.verdict != "ok":
                 typer.echo(f"{'':<7}  {'':<{width}}  -> {check.mend}")
     return 1 if any(check.verdict == "fail" for check in checks) else 0
-
-
-def _hello(host: str, port: int, timeout: float = 3.0) -> str | None:
-    """BUILD_ID that a driver tells on its state port; None for another program. OSError: nobody."""
-    import socket
-    import time
-
-    from rapidgen import __version__
-    from rapidgen.wire.simple_message.codec import decode, encode
-    from rapidgen.wire.simple_message.frames import FrameSplitter, WireError
-    from rapidgen.wire.simple_message.messages import HelloReply, HelloRequest
-    from rapidgen.wire.simple_message.spec import PROTOCOL_VERSION, Comm
-
-    major, minor, patch = (int(part) for part in __version__.split(".")[:3])
-    end = time.monotonic() + timeout
-    with socket.create_connection((host, port), timeout) as connection:
-        connection.sendall(
-            encode(HelloRequest(PROTOCOL_VERSION, (major, minor, patch), 0), Comm.REQUEST)
-        )
-        splitter = FrameSplitter()
-        try:
-            while (left := end - time.monotonic()) > 0:
-                connection.settimeout(left)
-                block = connection.recv(4096)
-                if not block:
-                    return None
-                splitter.feed(block)
-                while (frame := splitter.next()) is not None:
-                    content = decode(frame)
-                    if isinstance(content, HelloReply):
-                        return content.build_id
-        except (WireError, TimeoutError):
-            return None
-    return None

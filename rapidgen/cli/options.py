@@ -61,7 +61,7 @@ Start = Annotated[
 Controllers = Annotated[
     list[str],
     typer.Option(
-        help="Controller: dir://, ftp:// or sftp:// [USER@]HOST/HOME-FOLDER; or @FILE.",
+        help="Controller: dir://, ftp://, sftp:// [USER@]HOST/HOME-FOLDER, rws://HOST; or @FILE.",
         metavar="URL",
     ),
 ]
@@ -83,6 +83,14 @@ LoadedCfg = Annotated[
 ]
 Overwrite = Annotated[
     bool, typer.Option("--overwrite", help="Replace hand edits and strangers' files.")
+]
+
+Restart = Annotated[
+    bool, typer.Option("--restart", help="Restart the controller (warm) where that is needed.")
+]
+WaitForPeople = Annotated[
+    float,
+    typer.Option("--wait", help="Seconds for automatic mode, a stop, a mastership.", metavar="S"),
 ]
 
 # Of the verbs that talk to a controller's Robot Web Services.

@@ -23,6 +23,7 @@ def plan(
     secrets: options.Secrets = None,
     identity: options.Identity = "",
     known_hosts: options.KnownHosts = "",
+    fingerprint: options.Fingerprint = "",
     parallel: options.Parallel = 8,
     backup: options.LoadedCfg = None,
 ) -> int:
@@ -33,6 +34,7 @@ def plan(
 
     rapidgen plan cell1.yaml --to "ftp://192.168.125.1/hd0a/SYSTEM/HOME" --out plan.json
     """
+    from rapidgen.cli.web_services import agree
     from rapidgen.deploy.fleet import parse_targets
     from rapidgen.deploy.session import FleetJob, plan_all, wanted_set, write_plans
     from rapidgen.deploy.show import plan_text
@@ -40,7 +42,9 @@ def plan(
 
     try:
         wanted = wanted_set(config, overrides or ())
-        access = Access(user, secrets, identity, known_hosts, ask=True)
+        access = Access(
+            user, secrets, identity, known_hosts, ask=True, fingerprint=fingerprint, agree=agree()
+        )
         job = FleetJob(
             "deploy",
             parse_targets(to),

@@ -17,11 +17,14 @@ def rollback(
         bool, typer.Option("--list", help="Change nothing; list the backups.")
     ] = False,
     overwrite: options.Overwrite = False,
+    restart: options.Restart = False,
+    wait: options.WaitForPeople = 0.0,
     yes: options.Yes = False,
     user: options.User = "",
     secrets: options.Secrets = None,
     identity: options.Identity = "",
     known_hosts: options.KnownHosts = "",
+    fingerprint: options.Fingerprint = "",
     parallel: options.Parallel = 8,
     backup: options.LoadedCfg = None,
 ) -> int:
@@ -33,6 +36,8 @@ def rollback(
     rapidgen rollback cell1.yaml --to "ftp://192.168.125.1/hd0a/SYSTEM/HOME" --list
     """
     from rapidgen.cli.carrying_out import carry_out, make_sure, show_plans
+    from rapidgen.cli.hello import hello
+    from rapidgen.cli.web_services import agree
     from rapidgen.deploy.fleet import parse_targets
     from rapidgen.deploy.session import (
         FleetJob,
@@ -46,7 +51,9 @@ def rollback(
 
     name = config_name(config)
     targets = parse_targets(to)
-    access = Access(user, secrets, identity, known_hosts, ask=True)
+    access = Access(
+        user, secrets, identity, known_hosts, ask=True, fingerprint=fingerprint, agree=agree()
+    )
     if list_backups:
         for target in targets:
             for past in history(target, access, name):
@@ -60,6 +67,9 @@ def rollback(
         overwrite,
         parallel,
         backup,
+        restart=restart,
+        wait=wait,
+        hello=hello,
     )
     plans = plan_all(job)
     show_plans(plans)

@@ -15,11 +15,14 @@ def uninstall(
         bool,
         typer.Option("--overwrite", help="Take hand edits away too; copies go to .rapidgen/."),
     ] = False,
+    restart: options.Restart = False,
+    wait: options.WaitForPeople = 0.0,
     yes: options.Yes = False,
     user: options.User = "",
     secrets: options.Secrets = None,
     identity: options.Identity = "",
     known_hosts: options.KnownHosts = "",
+    fingerprint: options.Fingerprint = "",
     parallel: options.Parallel = 8,
     backup: options.LoadedCfg = None,
 ) -> int:
@@ -31,6 +34,8 @@ def uninstall(
     rapidgen uninstall cell1.yaml --to "sftp://admin@192.168.125.1/HOME"
     """
     from rapidgen.cli.carrying_out import carry_out, make_sure, show_plans
+    from rapidgen.cli.hello import hello
+    from rapidgen.cli.web_services import agree
     from rapidgen.deploy.fleet import parse_targets
     from rapidgen.deploy.session import (
         FleetJob,
@@ -43,9 +48,22 @@ def uninstall(
     from rapidgen.deploy.target import Access
 
     name = config_name(config)
-    access = Access(user, secrets, identity, known_hosts, ask=True)
+    access = Access(
+        user, secrets, identity, known_hosts, ask=True, fingerprint=fingerprint, agree=agree()
+    )
     targets = parse_targets(to)
-    job = FleetJob("uninstall", targets, access, lambda _: None, overwrite, parallel, backup)
+    job = FleetJob(
+        "uninstall",
+        targets,
+        access,
+        lambda _: None,
+        overwrite,
+        parallel,
+        backup,
+        restart=restart,
+        wait=wait,
+        hello=hello,
+    )
     plans = plan_all(job)
     check_names(plans, name)
     show_plans(plans)

@@ -1,6 +1,6 @@
 """What the verbs over Robot Web Services do alike: log in, agree to a certificate, ask."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -31,10 +31,15 @@ def controller(
         user=login.user or "Default User",
         password=login.password.get(),
         fingerprint=fingerprint,
-        confirm=_agree if is_terminal() else None,
+        confirm=agree(),
     )
     with found:
         yield found
+
+
+def agree() -> Callable[[str, str], bool] | None:
+    """Asks whether a certificate is right; None: nobody is at the terminal."""
+    return _agree if is_terminal() else None
 
 
 def _agree(where: str, fingerprint: str) -> bool:

@@ -6,6 +6,8 @@ trajectory is taken), the files, the fence's own files, everything read back onc
 manifest, and last the journal's end. Until `switching` stands, nothing old was touched.
 """
 
+from contextlib import nullcontext
+
 from rapidgen.deploy.driverset import FENCE, NEW, DriverSet, SetFile, digest
 from rapidgen.deploy.keep import (
     back_up,
@@ -15,6 +17,8 @@ from rapidgen.deploy.keep import (
     new_manifest,
     now,
 )
+from rapidgen.deploy.live.carry import Live, LiveOptions, after_files, before_files, check, writing
+from rapidgen.deploy.live.plan import InMemory
 from rapidgen.deploy.neighbour import Neighbour
 from rapidgen.deploy.plan import DAMAGED, FileChange, Plan
 from rapidgen.deploy.planning import make_plan
@@ -36,22 +40,40 @@ from rapidgen.diagnostics import Diagnostic, DiagnosticError, error
 
 
 def apply(
-    transport: Transport, plan: Plan, *, overwrite: bool = False, say: Say = lambda _: None
+    transport: Transport,
+    plan: Plan,
+    *,
+    overwrite: bool = False,
+    live: LiveOptions | None = None,
+    say: Say = lambda _: None,
 ) -> None:
-    """Do exactly what `plan` says; nothing when it is empty.
+    """Do exactly what `plan` says; nothing when it is empty. `live` is for web services.
 
-    Raises DiagnosticError: RG520, RG521, RG531, RG534, RG535, RG537 (conflicts), RG522
-    (the controller moved on), RG527 (cut while switching); TransportFault before that: then
-    nothing old was changed.
+    Raises DiagnosticError: RG520, RG521, RG531, RG534, RG535, RG537, RG541 (conflicts), RG522,
+    RG540 (the controller moved on, is another one), RG527, RG543 (cut), RG542 (not in this
+    state), RG544 (not what was deployed); TransportFault before that: then nothing old was changed.
     """
     conflicts = conflicts_of(plan, overwrite=overwrite)
     if conflicts:
         raise DiagnosticError(conflicts, exit_code=1)
+    run = None
+    if transport.services is not None and plan.live is not None:
+        work = Work(transport, plan, "none", say)
+        run = Live(transport.services, work, plan.live, live or LiveOptions())
+        check(run)
     now_there = make_plan(transport, plan.wanted, verb=plan.verb, loaded=plan.cfg_present)
     if now_there.fingerprint != plan.fingerprint:
         raise moved_on(plan.target)
-    if plan.is_empty:
-        return
+    if run is not None:
+        before_files(run)
+    if not plan.files_are_done:
+        with writing(run) if run is not None else nullcontext():
+            _apply_files(transport, plan, say)
+    if run is not None:
+        after_files(run)
+
+
+def _apply_files(transport: Transport, plan: Plan, say: Say) -> None:
     work = _begin(transport, plan, say)
     if plan.interrupted:
         _clean(work)
@@ -87,6 +109,8 @@ def conflicts_of(plan: Plan, *, overwrite: bool = False) -> list[Diagnostic]:
                 notes=plan.in_memory,
             )
         )
+    if plan.live is not None and plan.live.clash and not overwrite:
+        found += [_in_the_way(module) for module in plan.live.clash]
     found += [
         error(
             "RG535",
@@ -98,6 +122,16 @@ def conflicts_of(plan: Plan, *, overwrite: bool = False) -> list[Diagnostic]:
         if change.action == "clash"
     ]
     return found
+
+
+def _in_the_way(module: InMemory) -> Diagnostic:
+    return error(
+        "RG541",
+        None,
+        f"{module.shown} is loaded, and {module.why}",
+        "unload it, or --overwrite: it is saved with its persistents, and `rapidgen uninstall` "
+        "loads it again",
+    )
 
 
 def _beside(plan: Plan, other: Neighbour) -> Diagnostic:

@@ -10,6 +10,7 @@ from typing import Literal
 from rapidgen._json import members, whole
 from rapidgen.deploy.cfg import keyed, may_be_refused, name_of
 from rapidgen.deploy.driverset import DriverSet
+from rapidgen.deploy.live.plan import LivePlan
 from rapidgen.deploy.neighbour import MODULE
 from rapidgen.deploy.plan import Plan
 from rapidgen.deploy.planning import make_plan
@@ -129,7 +130,7 @@ def _default_login(target: Target, access: Access) -> Iterator[Check]:
     if used.is_default:
         yield _open_door(used)
         return
-    known = Credentials("Default User", Secret("robotics"), known_hosts=used.known_hosts)
+    known = replace(used, user="Default User", password=Secret("robotics"))
     attempt = replace(target, user=known.user)
     try:
         attempt.open(known, access.timeout).close()
@@ -159,6 +160,8 @@ def _contents(
         yield Check(area, "fail", first.message, first.help)
         return
     yield Check("HOME", "ok", "its files can be read; whether it can be written is not tried")
+    if plan.live is not None:
+        yield from _live(plan, plan.live)
     if plan.interrupted:
         yield Check("deployment", "warn", plan.interrupted, "`rapidgen deploy` or `rollback`")
     elif plan.had is None:
@@ -179,6 +182,23 @@ def _contents(
     yield from _beside(plan)
     yield from _configuration(plan, wanted)
     yield _space(transport, wanted)
+
+
+def _live(plan: Plan, live: LivePlan) -> Iterator[Check]:
+    """What only web services tell."""
+    yield Check("controller", "ok", f"{live.shown}, id {live.id}")
+    if live.mode != "AUTO":
+        mend = "switch it to automatic at the pendant: nobody writes from afar before"
+        yield Check("mode", "warn", f"it is {live.mode}", mend)
+    if live.running:
+        mend = f"it has to stand for a restart: `rapidgen halt {plan.target}`"
+        yield Check("program", "warn", "it runs", mend)
+    for module in live.clash:
+        mend = "unload it, or `rapidgen deploy --overwrite`, which saves it first"
+        yield Check("memory", "fail", f"{module.shown} is loaded, and {module.why}", mend)
+    if plan.is_pending:
+        mend = "`rapidgen deploy --restart`, or menu > Restart"
+        yield Check("restart", "warn", "everything is loaded: a restart is pending", mend)
 
 
 def _clashes(transport: Transport, plan: Plan, wanted: DriverSet) -> Iterator[Check]:

@@ -11,6 +11,7 @@ from typing import Literal
 from rapidgen._json import Json, Members
 from rapidgen.deploy.cfg import CfgChange
 from rapidgen.deploy.driverset import DriverSet, digest
+from rapidgen.deploy.live.plan import LivePlan
 from rapidgen.deploy.neighbour import Neighbour
 from rapidgen.deploy.state import FileRecord, Manifest, StateFolder
 from rapidgen.deploy.steps import ManualStep
@@ -104,6 +105,8 @@ class Plan:
     """Why the manifest on the controller cannot be used, if so: only `overwrite` replaces it."""
     copies: int = 0
     """Number of the next copy of a stranger's file."""
+    live: LivePlan | None = None
+    """What is done besides files; None where files are all that is reached."""
 
     @property
     def conflicts(self) -> tuple[FileChange, ...]:
@@ -112,8 +115,20 @@ class Plan:
     @property
     def is_empty(self) -> bool:
         """Nothing to do: no file, no record of one, no interrupted run to put right."""
+        return self.files_are_done and (self.live is None or self.live.is_empty)
+
+    @property
+    def files_are_done(self) -> bool:
+        """The files and what is written down about them are as they have to be."""
         same = all(c.action == "same" for c in self.changes)
         return same and not self.interrupted and not self.is_stale
+
+    @property
+    def is_pending(self) -> bool:
+        """Everything is in place, and counts only after a restart."""
+        live = self.live
+        loaded = live is not None and live.restart and not live.touches_cfg
+        return loaded and self.files_are_done
 
     @property
     def is_stale(self) -> bool:
@@ -163,6 +178,8 @@ def plan_json(plan: Plan) -> Members:
             {"who": s.who, "what": s.what, "stops_motion": s.stops_motion} for s in plan.steps
         ],
         "unseen": list(plan.unseen),
+        "controller": plan.live.id if plan.live else None,
+        "restart_pending": plan.is_pending,
     }
 
 

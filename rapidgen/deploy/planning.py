@@ -2,12 +2,16 @@
 
 import difflib
 import json
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Literal
 
 from rapidgen._json import Members
 from rapidgen.deploy.cfg import compare, keyed, may_be_refused, name_of
 from rapidgen.deploy.driverset import FENCE, NEW, STATE, DriverSet, digest
+from rapidgen.deploy.live.memory import saved
+from rapidgen.deploy.live.plan import LivePlan, find_clashes, live_steps, make_live_plan
+from rapidgen.deploy.live.view import LiveView, build_symbols, look
 from rapidgen.deploy.mend import copies, mended
 from rapidgen.deploy.neighbour import MODULE, Beside, Neighbour, find_neighbour, in_memory
 from rapidgen.deploy.plan import DAMAGED, Action, FileChange, Layout, Plan, Verb, lines_of
@@ -55,14 +59,27 @@ def make_plan(
     changes = _file_changes(transport, layout, base, wanted)
     syspar = read_syspar(transport, layout.syspar)
     texts = tuple(f.text for f in syspar) or loaded
-    _check_robotware(texts, wanted, transport.shown)
     old_cfg = _old_cfg(changes)
+    services = transport.services
+    view, symbols = None, {}
+    old = {
+        r.path.rpartition("/")[2].partition(".")[0]: r.tasks
+        for r in base.records.values()
+        if r.kind == "module"
+    }
+    if services is not None:
+        symbols = build_symbols(wanted) if wanted is not None else {}
+        references = keyed((*old_cfg, *(wanted.cfg if wanted else ())))
+        view = look(services, references, _tasks(wanted, old), symbols)
+        texts = view.texts
+        _check_release(view, wanted, transport.shown)
+    _check_robotware(texts, wanted, transport.shown)
     wanted_cfg = wanted.cfg if wanted else ()
     seen = bool(syspar) and transport.reach.writes_cfg
     if seen:
         # A system that starts from these files has nobody who could leave a row out.
         wanted_cfg = tuple(text for text in wanted_cfg if not may_be_refused(text))
-    present = texts if texts else old_cfg
+    present = texts if texts or view else old_cfg
     ours = frozenset([*map(name_of, keyed(old_cfg)), *base.cfg_before])
     cfg = compare(keyed(wanted_cfg), keyed(present), ours, base.cfg_before)
     neighbour: Neighbour | None = None
@@ -98,24 +115,35 @@ def make_plan(
             )
         )
     modules = [c for c in changes if c.kind == "module" and c.action != "same"]
-    steps = steps_of(
-        [(c.path, c.tasks) for c in modules if c.after is not None],
-        cfg,
-        wanted_cfg,
-        old_cfg,
-        gone=any(c.after is None for c in modules),
-        written=seen,
-    )
+    live = None
+    if services is not None and view is not None:
+        live = make_live_plan(
+            view, cfg, wanted, old, ours, base.cfg_before, symbols,
+            find_clashes(services, view, wanted, old),
+            saved(transport, layout.home, view) if wanted is None else (),
+        )  # fmt: skip
+        steps = live_steps(live, verb, transport.shown)
+    else:
+        steps = steps_of(
+            [(c.path, c.tasks) for c in modules if c.after is not None],
+            cfg,
+            wanted_cfg,
+            old_cfg,
+            gone=any(c.after is None for c in modules),
+            written=seen,
+        )
     if wanted is not None:
         if verb == "deploy":
             check_complete(wanted, cfg)
         steps = (*entry_steps(wanted, texts, transport.shown), *steps)
     if neighbour is not None:
         steps = steps_beside(neighbour)
-    elif wanted is None and not seen and any(c.action == "remove" for c in cfg):
+    elif wanted is None and not seen and live is None and any(c.action == "remove" for c in cfg):
         steps = (CFG_FIRST, *steps)
     unseen = list(transport.reach.unseen)
-    if loaded and not syspar:
+    if live is not None:
+        pass  # all of it was asked for
+    elif loaded and not syspar:
         unseen.append("loaded cfg is what the backup says; what was changed since is not seen")
     elif not seen and wanted is not None:
         unseen.append(
@@ -138,7 +166,7 @@ def make_plan(
         tuple(unseen),
         transport.reach.rename,
         base.interrupted,
-        digest(json.dumps([state.digest, sorted(print_of)]).encode()),
+        digest(json.dumps([state.digest, sorted(print_of), *_live_print(live)]).encode()),
         layout,
         state,
         had,
@@ -152,6 +180,7 @@ def make_plan(
         restored,
         damaged,
         copies(transport, layout.home) if damaged else len(base.origin),
+        live,
     )
 
 
@@ -282,6 +311,24 @@ def _file_changes(
     return changes
 
 
+def _live_print(live: LivePlan | None) -> list[Members]:
+    return [live.fingerprint] if live is not None else []
+
+
+def _tasks(wanted: DriverSet | None, old: Mapping[str, tuple[str, ...]]) -> list[str]:
+    names = [task for file in (wanted.files if wanted else ()) for task in file.tasks]
+    return list(dict.fromkeys([*names, *(task for tasks in old.values() for task in tasks)]))
+
+
+def _check_release(view: LiveView, wanted: DriverSet | None, target: str) -> None:
+    """RG525; what is built for RobotWare 7 is for 8, too."""
+    major = view.robotware.partition(".")[0]
+    if wanted is None or not major.isdecimal():
+        return
+    if min(int(major), 7) != min(wanted.robotware[0], 7):
+        raise _other_release(target, view.robotware, wanted)
+
+
 def _neighbour(
     transport: Transport,
     layout: Layout,
@@ -333,12 +380,15 @@ def _check_robotware(texts: tuple[CfgText, ...], wanted: DriverSet | None, targe
             continue
         main, _ = text.version
         if main != wanted.robotware[0]:
-            raise refused(
-                "RG525",
-                f"{target} runs RobotWare {main} ({text.path}), the driver is built "
-                f"for {_ware(wanted.robotware)}",
-                f"set `robotware: {main}` in the configuration and build again",
-            )
+            raise _other_release(target, f"{main} ({text.path})", wanted)
+
+
+def _other_release(target: str, found: str, wanted: DriverSet) -> DiagnosticError:
+    return refused(
+        "RG525",
+        f"{target} runs RobotWare {found}, the driver is built for {_ware(wanted.robotware)}",
+        f"set `robotware: {found[0]}` in the configuration and build again",
+    )
 
 
 def _ware(robotware: tuple[int, int]) -> str:

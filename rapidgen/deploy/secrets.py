@@ -5,6 +5,7 @@ import os
 import stat
 import sys
 import tomllib
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -38,12 +39,15 @@ class Secret:
 
 @dataclass(frozen=True, slots=True)
 class Credentials:
-    """Who logs in, and how. `identity` and `known_hosts` are files for SFTP."""
+    """Who logs in, and how. `identity` and `known_hosts` are files for SFTP, `fingerprint` and
+    `agree` (asks a person about host and fingerprint) are for TLS with a pinned certificate."""
 
     user: str
     password: Secret = field(default_factory=lambda: Secret(""))
     identity: str = ""
     known_hosts: str = ""
+    fingerprint: str = ""
+    agree: Callable[[str, str], bool] | None = None
 
     @property
     def is_default(self) -> bool:

@@ -13,6 +13,8 @@ from rapidgen.deploy.apply import apply, conflicts_of, moved_on
 from rapidgen.deploy.driverset import DriverSet, digest, from_files, from_folder
 from rapidgen.deploy.fleet import TargetOutcome, connected, on_all
 from rapidgen.deploy.keep import backup_set
+from rapidgen.deploy.live.carry import LiveOptions, another
+from rapidgen.deploy.live.proof import Hello, ReadBack
 from rapidgen.deploy.plan import Plan, Verb, plan_json
 from rapidgen.deploy.planning import find_layout, make_plan
 from rapidgen.deploy.state import Past, read_state
@@ -40,6 +42,12 @@ class FleetJob:
     parallel: int = 1
     backup: Path | None = None
     """A backup of the one controller, for what its transport does not see."""
+    restart: bool = False
+    """Whether a controller may be restarted, warm."""
+    wait: float = 0.0
+    """s for what only people do at a controller."""
+    hello: Hello | None = None
+    """Which build serves a state port; looked at after a restart."""
 
     def loaded(self) -> tuple[CfgText, ...]:
         """What that backup says is loaded. Raises DiagnosticError RG536, RG701, RG702."""
@@ -119,10 +127,13 @@ def apply_all(job: FleetJob, plans: Sequence[Plan], say: Say) -> list[TargetOutc
                 transport,
                 plan,
                 overwrite=job.overwrite,
+                live=LiveOptions(job.restart, job.wait, ReadBack(job.hello, target.host)),
                 say=lambda line: say(prefix + line),
             )
         count = sum(1 for c in plan.changes if c.action != "same")
-        return TargetOutcome(target, "done", f"{count} files, build {plan.build_id or '-'}")
+        pending = plan.live is not None and plan.live.restart and not job.restart
+        later = ", restart pending" if pending else ""
+        return TargetOutcome(target, "done", f"{count} files, build {plan.build_id or '-'}{later}")
 
     outcomes = []
     for target, result in zip(
@@ -205,7 +216,7 @@ def check_plans(path: Path, plans: Sequence[Plan]) -> None:
     """That the plans made now are those in the file, one by one.
 
     Raises DiagnosticError RG523 (not a plan, of another robot or build), RG522 (the controller
-    moved on).
+    moved on), RG540 (another controller).
     """
     try:
         stored = json.loads(path.read_text(encoding="utf-8"))["plans"]
@@ -222,6 +233,8 @@ def check_plans(path: Path, plans: Sequence[Plan]) -> None:
         for key, what in (("verb", "verb"), ("name", "robot"), ("build_id", "build")):
             if old.get(key) != new[key]:
                 raise _plan_file(path, f"it is for {what} {old.get(key)!r}, not {new[key]!r}")
+        if old.get("controller") != new["controller"]:
+            raise another(plan, str(old.get("controller")))
         if old.get("fingerprint") != plan.fingerprint:
             raise moved_on(plan.target)
         if digest(json.dumps(old["files"]).encode()) != digest(json.dumps(new["files"]).encode()):

@@ -7,6 +7,7 @@ from itertools import groupby
 from rapidgen._json import Json
 from rapidgen.deploy.cfg import CfgChange
 from rapidgen.deploy.fleet import TargetOutcome
+from rapidgen.deploy.live.plan import BY_SERVICES
 from rapidgen.deploy.plan import FileChange, Plan
 
 _SIGNS = {
@@ -34,7 +35,8 @@ def plan_text(plan: Plan) -> str:
     """The plan in lines: files, cfg instances, what people do (`!`), what is not seen (`?`)."""
     ware = f"RobotWare {plan.robotware[0]}.{plan.robotware[1]:02d}" if plan.wanted else "uninstall"
     build = f", build {plan.build_id}" if plan.build_id else ""
-    out = [f"{plan.name or 'driver'} ({ware}{build})  via {plan.target}"]
+    where = f": {plan.live.shown}" if plan.live else ""
+    out = [f"{plan.name or 'driver'} ({ware}{build})  via {plan.target}{where}"]
     if plan.interrupted:
         out.append(f"  * {plan.interrupted}: this run puts it right")
     if plan.damaged:
@@ -55,12 +57,18 @@ def plan_text(plan: Plan) -> str:
     out += [f"  x {path}: would be restored in the place of ours" for path in plan.in_memory]
     for domain in sorted({c.domain for c in plan.cfg}):
         out += _cfg_lines(plan, domain)
+    if plan.is_pending:
+        out.append("  * everything is loaded, and counts after a restart: restart pending")
     for step in plan.steps:
         stop = " (stops motion)" if step.stops_motion else ""
-        out.append(f"  ! {step.who}: {step.what}{stop}")
+        if step.who == BY_SERVICES:
+            out.append(f"  > {step.what}")
+        else:
+            out.append(f"  ! {step.who}: {step.what}{stop}")
     if not plan.steps and not plan.is_empty:
         out.append("  = no restart: no module and nothing that is loaded changes")
-    out.append(f"  ? switching: {plan.rename}")
+    if plan.live is None or not plan.files_are_done:
+        out.append(f"  ? switching: {plan.rename}")
     out += [f"  ? {line}" for line in plan.unseen]
     out.append(_summary(plan))
     return "\n".join(out) + "\n"
@@ -181,6 +189,8 @@ def _note(change: CfgChange) -> str:
 def _summary(plan: Plan) -> str:
     if plan.is_empty:
         return "Plan: nothing to do."
+    if plan.files_are_done:
+        return f"Plan: no file; {'a restart' if plan.is_pending else 'what stands above'}."
     counts = Counter(c.action for c in plan.changes)
     words = [
         f"{counts['add']} to add",

@@ -2,7 +2,8 @@
 
 import os
 import re
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
@@ -10,8 +11,6 @@ from rapidgen.deploy.secrets import Credentials, find_password
 from rapidgen.deploy.transports.registry import SCHEMES, Target
 from rapidgen.deploy.transports.transport import Transport
 from rapidgen.diagnostics import DiagnosticError, refusal, suggest
-
-_LATER = ("rws", "rwss")
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,6 +23,9 @@ class Access:
     known_hosts: str = ""
     ask: bool = False
     timeout: float = 10.0
+    fingerprint: str = ""
+    agree: Callable[[str, str], bool] | None = None
+    """Asks a person about a certificate (host:port, fingerprint); None: nobody is there."""
 
 
 def parse_target(url: str) -> Target:
@@ -37,8 +39,6 @@ def parse_target(url: str) -> Target:
     if scheme in SCHEMES and not SCHEMES[scheme].port:
         folder = Path(os.path.abspath(os.path.expanduser(unquote(rest) or ".")))
         return Target(scheme, "", 0, str(folder))
-    if scheme in _LATER:
-        raise _bad(url, "Robot Web Services are not a transport yet", "use ftp:// or sftp://")
     if scheme not in SCHEMES:
         known = ", ".join(f"{name}://" for name in SCHEMES)
         meant = suggest(scheme, list(SCHEMES)) or f"there are {known}"
@@ -73,13 +73,17 @@ def connect(target: Target, access: Access) -> Transport:
 def credentials(target: Target, access: Access) -> Credentials:
     """User and password for a target; IRC5's own user name where none is given."""
     login = Credentials(
-        target.user or access.user, identity=access.identity, known_hosts=access.known_hosts
+        target.user or access.user,
+        identity=access.identity,
+        known_hosts=access.known_hosts,
+        fingerprint=access.fingerprint,
+        agree=access.agree,
     )
     ask = access.ask and not (target.way.takes_keys and access.identity)
     login = find_password(login, target.host, target.port, secrets=access.secrets, ask=ask)
     if login.user:
         return login
-    return Credentials("Default User", login.password, login.identity, login.known_hosts)
+    return replace(login, user="Default User")
 
 
 def _bad(url: str, reason: str, mend: str = "") -> DiagnosticError:

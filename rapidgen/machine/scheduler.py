@@ -250,6 +250,8 @@ class Scheduler:
 
     def _advance_real(self) -> AdvanceEnd:
         until, stop = self._until, self._stop
+        # Made before anybody looks at what was posted: what is posted later writes into its pipe.
+        _ = self.selector
         while True:
             if self._posted:
                 self._come_up(self._wall())

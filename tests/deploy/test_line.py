@@ -9,7 +9,7 @@ import threading
 
 import pytest
 
-from rapidgen.cli.doctor import _hello
+from rapidgen.cli.hello import hello
 from rapidgen.client import Robot, RobotError, Trajectory
 from rapidgen.client.address import Address
 from rapidgen.config import load_config
@@ -52,7 +52,7 @@ def test_from_an_empty_controller_to_a_moved_robot(serve, home, tmp_path, monkey
     with booted(home, tmp_path / "boot", clock="real", ports="auto") as controller:
         wanted_place, place = drive(controller)
         state = controller.network.listeners[11002][1]
-        assert _hello("127.0.0.1", state) == wanted.build_id
+        assert hello("127.0.0.1", state) == wanted.build_id
     assert place == pytest.approx(wanted_place, abs=1e-3)
 
 

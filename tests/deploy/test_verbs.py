@@ -181,7 +181,6 @@ def test_doctor_warns_of_the_delivered_password_and_of_other_programs(
     [
         ("192.168.125.1", "RG509"),
         ("ftpp://x/", "RG509"),
-        ("rws://x/", "RG509"),
         ("ftp:///HOME", "RG509"),
         ("ftp://h:99999/", "RG509"),
         ("ftp://h/a/../../b", "RG509"),

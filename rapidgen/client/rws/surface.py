@@ -96,6 +96,7 @@ class ControllerSurface(Generic[C_co]):
     save_module = _of_core(flows.rapid.save_module)
     build_errors = _of_core(flows.rapid.build_errors)
     pointer = _of_core(flows.rapid.pointer)
+    set_pointer = _of_core(flows.rapid.set_pointer)
     symbol = _of_core(flows.rapid.symbol)
     symbol_text = _of_core(flows.rapid.symbol_text)
     set_symbol = _of_core(flows.rapid.set_symbol)

@@ -22,6 +22,7 @@ from rapidgen.deploy.transports.transport import (
 class FolderTransport:
     """Files below `root`. A link that leads out of it is refused."""
 
+    services = None
     reach = Reach(
         rename="rename over the old file (atomic), with fsync",
         writes_cfg=True,

@@ -40,6 +40,7 @@ _SPACE_WORDS = (
 class FtpTransport:
     """One FTP session. `home` is absolute on the server; '' is where the login ends."""
 
+    services = None
     reach = Reach(
         rename="found out at deploy: rename over, delete and rename, or overwriting in place",
         writes_cfg=False,

@@ -21,6 +21,8 @@ class Scheme:
 SCHEMES = {
     "dir": Scheme("folder:open_folder"),
     "ftp": Scheme("ftp:FtpTransport", 21),
+    "rws": Scheme("rws:open_services", 443),
+    "rwss": Scheme("rws:open_services", 443),
     "sftp": Scheme("sftp:SftpTransport", 22, takes_keys=True),
 }
 

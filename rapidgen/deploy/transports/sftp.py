@@ -48,6 +48,7 @@ _NOTHING_TO_SHOW = "No authentication methods available"
 class SftpTransport:
     """One SFTP session. `home` is absolute on the server; '' is where the login ends."""
 
+    services = None
     reach = Reach(
         rename="posix-rename over the old file (atomic) where the server has it",
         writes_cfg=False,

@@ -1,15 +1,18 @@
 """The seam under a deployment: file operations on one controller, and what they cannot reach.
 
 Every transport is a folder of files behind relative POSIX paths. What a server answers is not
-trusted: sizes, times and names are bounded, and every failure is a `TransportFault`.
-(Robot Web Services fit here too: they add what `Reach` says is missing.)
+trusted: sizes, times and names are bounded, and every failure is a `TransportFault`. What a
+transport does beyond files is behind its `services`.
 """
 
 import re
 from dataclasses import dataclass
-from typing import Literal, Protocol
+from typing import TYPE_CHECKING, Literal, Protocol
 
 from rapidgen.diagnostics import DiagnosticError, error, refusal
+
+if TYPE_CHECKING:
+    from rapidgen.client.rws import Controller
 
 FILE_LIMIT = 8 * 1024 * 1024
 """Largest file that is read from a controller; a RAPID module of 8 MB is refused elsewhere too."""
@@ -70,6 +73,10 @@ class Transport(Protocol):
     reach: Reach
     shown: str
     """The URL as it may be shown: without secrets."""
+
+    @property
+    def services(self) -> "Controller | None":
+        """Web services of the same controller; None where there are files and nothing else."""
 
     def entries(self, folder: str) -> tuple[Entry, ...]:
         """What lies in a folder; kind 'missing' where there is none."""

@@ -34,7 +34,8 @@ class Route:
         return re.compile(
             re.sub(
                 r"\\\{(\w+)(\\\*)?\\\}",
-                lambda m: f"(?P<{m[1]}>{'.+' if m[2] else '[^/]+'})",
+                # Files and routines stand in names of cfg instances.
+                lambda m: f"(?P<{m[1]}>{'.+' if m[2] or m[1] == 'instance' else '[^/]+'})",
                 re.escape(self.path),
             )
         )

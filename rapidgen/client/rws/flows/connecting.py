@@ -15,7 +15,7 @@ from rapidgen.client.rws.effects import (
     Response,
     Settle,
 )
-from rapidgen.client.rws.errors import LoginFailed, NotRws
+from rapidgen.client.rws.errors import Busy, LoginFailed, NotRws
 from rapidgen.client.rws.flows.asking import ask
 from rapidgen.wire.rws import media
 from rapidgen.wire.rws import operations as ops
@@ -99,7 +99,9 @@ def _reach(core: RwsCore) -> Flow[str]:
         answer = yield Exchange("GET", _FIRST, headers, repeat=True)
     except ConnectionFailed as failed:
         raise (plain or failed) from failed
-    if answer.status not in (401, 503):
+    if answer.status == 503:  # it restarts, or has no session left
+        raise Busy.because("RG656", f"{core.where} is busy: it answers 503", "try again soon")
+    if answer.status != 401:
         raise _no_rws(core)
     return answer.headers.get("www-authenticate", "").lower()
 

@@ -115,6 +115,14 @@ def pointer(core: RwsCore, task: str) -> Flow[ProgramPointer]:
     return ProgramPointer(module, item.text("routinename"), whole(row), whole(column))
 
 
+def set_pointer(core: RwsCore, task: str, module: str, routine: str) -> Flow[None]:
+    """Program pointer of one task to a routine; those of other tasks stay. The task must stand."""
+    form = {"module": module, "routine": routine}
+    if core.generation is not Generation.ONE:
+        form["userlevel"] = "FALSE"
+    yield from held(core, "rapid", ask(core, ops.POINTER_TO_ROUTINE, {"task": task}, form))
+
+
 # -- symbols -------------------------------------------------------------------------------------
 
 

@@ -92,9 +92,13 @@ def _value(attribute: Attribute) -> str:
 def _with(office: "Office", asked: RwsRequest, instances: tuple[Instance, ...]) -> None:
     """The database with these instances of a type, in place of those that it has."""
     text, name = _domain(office, asked), asked.names["type"]
-    others = tuple(s for s in text.sections if s.name.casefold() != name.casefold())
-    known = next((s.name for s in text.sections if s.name.casefold() == name.casefold()), name)
-    changed = replace(text, sections=(*others, Section(known, instances)))
+    at = [i for i, s in enumerate(text.sections) if s.name.casefold() == name.casefold()]
+    sections = [None if i in at else s for i, s in enumerate(text.sections)]
+    if not at:
+        sections.append(Section(name, instances))
+    elif instances:
+        sections[at[0]] = Section(text.sections[at[0]].name, instances)
+    changed = replace(text, sections=tuple(s for s in sections if s is not None))
     cfg = office.cabinet.cfg
     domains = tuple(changed if d is text else d for d in cfg.domains)
     office.cabinet.cfg = replace(cfg, domains=domains)

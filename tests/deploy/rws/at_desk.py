@@ -1,0 +1,162 @@
+"""A client at the desk of a virtual controller: every request, and no network; it can be cut."""
+
+import base64
+import hashlib
+import os
+import threading
+from pathlib import Path
+
+from rapidgen.client.errors import ConnectionLost
+from rapidgen.client.rws import Controller
+from rapidgen.client.rws.effects import (
+    Exchange,
+    Forget,
+    LogIn,
+    LookAtCertificate,
+    Pause,
+    Response,
+    Settle,
+    resume,
+)
+from rapidgen.deploy.transports.rws import RwsTransport
+from rapidgen.faces.rws.asking import HttpReply, Received
+from rapidgen.faces.rws.desk import SESSION, Desk
+from rapidgen.faces.rws.office import Accounts
+from rapidgen.wire.rws.bodies import Generation
+
+PASSWORD = "a-word-of-its-own"
+CERTIFICATE = b"certificate"
+
+
+class Line:
+    """Where a client's requests go. `cut` says at which one, `how` whether it is still done."""
+
+    def __init__(
+        self, cabinet, generation, *, strict=True, on_thread=False, cut=None, how="before"
+    ):
+        self.cabinet, self.generation = cabinet, generation
+        accounts = Accounts({"Default User": PASSWORD})
+        self.desk = Desk(cabinet, generation, accounts, strict=strict)
+        self.on_thread, self.cut, self.how = on_thread, cut, how
+        self.count, self.log, self.dead = 0, [], False
+
+    def request(self, got):
+        if self.dead:
+            raise _lost()
+        self.count += 1
+        self.log.append((got.method, got.target))
+        if self.count == self.cut:
+            self.dead = True
+            if self.how == "after":
+                self.handle(got)
+            raise _lost()
+        return self.handle(got)
+
+    def handle(self, got):
+        if not self.on_thread:
+            pass_time(self.cabinet, 0.06)  # 20 requests a second are let through
+            return self.desk.handle(got)
+        done, found, restarts = threading.Event(), [], self.cabinet.restarts
+        if not self.cabinet.post(lambda: (found.append(self.desk.handle(got)), done.set())):
+            return HttpReply(503)
+        while not done.wait(0.05):
+            if self.cabinet.restarts > restarts:
+                return HttpReply(503)  # nobody will answer any more
+        return found[0]
+
+    def pause(self, seconds):
+        if self.on_thread:
+            threading.Event().wait(seconds / self.cabinet.controller.scheduler.speed)
+        else:
+            pass_time(self.cabinet, seconds)
+
+
+def _lost():
+    return ConnectionLost.because("RG601", "the line is cut")
+
+
+def pass_time(cabinet, seconds):
+    """Simulated time, over restarts."""
+    due = cabinet.now + seconds
+    while cabinet.now < due - 1e-9:
+        restarts = cabinet.restarts
+        cabinet.controller.scheduler.after(round((due - cabinet.now) * 1e9), lambda: None)
+        cabinet.run(lambda n=restarts: cabinet.now >= due - 1e-9 or cabinet.restarts > n)
+
+
+class AtDesk:
+    """The carrier."""
+
+    line: Line
+
+    def __init__(self, core, timeout):
+        self.core, self.cookies, self.way = core, {}, None
+
+    def run(self, flow):
+        outcome, failure = None, None
+        while True:
+            try:
+                effect = resume(flow, outcome, failure)
+            except StopIteration as end:
+                return end.value
+            outcome, failure = Response(0), None
+            try:
+                outcome = self.perform(effect)
+            except BaseException as raised:  # noqa: BLE001
+                failure = raised
+
+    def perform(self, effect):
+        match effect:
+            case Exchange():
+                return self.exchange(effect)
+            case Pause():
+                self.line.pause(effect.seconds)
+            case LookAtCertificate():
+                is_one = self.line.generation is Generation.ONE
+                return Response(0 if is_one else 200, body=CERTIFICATE)
+            case Settle():
+                self.way = None
+                self.cookies.clear()
+            case LogIn():
+                self.way = effect.way
+            case Forget():
+                self.cookies.clear()
+        return Response(0)
+
+    def exchange(self, effect):
+        headers = {"host": "h", **{k.lower(): v for k, v in effect.headers.items()}}
+        if self.way and SESSION not in self.cookies:
+            if self.way == "basic":
+                word = base64.b64encode(f"{self.core.user}:{self.core.login.password}".encode())
+                headers["authorization"] = f"Basic {word.decode()}"
+            else:
+                session = self.line.desk.sessions.begin(self.core.user)
+                self.cookies[SESSION] = session.key
+        if self.cookies:
+            headers["cookie"] = "; ".join(f"{k}={v}" for k, v in self.cookies.items())
+        reply = self.line.request(Received(effect.method, effect.target, headers, effect.body, 1))
+        for name, value in reply.headers:
+            if name == "Set-Cookie":
+                key, _, rest = value.partition("=")
+                self.cookies[key] = rest.partition(";")[0]
+        if reply.status == 401:
+            self.cookies.pop(SESSION, None)
+        told = {name.lower(): value for name, value in reply.headers}
+        return Response(reply.status, told, reply.body)
+
+    def close(self):
+        pass
+
+
+def connect(line) -> RwsTransport:
+    """A transport over a line, logged in."""
+    carrier = type("AtThisDesk", (AtDesk,), {"line": line})
+    kind = type("ControllerAtDesk", (Controller,), {"_carrier_type": carrier})
+    fingerprint = (
+        "" if line.generation is Generation.ONE else hashlib.sha256(CERTIFICATE).hexdigest()
+    )
+    controller = kind(
+        "rws://cell", password=PASSWORD, fingerprint=fingerprint, pin_file=Path(os.devnull)
+    )
+    controller.connect()
+    return RwsTransport(controller, "rws://cell")

@@ -1,0 +1,82 @@
+"""The verbs over a real connection: TLS, a pinned certificate, a password that nobody sees."""
+
+import socket
+
+import pytest
+import typer
+
+from rapidgen.cli.doctor import doctor
+from rapidgen.cli.plan import plan
+from rapidgen.deploy import Access, connect, parse_target
+from rapidgen.diagnostics import DiagnosticError, render
+from rapidgen.faces.rws.office import Accounts
+from rapidgen.faces.rws.server import serve_rws
+from rapidgen.wire.rws.bodies import Generation
+from tests.refusal import refusal
+
+WORD = "nobody-sees-this"
+SEVEN = ("--set", "controller.robotware=7.06", "--set", "controller.type=omnicore")
+
+
+@pytest.fixture
+def run(capsys):
+    """Run a verb: exit code, stdout, stderr with diagnostics as the command shows them."""
+    app = typer.Typer(pretty_exceptions_enable=False)
+    for verb in (plan, doctor):
+        app.command(verb.__name__)(verb)
+    command = typer.main.get_command(app)
+
+    def run_(*words):
+        shown = ""
+        try:
+            code = command.main(args=[*words], standalone_mode=False)
+        except DiagnosticError as error:
+            code, shown = error.exit_code, render(error.diagnostics)
+        said = capsys.readouterr()
+        return code or 0, said.out, said.err + shown
+
+    return run_
+
+
+@pytest.fixture
+def served(rws, tmp_path, monkeypatch):
+    """An empty controller with RWS 2.0 on a port, and the password in the environment."""
+    monkeypatch.setenv("RAPIDGEN_PASSWORD", WORD)
+    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "state"))
+    with rws.empty_cabinet(tmp_path, Generation.TWO, clock="real", speed=20) as cabinet:
+        cabinet.start()
+        service = serve_rws(cabinet, Generation.TWO, accounts=Accounts({"Default User": WORD}))
+        yield cabinet, service
+        service.close()
+
+
+def test_plan_and_doctor_on_the_command_line(served, rws, run):
+    cabinet, service = served
+    url = f"rws://{service.host}:{service.port}"
+    pin = ("--fingerprint", service.host_key)
+    code, _, why = run("plan", "irb120", "--to", url, *SEVEN)
+    assert (code, "RG502" in why, "no password was sent" in why) == (1, True, True)
+    code, shown, said = run("plan", "irb120", "--to", url, "--detailed-exitcode", *SEVEN, *pin)
+    assert (code, f"via {url}: cell (virtual, RobotWare 7." in shown) == (2, True), said
+    code, looked, _ = run("doctor", "irb120", "--to", url, *SEVEN, *pin)
+    assert code == 1
+    assert f"id {cabinet.id}" in looked
+    assert "T_ROB1/MainModule is loaded, and has a main, too" in looked
+    assert "the delivered password is not accepted" in looked
+    assert not rws.home_of(cabinet)
+    assert WORD not in why + shown + said + looked
+
+
+def test_nobody_there_and_somebody_else(served):
+    _, service = served
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    found = refusal(connect, parse_target(f"rws://127.0.0.1:{port}"), Access(timeout=2))
+    assert found.diagnostics[0].code == "RG501"
+    target = parse_target(f"rwss://127.0.0.1:{service.port}")
+    found = refusal(connect, target, Access(fingerprint="00" * 32))
+    assert found.diagnostics[0].code == "RG502"
+    assert "certificate" in found.diagnostics[0].message
+    folder = parse_target(f"rws://127.0.0.1:{service.port}/elsewhere")
+    assert refusal(connect, folder, Access()).diagnostics[0].code == "RG509"

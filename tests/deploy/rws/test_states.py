@@ -1,0 +1,245 @@
+"""What a plan says and what is refused: a pending restart, modules in the way, a program."""
+
+import json
+from dataclasses import replace
+
+import pytest
+
+from rapidgen.deploy import backup_set, make_plan, plan_json
+from rapidgen.deploy.live.proof import ReadBack
+from rapidgen.deploy.session import check_plans, write_plans
+from rapidgen.deploy.show import plan_text
+from rapidgen.wire.rws.bodies import Generation
+from tests.refusal import refusal, refused
+
+
+@pytest.fixture
+def cell(rws, tmp_path):
+    """An empty controller with RWS 1.0, and a transport to it."""
+    with rws.empty_cabinet(tmp_path, Generation.ONE) as cabinet:
+        yield cabinet, rws.connect(rws.Line(cabinet, Generation.ONE))
+
+
+@pytest.fixture(scope="module")
+def wanted(rws):
+    return rws.build(Generation.ONE)
+
+
+def modules(cabinet, task="T_ROB1"):
+    return [m.name for m in cabinet.programs.modules(cabinet.controller.rapid_tasks[task])]
+
+
+def test_a_plan_and_a_look_change_nothing(rws, cell, wanted, tmp_path):
+    cabinet, transport = cell
+    before = rws.home_of(cabinet), rws.cfg_of(cabinet)
+    line = transport.services._carrier.line
+    plan = make_plan(transport, wanted)
+    assert {m for m, t in line.log if not t.startswith("/users")} == {"GET"}
+    assert (rws.home_of(cabinet), rws.cfg_of(cabinet)) == before
+    text = plan_text(plan)
+    assert "(virtual, RobotWare 6.15" in text
+    for cfg in wanted.cfg:
+        count = sum(len(section.instances) for section in cfg.sections)
+        assert f"  > load {count} instances of {cfg.domain} by add\n" in text
+    assert "> save and unload T_ROB1/MainModule, which has a main, too (--overwrite)" in text
+    assert "! you: a warm start: --restart does it" in text
+    write_plans(tmp_path / "plan.json", [plan])
+    assert json.loads((tmp_path / "plan.json").read_text())["plans"][0]["controller"] == cabinet.id
+
+
+def test_a_plan_is_of_one_controller(rws, cell, wanted, tmp_path):
+    cabinet, transport = cell
+    plan = make_plan(transport, wanted)
+    write_plans(tmp_path / "plan.json", [plan])
+    cabinet.id = "ANOTHER"
+    again = make_plan(transport, wanted)
+    assert refusal(check_plans, tmp_path / "plan.json", [again]).diagnostics[0].code == "RG540"
+    other = replace(plan, live=replace(plan.live, id="ELSE"))
+    assert "RG540" in refused(rws.apply, transport, other, overwrite=True)
+    assert not rws.home_of(cabinet)
+
+
+def test_what_is_in_the_way_is_unloaded_only_when_that_was_said(rws, cell, wanted):
+    cabinet, transport = cell
+    assert "RG541" in refused(rws.run, transport, wanted, overwrite=False)
+    assert not rws.home_of(cabinet)
+    transport.services.set_symbol("T_ROB1/MainModule/x", 7)
+    rws.run(transport, wanted)
+    assert "MainModule" not in modules(cabinet)
+    saved = rws.home_of(cabinet)["rapidgen_deploy/unloaded/T_ROB1/MainModule.mod"]
+    assert b"PERS num x := 7;" in saved
+    rws.run(transport, None, "uninstall")
+    assert modules(cabinet) == ["MainModule"]
+    assert transport.services.symbol("T_ROB1/MainModule/x") == 7
+
+
+def test_a_program_that_runs_is_not_stopped(rws, cell, wanted):
+    cabinet, transport = cell
+    rws.run(transport, wanted)
+    transport.services.motors(True)
+    transport.services.start()
+    plan = make_plan(transport, None, verb="uninstall")
+    assert "! you: stop the program: `rapidgen halt rws://cell` (stops motion)" in plan_text(plan)
+    files = rws.home_of(cabinet)
+    assert "RG542" in refused(rws.run, transport, None, "uninstall")
+    assert rws.home_of(cabinet) == files
+    assert transport.services.execution().running
+
+
+def test_manual_mode_is_a_persons_step(rws, cell, wanted):
+    cabinet, transport = cell
+    cabinet.controller.set_mode("manual_reduced")
+    assert "! pendant: automatic mode (it is MANR)" in plan_text(make_plan(transport, wanted))
+    assert "RG542" in refused(rws.run, transport, wanted)
+    assert not rws.home_of(cabinet)
+
+
+def test_people_are_waited_for(rws, cell, wanted):
+    cabinet, transport = cell
+    rws.run(transport, wanted)
+    transport.services.motors(True)
+    transport.services.start()
+    cabinet.controller.set_mode("manual_reduced")
+    acts = [lambda: cabinet.controller.set_mode("auto")]
+
+    def person(seconds):
+        rws.pass_time(cabinet, seconds)
+        if acts:
+            acts.pop()()
+
+    said = []
+    rws.run(transport, None, "uninstall", wait=30, pause=person, said=said)
+    (waited,) = [line for line in said if line.startswith("waiting")]
+    assert "is in mode MANR" in waited
+    assert modules(cabinet) == ["MainModule"]
+
+
+def test_nothing_is_held_and_nobody_is_logged_in_at_the_end(rws, cell, wanted):
+    _, transport = cell
+    rws.run(transport, wanted, restart=False)
+    desk = transport.services._carrier.line.desk
+    for domain in ("cfg", "rapid"):
+        assert transport.services.holder(domain) is None
+    assert len(desk.sessions) == 1
+    transport.close()
+    assert len(desk.sessions) == 0
+
+
+def test_a_restart_that_is_pending_is_told_until_it_was(rws, cell, wanted):
+    cabinet, transport = cell
+    said = []
+    rws.run(transport, wanted, restart=False, said=said)
+    assert said[-1].startswith("restart pending")
+    plan = make_plan(transport, wanted)
+    assert plan.is_pending
+    assert plan_json(plan)["restart_pending"]
+    assert "  * everything is loaded, and counts after a restart: restart pending" in plan_text(
+        plan
+    )
+    assert not cabinet.restarts
+    cabinet.ask_restart()  # somebody at the pendant
+    rws.pass_time(cabinet, 1.0)
+    assert make_plan(transport, wanted).is_empty
+
+
+def test_no_restart_but_a_warm_one_and_only_when_it_was_said(rws, cell, wanted):
+    cabinet, transport = cell
+    rws.run(transport, wanted, restart=False)
+    line = transport.services._carrier.line
+    assert not [t for _, t in line.log if "restart" in t]
+    rws.run(transport, wanted)
+    assert cabinet.restarts == 1
+    assert len([t for _, t in line.log if "action=restart" in t]) == 1
+    assert not [t for _, t in line.log if "reset" in t]
+
+
+def test_a_controller_that_restarts_is_busy_for_a_while(rws, cell, wanted):
+    cabinet, transport = cell
+    line, busy = transport.services._carrier.line, []
+    handle = line.handle
+
+    def slow(got):
+        if cabinet.restarts and len(busy) < 10:
+            rws.pass_time(cabinet, 0.5)
+            busy.append(got.target)
+            return rws.busy
+        return handle(got)
+
+    line.handle = slow
+    rws.run(transport, wanted)
+    assert len(busy) == 10
+
+
+def test_an_update_and_the_way_back(rws, cell, wanted):
+    _, transport = cell
+    newer = rws.build(Generation.ONE, "trajectory.capacity=500")
+    rws.run(transport, wanted)
+    rws.run(transport, newer)
+    assert transport.services.symbol("T_ROB1/ROS_common/ROS_BUILD_ID") == newer.build_id
+    assert make_plan(transport, newer).is_empty
+    rws.run(transport, backup_set(transport, "", 2), "rollback")
+    for task in ("T_ROB1", "T_ROS_RECV", "T_ROS_STATE"):
+        symbol = f"{task}/ROS_common/ROS_BUILD_ID"
+        assert transport.services.symbol(symbol) == wanted.build_id
+    assert make_plan(transport, wanted).is_empty
+
+
+def test_old_and_new_modules_in_one_task_are_not_taken_for_new(rws, cell, wanted):
+    """What a cut after the first of them leaves: it has the new BUILD_ID, the others have not."""
+    cabinet, transport = cell
+    newer = rws.build(Generation.ONE, "trajectory.capacity=500")
+    rws.run(transport, wanted)
+    rws.run(transport, newer, restart=False)
+    transport.services.stop(everything=True)
+    transport.services.load_module("T_ROB1", "HOME/rapidgen/ROS_common.sys", replace=True)
+    cabinet.ask_restart()
+    rws.pass_time(cabinet, 1.0)
+    assert "T_ROB1/ROS_motion" in [m.shown for m in make_plan(transport, newer).live.replace]
+    rws.run(transport, newer)
+    assert make_plan(transport, newer).is_empty
+
+
+def test_success_and_then_a_system_failure(rws, cell, wanted):
+    """2xx on all of it, and what boots is broken: the way back is offered, and works."""
+    cabinet, transport = cell
+    home = rws.home_of(cabinet)
+    bad = [
+        replace(f, data=f.data.replace(b"ENDMODULE", b"  oops := ;\r\nENDMODULE"))
+        if f.path.endswith("ROS_stateServer.mod")
+        else f
+        for f in wanted.files
+    ]
+    broken = replace(wanted, files=tuple(bad))
+    (found,) = refusal(rws.run, transport, broken).diagnostics
+    assert found.code == "RG544"
+    assert "system failure" in found.message
+    assert "`rapidgen uninstall` with --restart" in found.help
+    assert any("ROS_stateServer" in note for note in found.notes)
+    rws.run(transport, None, "uninstall")
+    assert rws.home_of(cabinet) == home
+    assert modules(cabinet) == ["MainModule"]
+    assert transport.services.panel().state != "sysfail"
+
+
+def test_a_port_must_serve_our_build(rws, cell, wanted):
+    _, transport = cell
+    asked = []
+
+    def other(host, port):
+        asked.append((host, port))
+        return "another-one!"
+
+    proof = ReadBack(other, "cell")
+    (found,) = refusal(rws.run, transport, wanted, proof=proof).diagnostics
+    assert (found.code, asked) == ("RG544", [("cell", 11002)])
+    assert "rob1 state cell:11002 serves another-one!" in found.message
+
+
+def test_no_password_in_what_is_said(rws, cell, wanted, tmp_path):
+    _, transport = cell
+    said = []
+    plan = rws.run(transport, wanted, said=said)
+    write_plans(tmp_path / "plan.json", [plan])
+    told = [*said, plan_text(plan), (tmp_path / "plan.json").read_text(), repr(plan)]
+    told += [repr(transport.services), repr(transport.services._core), repr(transport)]
+    assert rws.PASSWORD not in "".join(told)

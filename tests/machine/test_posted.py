@@ -1,0 +1,21 @@
+"""What other threads post to a real clock is done when it comes."""
+
+import selectors
+
+from rapidgen.machine import scheduler as module
+from rapidgen.machine.scheduler import Scheduler
+
+MINUTE = 60_000_000_000
+
+
+def test_what_is_posted_while_the_selector_is_made_is_not_left_lying(monkeypatch):
+    scheduler, came = Scheduler(clock="real", speed=60), []
+
+    def made():
+        scheduler.post(lambda: came.append(scheduler.now))
+        return selectors.SelectSelector()
+
+    monkeypatch.setattr(module.selectors, "DefaultSelector", made)
+    assert scheduler.advance(MINUTE, lambda: bool(came)) == "stop"
+    assert came[0] < MINUTE
+    scheduler.close()
