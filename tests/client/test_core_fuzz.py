@@ -126,7 +126,7 @@ class CoreMachine(RuleBasedStateMachine):
             return
         else:
             checked = check_points(points, self.core.known_group, before=self.last, start=None)
-            self.run.put(checked)
+            self.core.go_on(self.run, checked)
         self.last = checked.last
         self.time = float(times[-1]) + 0.1
         self.owner()

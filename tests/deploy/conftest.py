@@ -9,8 +9,10 @@ from pathlib import Path
 
 import pytest
 
+from rapidgen.config import load_config, to_manifest
 from rapidgen.deploy import DriverSet, apply, from_files, make_plan
 
+CONFIGURATION = to_manifest(load_config("irb120"))
 TASKS = ("T_ROB1", "T_ROS_server", "T_ROS_state")
 MODULES = {
     "rapidgen/ROS_common.sys": TASKS,
@@ -73,7 +75,7 @@ def driver_files(
         "build_id": build,
         "robotware": list(robotware),
         "groups": {},
-        "configuration": {},
+        "configuration": CONFIGURATION,
         "files": [
             {
                 "path": path,

@@ -1,6 +1,7 @@
 """plan, deploy, rollback, uninstall and doctor as commands."""
 
 import json
+import re
 
 import pytest
 import typer
@@ -79,7 +80,7 @@ def test_a_plan_is_short_and_tells_what_was_configured_otherwise(run, home):
     url = ("--to", f"dir://{home}")
     out = run("plan", "irb120", *url)[1]
     assert len(out.splitlines()) <= 25
-    assert "HOME:/rapidgen: 13 files, new, " in out
+    assert re.search(r"HOME:/rapidgen: \d+ files, new, ", out)
     assert "  + SYS: CAB_TASKS T_ROS_RECV, T_ROS_SUP, T_ROS_CONTROL, T_ROS_STATE\n" in out
     assert run("deploy", "irb120", *url, "--yes")[0] == 0
     out = run("plan", "irb120", *url, "--set", "state.rate=20")[1]

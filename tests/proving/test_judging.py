@@ -91,13 +91,15 @@ def test_a_case_that_noticed_a_neighbour_is_tried_first(judge):
 
 
 def test_what_was_not_tried_for_want_of_time_is_counted(judge):
-    mutant = changed("ROS_socket", b"part_bytes := 0;\n        RETURN", b"RETURN")
+    mutant = changed("ROS_socket", b"ROS_part_bytes := 0;\n        RETURN", b"RETURN")
     every = replace(mutant, statement=0)
     assert judge.judge(every, budget=0).left == len(FEW)
 
 
 def test_a_case_that_did_not_notice_it_before_is_not_tried_again(judge):
-    mutant = changed("ROS_socket", b"IF part_bytes > 0 RETURN", b"IF part_bytes >= 0 RETURN")
+    mutant = changed(
+        "ROS_socket", b"IF ROS_part_bytes > 0 OR rest", b"IF ROS_part_bytes >= 0 OR rest"
+    )
     every = replace(mutant, statement=0)
     names = tuple(case.name for case in judge.concerned(every))
     verdict = judge.judge(every, budget=0, already=names[:1])

@@ -9,6 +9,7 @@ import pytest
 
 from rapidgen.cli.app import main
 from rapidgen.config import load_config
+from rapidgen.diagnostics import refusal
 from rapidgen.generate import build, make_system
 from rapidgen.proving.bench import Bench, with_module
 from rapidgen.proving.explore import explore
@@ -223,7 +224,10 @@ def test_what_needs_an_answer_while_stopped_is_left_out_while_commissioning():
 
 
 def test_a_fault_of_the_configuration_is_a_diagnostic_in_workers_too(monkeypatch, capsys):
-    monkeypatch.setattr("rapidgen.proving.run.in_its_cell", lambda system, _config: system)
+    def at_fault(system, _config):
+        raise refusal("RG402", None, "no main", "write one")
+
+    monkeypatch.setattr("rapidgen.proving.run.in_its_cell", at_fault)
     words = ["test", "irb120", "--set", "main=own", "--quick", "--case", "ping", "--jobs", "2"]
     assert main(words) == 2
     assert "RG402" in capsys.readouterr().err
