@@ -1,9 +1,7 @@
 """Built-in and shared modules [K §13, 14]."""
 
-import pytest
 
 from rapidgen.controller import VirtualController
-from rapidgen.diagnostics import DiagnosticError
 from rapidgen.system.model import ModuleFile, System, TaskSpec
 
 SHARED = """
@@ -163,12 +161,17 @@ def test_a_module_may_carry_the_name_of_an_installed_type() -> None:
 
 
 def test_an_installed_module_cannot_use_data_of_the_program() -> None:
-    with pytest.raises(DiagnosticError, match="z is not known"):
-        boot(
-            "CONST num z := 1;\nPROC main()\nENDPROC",
-            shared="VAR num a := z;",
-            installed=True,
-        )
+    controller, printed = boot(
+        "CONST num z := 1;\nPROC main()\n TPWrite ValToStr(z);\n TPWrite ValToStr(a);\nENDPROC",
+        shared="VAR num a := z;",
+        installed=True,
+    )
+    with controller:
+        controller.start_program()
+        controller.run_for(1)
+        assert printed == ["T1 1"]
+        (fault,) = [task.fault for task in controller.tasks.values() if task.fault]
+        assert fault.arguments == ("nothing declares z, which a needs",)
 
 
 def test_installed_modules_stay() -> None:
