@@ -1,6 +1,5 @@
 """Built-in and shared modules [K §13, 14]."""
 
-
 from rapidgen.controller import VirtualController
 from rapidgen.system.model import ModuleFile, System, TaskSpec
 
