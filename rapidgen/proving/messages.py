@@ -160,6 +160,7 @@ class RawReason(IntEnum):
     NO_GEOMETRY = 33
     NO_FRAME = 34
     NO_ROUTINE = 35
+    IS_PROGRAM = 36
     STOPPED = 40
     SUPERSEDED = 41
     CLIENT_LOST = 42

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from driven import complaints, driven
+from driven import complaints, driven, wiggle
 
 from rapidgen.axes import frames
 from rapidgen.client import (
@@ -11,6 +11,7 @@ from rapidgen.client import (
     MotionStopped,
     NotSupported,
     Program,
+    RequestRefused,
     RoutineFailed,
     Speed,
     Trigger,
@@ -211,6 +212,22 @@ def test_signals_are_set_on_the_way():
         ((value, there),) = flow
         assert (value, there[2] - start[0][2]) == pytest.approx((0.5, 0.07), abs=2e-3)
         assert [v for v, _ in level] == [7]
+        assert not complaints(controller)
+
+
+def test_a_speed_for_a_program_is_refused_instead_of_confirmed_and_not_obeyed():
+    with cell() as (robot, controller):
+        robot.move_to(BENT, speed=1.0)
+        execution = robot.run(Program(speed=0.1).move_linear(moved(robot.pose, z=0.05)))
+        with pytest.raises(RequestRefused) as refused:
+            robot.set_speed(20)
+        assert refused.value.reason is Reason.IS_PROGRAM
+        assert robot.override == 1.0
+        assert execution.result().deviation < 1e-4
+        path = wiggle(robot)
+        trajectory = robot.execute(path)
+        robot.set_speed(20)
+        assert trajectory.result().seconds > path.duration
         assert not complaints(controller)
 
 

@@ -237,6 +237,7 @@ class Reason(IntEnum):
     NO_GEOMETRY = 33, "the controller does not tell what pose the joints reach"
     NO_FRAME = 34, "the driver does not have this tool or work object"
     NO_ROUTINE = 35, "there is no such routine, or not with these parameters"
+    IS_PROGRAM = 36, "a program is under way: its instructions have speeds of their own"
     STOPPED = 40, "stopped on request"
     SUPERSEDED = 41, "a newer trajectory took its place"
     CLIENT_LOST = 42, "the connection to the client was lost"
