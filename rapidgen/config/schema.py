@@ -25,7 +25,9 @@ Zone = Literal[
 ]
 # fmt: on
 ROBOT_AXES = list(get_args(RobotAxis))
-Identifier = Annotated[str, Rule(pattern=r"^[A-Za-z][A-Za-z0-9_]{0,31}$")]
+NAME = r"^[A-Za-z][A-Za-z0-9_]{0,31}$"
+"""A name of RAPID."""
+Identifier = Annotated[str, Rule(pattern=NAME)]
 GroupName = Annotated[str, Rule(pattern=r"^[a-z][a-z0-9_]{0,11}$")]
 ConfigName = Annotated[str, Rule(pattern=r"^[A-Za-z][A-Za-z0-9_-]{0,39}$")]
 Port = Annotated[int, Rule(ge=1025, le=65535)]

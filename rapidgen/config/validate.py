@@ -15,11 +15,12 @@ from pydantic_core import ErrorDetails, SchemaValidator, ValidationError
 from rapidgen._json import Json, items, members
 from rapidgen.config.layers import group_names
 from rapidgen.config.rules import Hint, core
-from rapidgen.config.schema import GROUP_KEYS, TOP_KEYS, ConfigurationKeys
+from rapidgen.config.schema import GROUP_KEYS, NAME, TOP_KEYS, ConfigurationKeys
 from rapidgen.config.tree import MappingNode, place_of, to_python
 from rapidgen.diagnostics import Diagnostic, error, suggest
 
 Path = tuple[str | int, ...]
+_NAMES = "RAPID's names begin with a letter; letters, digits and _ follow, 32 in all"
 T = TypeVar("T")
 
 
@@ -52,7 +53,9 @@ def sound(root: MappingNode, kind: type[T]) -> tuple[T, list[Diagnostic], set[Pa
         for item in faults:
             path, is_key = _real_path(data, item["loc"])
             if item["type"] == "missing":
-                found.append(_missing(root, item["loc"]))
+                # What was taken out as faulty is no second fault.
+                if item["loc"] not in removed:
+                    found.append(_missing(root, item["loc"]))
                 path = path if len(path) < len(item["loc"]) else path[:-1]
             elif path not in paths:
                 found.append(_translate(root, kind, path, is_key, item))
@@ -130,6 +133,7 @@ def _translate(
         "RG006",
         key if is_key else value,
         f"'{shown(root, path)}': {_reason(item, is_key)}",
+        _NAMES if item.get("ctx", {}).get("pattern") == NAME else "",
         label=_input(item),
     )
 

@@ -204,3 +204,13 @@ def test_a_guessed_cell_does_not_hide_a_deadlock(tmp_path):
     with VirtualController.from_files([path], cell="guess", cycle="once") as controller:
         assert controller.run(max_time=20) == "deadlock"
         assert "WaitTestAndSet waits for its flag" in controller.where()[0]
+
+
+def test_a_faulty_value_is_no_missing_one_too(tmp_path):
+    path = tmp_path / "cell.yaml"
+    path.write_text("signals:\n  a: {kind: XX}\ntools:\n  1x: {}\n")
+    with pytest.raises(DiagnosticError) as fault:
+        load_cell(path)
+    found = fault.value.diagnostics
+    assert [(d.code, d.span.line) for d in found] == [("RG006", 2), ("RG006", 4)]
+    assert "begin with a letter" in found[1].help
