@@ -42,8 +42,7 @@ def start(office: "Office", asked: RwsRequest) -> None:
     told = {name: asked.field(name, words) for name, words in _START.items()}
     controller = office.controller
     office.masters.need_start(asked)
-    if controller.mode != "auto":
-        raise Denied(403, "E_MODE_REJECT", "not in automatic mode", -2)
+    office.masters.need_mode(asked.session, "exec")
     if told["execmode"] != "continue":
         raise Denied(403, "E_MODE_REJECT", "steps are for manual mode", -2)
     if office.masters.is_editing and office.strict:
