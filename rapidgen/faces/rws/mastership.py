@@ -69,8 +69,11 @@ class Masters:
         if domain not in self.domains:
             raise Denied(404, "E_UNRESOLVED_URL", f"no domain {domain}")
 
-    def need(self, asked: RwsRequest, domain: Domain) -> None:
-        """What this request does takes mastership. Denied: the session does not have it."""
+    def need(self, asked: RwsRequest, domain: Domain, *, by_itself: bool = False) -> None:
+        """What this request does takes mastership. Denied: the session does not have it.
+
+        `by_itself`: the controller takes it for the request, where nobody else has it.
+        """
         self.need_mode(asked.session)
         if self._generation is Generation.EIGHT:
             if not asked.session.station or asked.session.station != self.station:
@@ -82,7 +85,8 @@ class Masters:
             return
         if holder is not None:
             raise Denied(403, "E_RESOURCE_HELD", f"mastership of {name} is held", -1)
-        if asked.query.get("mastership") != "implicit" and self._strict:
+        implicit = by_itself or asked.query.get("mastership") == "implicit"
+        if not implicit and self._strict:
             raise Denied(403, "E_MASTER_REJECT", f"mastership of {name} is missing", -4_501)
 
     @property
