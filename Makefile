@@ -7,12 +7,12 @@ STAMP := $(VENV)/.made
 SHELL := /bin/bash
 export TIMEFORMAT = %U s of CPU, %R s
 
-.PHONY: demo test lint types contract unit wheel driver-hours room picture foreign campaigns clean
+.PHONY: demo test lint types contract unit wheel driver-hours site room picture foreign campaigns clean
 
 demo: $(STAMP)
 	$(BIN)/rapidgen demo
 
-test: lint types contract wheel driver-hours unit
+test: lint types contract wheel driver-hours site unit
 
 $(STAMP): pyproject.toml
 	test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
@@ -59,6 +59,10 @@ $(WHEEL)/env/.made: pyproject.toml $(STAMP)
 # The generated driver for some simulated hours; `make driver-day` is the long form.
 driver-hours: $(STAMP)
 	time $(BIN)/python benchmarks/campaign.py days --hours 4 --watched 0.25
+
+# The documentation as a site: build/site/index.html. A warning is an error, a link into nothing is one.
+site: $(STAMP)
+	time $(BIN)/python -m sphinx --fail-on-warning --quiet -d build/site-pages docs build/site
 
 # Last, so that pytest's own summary closes the output.
 unit: $(STAMP)

@@ -9,6 +9,7 @@ from pygments.lexer import RegexLexer, words
 from pygments.token import Comment, Keyword, Name, Number, Punctuation, String, Whitespace
 from sphinx.application import Sphinx
 
+from rapidgen.diagnostics.pages import codes, page
 from rapidgen.rapid.syntax.lexer import KEYWORDS
 
 _PROJECT = tomllib.loads(
@@ -64,6 +65,16 @@ class RapidLexer(RegexLexer):
     }
 
 
+def write_codes(app: Sphinx) -> None:
+    """What `rapidgen explain` says becomes a page of the site."""
+    chapters = (re.sub(r"^#", "##", page(code), flags=re.MULTILINE) for code in codes())
+    text = "# Diagnostics\n\nWhat `rapidgen explain CODE` says.\n\n" + "\n".join(chapters)
+    path = Path(app.srcdir) / "reference" / "codes.md"
+    if not path.exists() or path.read_text("utf-8") != text:
+        path.write_text(text, encoding="utf-8")
+
+
 def setup(app: Sphinx) -> None:
     """Sphinx calls it when it has read this file."""
+    app.connect("builder-inited", write_codes)
     app.add_lexer("rapid", RapidLexer)
