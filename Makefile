@@ -7,12 +7,12 @@ STAMP := $(VENV)/.made
 SHELL := /bin/bash
 export TIMEFORMAT = %U s of CPU, %R s
 
-.PHONY: demo test lint types contract unit wheel driver-hours site room picture foreign campaigns clean
+.PHONY: demo test lint types contract unit wheel driver-hours site release-lint changelog room picture foreign campaigns clean
 
 demo: $(STAMP)
 	$(BIN)/rapidgen demo
 
-test: lint types contract wheel driver-hours site unit
+test: lint types contract wheel driver-hours site release-lint unit
 
 $(STAMP): pyproject.toml
 	test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
@@ -63,6 +63,13 @@ driver-hours: $(STAMP)
 # The documentation as a site: build/site/index.html. A warning is an error, a link into nothing is one.
 site: $(STAMP)
 	time $(BIN)/python -m sphinx --fail-on-warning --quiet -d build/site-pages docs build/site
+
+# Workflows, image and changelog: what only a release uses. `.ci/release` makes one in dist/.
+release-lint: $(STAMP)
+	.ci/release --lint
+
+changelog: $(STAMP)
+	$(BIN)/towncrier build --yes --version $(VERSION)
 
 # Last, so that pytest's own summary closes the output.
 unit: $(STAMP)

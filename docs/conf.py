@@ -1,7 +1,6 @@
 """The site: `make site` builds it from docs/ and the docstrings, with every warning an error."""
 
 import re
-import tomllib
 from pathlib import Path
 from typing import ClassVar
 
@@ -9,16 +8,13 @@ from pygments.lexer import RegexLexer, words
 from pygments.token import Comment, Keyword, Name, Number, Punctuation, String, Whitespace
 from sphinx.application import Sphinx
 
+from rapidgen import __version__
 from rapidgen.diagnostics.pages import codes, page
 from rapidgen.rapid.syntax.lexer import KEYWORDS
 
-_PROJECT = tomllib.loads(
-    (Path(__file__).resolve().parents[1] / "pyproject.toml").read_text("utf-8")
-)["project"]
-
-project = _PROJECT["name"]
+project = "rapidgen"
 author = project_copyright = "the authors of rapidgen"
-release = version = _PROJECT["version"]
+release = version = __version__
 
 extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx_copybutton"]
 exclude_patterns = ["_build"]
