@@ -67,6 +67,12 @@ def sim(
         bool,
         typer.Option("--rws-lenient", help="Let through what real web services refuse."),
     ] = False,
+    view: Annotated[
+        bool, typer.Option("--view", help="Serve a page that shows the robot: `view` in `ready`.")
+    ] = False,
+    view_port: Annotated[
+        int, typer.Option(help="Port of that page; 0: any free port.", min=0, max=65_535)
+    ] = 0,
     answers: Annotated[
         Path | None, typer.Option(help="The operator's answers: `rapidgen explain RG420`.")
     ] = None,
@@ -121,8 +127,9 @@ def sim(
         with (
             _control(cabinet) as control,
             _faces(cabinet, host, ftp, sftp, (rws, rws_port, not rws_lenient)) as faces,
+            _page(cabinet, host, view_port if view else None) as page,
         ):
-            return _serve(cabinet, found, host, speed, {"control": control, **faces})
+            return _serve(cabinet, found, host, speed, {"control": control, **faces, **page})
 
 
 def _serve(
@@ -267,6 +274,26 @@ def _faces(
             if service.host_key:
                 told["fingerprint"] = service.host_key
         yield told
+
+
+@contextmanager
+def _page(cabinet: "Cabinet", host: str, port: int | None) -> "Iterator[Members]":
+    """The page that shows the robot; what `ready` tells of it.
+
+    Raises DiagnosticError RG920, RG921.
+    """
+    if port is None:
+        yield {}
+        return
+    from rapidgen.view.server import serve_page
+    from rapidgen.view.simulator.simulation import Simulation
+
+    page = serve_page(Simulation(cabinet), host, port)
+    cabinet.on_boot.append(page.renew)
+    try:
+        yield {"view": page.url}
+    finally:
+        page.close()
 
 
 def _start_cold(controller: "VirtualController") -> None:
