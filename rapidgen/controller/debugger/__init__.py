@@ -2,7 +2,7 @@
 
 from rapidgen.controller.debugger.breakpoints import Breakpoint, Placed
 from rapidgen.controller.debugger.debugger import Debugger, Halt
-from rapidgen.controller.debugger.stack import Frame
+from rapidgen.controller.debugger.stack import StackFrame
 from rapidgen.controller.debugger.values import NotNow, Shown
 
-__all__ = ["Breakpoint", "Debugger", "Frame", "Halt", "NotNow", "Placed", "Shown"]
+__all__ = ["Breakpoint", "Debugger", "Halt", "NotNow", "Placed", "Shown", "StackFrame"]

@@ -12,9 +12,9 @@ from typing import Literal, TypeAlias
 
 from rapidgen.controller.controller import VirtualController
 from rapidgen.controller.debugger import breakpoints as places
-from rapidgen.controller.debugger import values
+from rapidgen.controller.debugger import pointers, values
 from rapidgen.controller.debugger.breakpoints import Breakpoint, Placed
-from rapidgen.controller.debugger.stack import Frame, Level, depth_here, frames_of, innermost
+from rapidgen.controller.debugger.stack import Level, StackFrame, depth_here, frames_of, innermost
 from rapidgen.controller.debugger.values import NotNow, Shown
 from rapidgen.machine.scheduler import WaitSet
 from rapidgen.rapid.syntax import nodes as n
@@ -230,7 +230,7 @@ class Debugger:
             frame = innermost(self._tasks[name], sys._getframe(1))
             self._hold(Halt("step", name, frame.place))
 
-    def _reached(self, name: str, placed: Placed, frame: Frame) -> Halt | None:
+    def _reached(self, name: str, placed: Placed, frame: StackFrame) -> Halt | None:
         """What a breakpoint brings whose statement is about to be executed."""
         asked, task = placed.asked, self._tasks[name]
         try:
@@ -248,17 +248,17 @@ class Debugger:
             return Halt("cursor", name, frame.place)
         return Halt("breakpoint", name, frame.place, "", placed.number)
 
-    def _value(self, task: Task, frame: Frame, text: str) -> object:
+    def _value(self, task: Task, frame: StackFrame, text: str) -> object:
         return values.read(self._compiled(task, frame, text), frame)
 
-    def _compiled(self, task: Task, frame: Frame, text: str) -> WatchedExpression:
+    def _compiled(self, task: Task, frame: StackFrame, text: str) -> WatchedExpression:
         key = (task.name, frame.routine, text)
         found = self._watched.get(key)
         if found is None:
             found = self._watched[key] = values.compiled(task.program, frame, text)
         return found
 
-    def _tell(self, task: Task, frame: Frame, log: str) -> None:
+    def _tell(self, task: Task, frame: StackFrame, log: str) -> None:
         texts, expressions = places.pieces(log)
         line = texts[0]
         for expression, text in zip(expressions, texts[1:], strict=True):
@@ -299,15 +299,15 @@ class Debugger:
 
     # -- stacks and values -----------------------------------------------------------------------
 
-    def frames(self, task: str) -> tuple[Frame, ...]:
+    def frames(self, task: str) -> tuple[StackFrame, ...]:
         """Call stack of a task, outermost first. KeyError: there is no such task."""
         return frames_of(self._tasks[task])
 
-    def _frames(self, task: str) -> tuple[Frame, ...]:
+    def _frames(self, task: str) -> tuple[StackFrame, ...]:
         self._require_halt()
         return self.frames(task)
 
-    def frame(self, task: str, level: int = -1) -> Frame:
+    def frame(self, task: str, level: int = -1) -> StackFrame:
         """One routine of a call stack, the innermost by default. NotNow: there is none."""
         frames = self.frames(task)
         try:
@@ -335,15 +335,11 @@ class Debugger:
 
     def program_pointer(self, task: str) -> Location | None:
         """Where a task is in its program, not in a trap or an event routine; None: nowhere."""
-        frames = [frame for frame in self.frames(task) if frame.level == "program"]
-        return frames[-1].place if frames else None
+        return pointers.program_pointer(self._tasks[task])
 
     def motion_pointer(self, task: str) -> Location | None:
         """The move instruction of a task that its robot is executing; None: there is none."""
-        group = self._controller.motion.moved_by(task)
-        move = None if group is None else group.motion.move(self._scheduler.now)
-        where = None if move is None or move.place is None else move.place()
-        return where if isinstance(where, Location) else None
+        return pointers.motion_pointer(self._controller, task)
 
 
 def _hidden(module: LoadedModule) -> bool:

@@ -25,7 +25,7 @@ _LEVELS: dict[object, Level] = {
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Frame:
+class StackFrame:
     """One routine of a call stack."""
 
     place: Location
@@ -42,14 +42,14 @@ class Frame:
     """FOR loops around the place, outermost first."""
 
 
-def frames_of(task: Task) -> tuple[Frame, ...]:
+def frames_of(task: Task) -> tuple[StackFrame, ...]:
     """Routines of a task that is being executed or stands, outermost first."""
     if not task.pointer.begun and task.pointer.place is not None:
         return tuple(_kept(task))
     return tuple(reversed(list(_live(task, task.frame))))
 
 
-def innermost(task: Task, frame: FrameType | None) -> Frame:
+def innermost(task: Task, frame: FrameType | None) -> StackFrame:
     """The routine that a running task is in, seen from a Python frame above."""
     return next(iter(_live(task, frame)))
 
@@ -65,11 +65,11 @@ def depth_here(task: Task, frame: FrameType | None) -> int:
     return found
 
 
-def _live(task: Task, frame: FrameType | None) -> Iterable[Frame]:
+def _live(task: Task, frame: FrameType | None) -> Iterable[StackFrame]:
     codes = task.program.codes
     inner: list[FrameType] = []
     """Handlers and parts of the routine whose own frame comes next."""
-    waiting: list[Frame] = []
+    waiting: list[StackFrame] = []
     for at in outwards(frame):
         level = _LEVELS.get(at.f_code)
         if level is not None:
@@ -93,7 +93,7 @@ def _live(task: Task, frame: FrameType | None) -> Iterable[Frame]:
         token = compiled.tokens[first.f_lineno]
         loops = loops_around(compiled.routine, token)
         waiting.append(
-            Frame(
+            StackFrame(
                 place,
                 "program",
                 handler.value if handler is not None else "",
@@ -108,14 +108,16 @@ def _live(task: Task, frame: FrameType | None) -> Iterable[Frame]:
     yield from waiting
 
 
-def _kept(task: Task) -> Iterable[Frame]:
+def _kept(task: Task) -> Iterable[StackFrame]:
     for standing in task.pointer.place or ():
         module = standing.routine.module
         assert module is not None
         body, i = standing.path[-1]
         place = Location(module.name, standing.routine.name, module.span(body[i]))
         loops = tuple(s for b, k in standing.path if isinstance(s := b[k], n.For))
-        yield Frame(place, "program", "", standing.routine, module, standing.values, None, loops)
+        yield StackFrame(
+            place, "program", "", standing.routine, module, standing.values, None, loops
+        )
 
 
 def loops_around(routine: Routine, token: int) -> tuple[n.For, ...]:

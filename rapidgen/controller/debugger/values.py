@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from types import FrameType
 
-from rapidgen.controller.debugger.stack import Frame
+from rapidgen.controller.debugger.stack import StackFrame
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.compiler.context import Options
 from rapidgen.runtime.compiler.linking import Linker
@@ -44,13 +44,13 @@ class Shown:
     settable: bool = True
 
 
-def evaluate(program: Program, frame: Frame, text: str) -> Shown:
+def evaluate(program: Program, frame: StackFrame, text: str) -> Shown:
     """The value of an expression in a frame. NotNow: it has none, or would call something."""
     watched = compiled(program, frame, text)
     return shown(text, watched.type, watched.dims, read(watched, frame))
 
 
-def compiled(program: Program, frame: Frame, text: str) -> WatchedExpression:
+def compiled(program: Program, frame: StackFrame, text: str) -> WatchedExpression:
     """An expression, ready to be read in any frame of the routine. NotNow."""
     try:
         return watch(*_where(program, frame), parse_expression(text))
@@ -58,7 +58,7 @@ def compiled(program: Program, frame: Frame, text: str) -> WatchedExpression:
         raise NotNow(str(error)) from error
 
 
-def read(watched: WatchedExpression, frame: Frame) -> Value:
+def read(watched: WatchedExpression, frame: StackFrame) -> Value:
     """The present value. NotNow: an error of execution."""
     try:
         return watched.read(frame.values)
@@ -69,7 +69,7 @@ def read(watched: WatchedExpression, frame: Frame) -> Value:
         raise NotNow(f"{error.event} {error.title}") from error
 
 
-def assign(program: Program, frame: Frame, target: str, value: str) -> Shown:
+def assign(program: Program, frame: StackFrame, target: str, value: str) -> Shown:
     """Set a datum, an element or a component, as an assignment there would. NotNow."""
     try:
         node = parse_assignment(f"{target}:={value}")
@@ -85,7 +85,7 @@ def assign(program: Program, frame: Frame, target: str, value: str) -> Shown:
     return evaluate(program, frame, target)
 
 
-def _set_local(program: Program, frame: Frame, name: str, value: Value) -> None:
+def _set_local(program: Program, frame: StackFrame, name: str, value: Value) -> None:
     code = program.codes[frame.python.f_code.co_filename] if frame.python is not None else None
     whole = type(frame.values[name]) is int and type(value) is not int
     if whole and code is not None and not code.traced:
@@ -102,12 +102,12 @@ def _write_local(frame: FrameType, name: str, value: Value) -> None:
 
 
 def _where(
-    program: Program, frame: Frame
+    program: Program, frame: StackFrame
 ) -> tuple[Linker, Routine, tuple[n.For, ...], Options, tuple[str, ...]]:
     return program.linker, frame.routine, frame.loops, program.options, tuple(frame.values)
 
 
-def variables(program: Program, frame: Frame) -> tuple[Shown, ...]:
+def variables(program: Program, frame: StackFrame) -> tuple[Shown, ...]:
     """Parameters, data and loop variables of a frame, in the order of their declarations."""
     node = frame.routine.node
     assert node is not None
@@ -116,7 +116,7 @@ def variables(program: Program, frame: Frame) -> tuple[Shown, ...]:
     return tuple(_each(program, frame, [*dict.fromkeys([*loops, *names])]))
 
 
-def module_data(program: Program, frame: Frame) -> tuple[Shown, ...]:
+def module_data(program: Program, frame: StackFrame) -> tuple[Shown, ...]:
     """Data of the frame's module, as the frame sees them."""
     return tuple(_each(program, frame, [d.name for d in _declared(frame.module)]))
 
@@ -125,7 +125,7 @@ def _declared(module: LoadedModule) -> Iterator[n.DataDeclaration]:
     yield from module.declarations.values()
 
 
-def _each(program: Program, frame: Frame, names: list[str]) -> Iterator[Shown]:
+def _each(program: Program, frame: StackFrame, names: list[str]) -> Iterator[Shown]:
     for name in names:
         try:
             yield evaluate(program, frame, name)
