@@ -11,19 +11,16 @@ import stat
 import tempfile
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 
 @dataclass(frozen=True, slots=True)
 class Simulator:
-    """One that runs: `addresses` by group as HOST:MOTION,STATE,CONTROL, `control` the port of
-    its control socket, empty and 0 where it has none."""
+    """One that runs: `addresses` by group as HOST:MOTION,STATE[,CONTROL]."""
 
     name: str
     pid: int
-    addresses: Mapping[str, str] = field(default_factory=dict)
-    host: str = ""
-    control: int = 0
+    addresses: Mapping[str, str]
 
 
 def folder() -> str:
@@ -46,14 +43,14 @@ def published(simulator: Simulator) -> Iterator[bool]:
         "name": simulator.name,
         "pid": simulator.pid,
         "addresses": dict(simulator.addresses),
-        "host": simulator.host,
-        "control": simulator.control,
     }
-    with open(path, "w", encoding="utf-8") as file:
-        # Locked before it says anything: whoever reads an unlocked one takes it for left behind.
+    fresh = os.path.join(own, f"new-{simulator.pid}")
+    with open(fresh, "w", encoding="utf-8") as file:
+        # Locked and whole before it has its name: one that nobody holds is taken for left behind.
         fcntl.flock(file, fcntl.LOCK_EX)
         json.dump(told, file)
         file.flush()
+        os.rename(fresh, path)
         try:
             yield True
         finally:
@@ -95,8 +92,6 @@ def _read(told: dict[str, object]) -> Simulator:
         str(told["name"]),
         int(str(told["pid"])),
         {str(group): str(address) for group, address in addresses.items()},
-        str(told["host"]),
-        int(str(told["control"])),
     )
 
 

@@ -64,6 +64,8 @@ def addresses(words: Sequence[str]) -> list[tuple[str, int]]:
 
 
 def _places(target: str, to: str, group: str) -> list[tuple[str, int]]:
+    if target == "sim":
+        return [] if to or group else _simulated([])
     is_file = target.endswith((".yaml", ".yml"))
     if not is_file and not os.path.isfile(_shipped(target)):
         return [] if to or group else _at(target, [_MOTION])
@@ -71,7 +73,7 @@ def _places(target: str, to: str, group: str) -> list[tuple[str, int]]:
     if group:
         ports = {name: port for name, port in ports.items() if name == group}
     if to == "sim":
-        return _simulated(list(ports))
+        return _simulated(list(ports)) if ports else []
     return _at(to or "127.0.0.1", list(ports.values()))
 
 
@@ -90,7 +92,7 @@ def _simulated(groups: list[str]) -> list[tuple[str, int]]:
     if len(found) != 1:
         return []
     told = found[0].addresses
-    return [place for name in groups if name in told for place in _at(told[name], [])]
+    return [place for name in groups or told if name in told for place in _at(told[name], [])]
 
 
 def _shipped(name: str) -> str:
