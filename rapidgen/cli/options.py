@@ -112,3 +112,16 @@ RobotAddress = Annotated[
     ),
 ]
 Group = Annotated[str, typer.Option(help="Motion group, where there are several.")]
+InRad = Annotated[bool, typer.Option("--rad", help="Figures in rad and m, not in deg and mm.")]
+YesHere = Annotated[
+    bool, typer.Option("--yes", "-y", help="Do not ask; answers on this machine only.")
+]
+RealRobot = Annotated[
+    str,
+    typer.Option(
+        "--move-real-robot", help="The host once more: its area is clear.", metavar="HOST"
+    ),
+]
+AsJson = Annotated[
+    bool, typer.Option("--json", help="JSON on stdout, errors too; joints in rad and m.")
+]

@@ -53,9 +53,9 @@ def addresses(words: Sequence[str]) -> list[tuple[str, int]]:
         name, equals, value = word.partition("=")
         if name in ("--to", "--group"):
             value = value if equals else rest.pop(0) if rest else ""
-        elif word.startswith("-") and word != "--json":
+        elif word.startswith("-") and word not in ("--json", "--rad"):
             return []
-        elif word != "--json":
+        elif not word.startswith("-"):
             name, value = "target", word
         if name in told:
             return []
