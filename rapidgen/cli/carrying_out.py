@@ -14,10 +14,9 @@ if TYPE_CHECKING:
 
 def show_plans(plans: "Sequence[Plan]") -> None:
     """All plans, on stderr."""
-    from rapidgen.deploy.show import plan_text
+    from rapidgen.deploy.show import plans_text
 
-    for plan in plans:
-        typer.echo(plan_text(plan), err=True, nl=False)
+    typer.echo(plans_text(plans), err=True, nl=False)
 
 
 def make_sure(question: str, *, yes: bool) -> None:

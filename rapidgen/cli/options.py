@@ -123,5 +123,5 @@ RealRobot = Annotated[
     ),
 ]
 AsJson = Annotated[
-    bool, typer.Option("--json", help="JSON on stdout, errors too; joints in rad and m.")
+    bool, typer.Option("--json", help="JSON on stdout, errors too; joints are rad and m.")
 ]
