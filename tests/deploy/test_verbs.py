@@ -2,6 +2,8 @@
 
 import json
 import re
+import signal
+import threading
 
 import pytest
 import typer
@@ -12,7 +14,10 @@ from rapidgen.cli.plan import plan
 from rapidgen.cli.rollback import rollback
 from rapidgen.cli.uninstall import uninstall
 from rapidgen.deploy import parse_target
+from rapidgen.deploy.driverset import NEW as STAGED
+from rapidgen.deploy.fleet import GivingUp
 from rapidgen.deploy.secrets import Credentials, Secret, find_password, redact
+from rapidgen.deploy.transports.folder import FolderTransport
 from rapidgen.diagnostics import DiagnosticError, render
 from rapidgen.faces import serve_ftp, serve_sftp
 from tests.generate.cell_backup import write_backup
@@ -134,6 +139,37 @@ def test_a_plan_is_json_where_that_was_asked_for(run, home):
     told = json.loads(run("plan", "irb120", "--to", f"dir://{home}", "--json")[1])
     assert [plan["target"] for plan in told] == [f"dir://{home}"]
     assert {file["action"] for file in told[0]["files"]} == {"add"}
+
+
+def test_ctrl_c_ends_before_files_are_switched_and_tells_what_stands(
+    run, built, kit, tmp_path, monkeypatch
+):
+    """The first controller is done, the second as it was, the third not begun."""
+    homes = [tmp_path / f"c{n}" for n in range(3)]
+    for home in homes:
+        home.mkdir()
+    heard, whole, begin = threading.Event(), FolderTransport.write, GivingUp.begin
+
+    def write(self, path, data):
+        whole(self, path, data)
+        if path.endswith(STAGED) and self._root == homes[1] and not heard.is_set():
+            signal.pthread_kill(threading.main_thread().ident, signal.SIGINT)
+            assert heard.wait(60)
+
+    def told(self):
+        begin(self)
+        heard.set()
+
+    monkeypatch.setattr(FolderTransport, "write", write)
+    monkeypatch.setattr(GivingUp, "begin", told)
+    urls = [word for home in homes for word in ("--to", f"dir://{home}")]
+    code, out, err = run("deploy", built(OLD), *urls, "--yes", "--parallel", "1")
+    assert code == 130
+    assert kit.verdict(homes[0], kit.driver(OLD)) == "set 0"
+    assert [list(home.iterdir()) for home in homes[1:]] == [[], []]
+    words = [line.split()[1:3] for line in out.splitlines()]
+    assert words == [["done", "6"], ["given", "up"], ["not", "begun"]]
+    assert "Ctrl-C: what is being switched is switched first" in err
 
 
 def test_nobody_there_to_answer(run, built, home, monkeypatch):
