@@ -93,7 +93,8 @@ def sim(
     What a controller would not load is refused: all its errors are told, nothing runs. When
     its servers may be reached, stdout gets one line: `ready` and a JSON object with the ports of
     each group, of the control socket, and of the file servers with their login. What the
-    operator and the event log would show goes to stderr. Ctrl-C ends it.
+    operator and the event log would show goes to stderr. Ctrl-C ends it. The other verbs find it
+    by `--to sim`.
     """
     from rapidgen.cli.bootable import chosen
     from rapidgen.controller.cabinet import Cabinet
@@ -146,8 +147,10 @@ def _serve(
 ) -> int:
     """Run until a signal comes; the exit code."""
     import json
+    import os
     import signal
 
+    from rapidgen._running import Simulator, published
     from rapidgen.cli.readiness import PATIENCE, Readiness
 
     ended = False
@@ -182,18 +185,22 @@ def _serve(
             return 0
         if not readiness.up:
             raise readiness.refusal()
+        addresses = _addresses(controller, target, host)
         found = {
             "name": target.name,
             "host": host,
             "ports": _ports(controller, target),
+            "address": addresses,
             "listeners": {str(p): at[1] for p, at in controller.network.listeners.items()},
             **faces,
         }
         if not target.driver:
             for place in controller.where():
                 typer.echo(place, err=True)
-        typer.echo(f"ready {json.dumps(found)}")
-        cabinet.run(lambda: ended)
+        own = Simulator(target.name, os.getpid(), addresses)
+        with published(own):
+            typer.echo(f"ready {json.dumps(found)}")
+            cabinet.run(lambda: ended)
     finally:
         for number, handler in before.items():
             signal.signal(number, handler)
@@ -366,6 +373,16 @@ def _ports(controller: "VirtualController", target: "Bootable") -> dict[str, dic
         }
         for group in target.groups
     }
+
+
+def _addresses(controller: "VirtualController", target: "Bootable", host: str) -> dict[str, str]:
+    """HOST:MOTION,STATE[,CONTROL] of every group, for clients on this machine."""
+    here = "127.0.0.1" if host == "0.0.0.0" else host
+    found = {}
+    for group, ports in _ports(controller, target).items():
+        told = [str(ports[role]) for role in ("motion", "state", "control") if role in ports]
+        found[group] = f"{here}:{','.join(told)}"
+    return found
 
 
 def _check_host(host: str) -> None:
