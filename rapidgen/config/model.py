@@ -124,6 +124,16 @@ class OwnRoutine:
 
 
 @dataclass(frozen=True, slots=True)
+class OwnDatum:
+    """A PERS of the customer's that clients may read, and write where `access` says so; `name` is
+    MODULE:DATUM."""
+
+    name: str
+    type: Literal["num", "bool", "string"]
+    access: Literal["read", "write"] = "read"
+
+
+@dataclass(frozen=True, slots=True)
 class WorkObject:
     """A work object; `name` is `wobj0` or a PERS, of the generated module or another."""
 
@@ -177,6 +187,7 @@ class GroupConfig:
     """Further ones, for motion programs."""
     work_objects: tuple[WorkObject, ...] = field(default=(), metadata=SPARSE)
     routines: tuple[OwnRoutine, ...] = field(default=(), metadata=SPARSE)
+    data: tuple[OwnDatum, ...] = field(default=(), metadata=SPARSE)
     kept: tuple[KeptAxis, ...] = field(default=(), metadata=SPARSE)
     """Robot axes without a joint."""
     unit_group: str = field(default="", metadata=SPARSE)

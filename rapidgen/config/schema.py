@@ -28,6 +28,7 @@ ROBOT_AXES = list(get_args(RobotAxis))
 NAME = r"^[A-Za-z][A-Za-z0-9_]{0,31}$"
 """A name of RAPID."""
 Identifier = Annotated[str, Rule(pattern=NAME)]
+DatumName = Annotated[str, Rule(pattern=r"^[A-Za-z][A-Za-z0-9_]{0,31}:[A-Za-z][A-Za-z0-9_]{0,31}$")]
 GroupName = Annotated[str, Rule(pattern=r"^[a-z][a-z0-9_]{0,11}$")]
 ConfigName = Annotated[str, Rule(pattern=r"^[A-Za-z][A-Za-z0-9_-]{0,39}$")]
 Port = Annotated[int, Rule(ge=1025, le=65535)]
@@ -243,6 +244,14 @@ class RoutineKeys(Part):
 
 
 @dataclass(frozen=True)
+class DatumKeys(Part):
+    """A PERS of a module of yours in the motion task, global there, that clients may reach."""
+
+    type: Annotated[Literal["num", "bool", "string"], Rule("Type.")]
+    access: Annotated[Literal["read", "write"], Rule("`write`: read and written.")] = "read"
+
+
+@dataclass(frozen=True)
 class PayloadKeys(Part):
     """What the robot carries: loaddata that a module of yours declares, `PERS` and global."""
 
@@ -365,6 +374,13 @@ class GroupKeys(Part):
     ] = field(default_factory=list)
     routines: Annotated[
         dict[Identifier, RoutineKeys], Rule("Procedures of yours that clients may call, by name.")
+    ] = field(default_factory=dict)
+    data: Annotated[
+        dict[DatumName, DatumKeys],
+        Rule(
+            "PERS of yours that clients may read and write, by `MODULE:NAME`.",
+            max_length=64,
+        ),
     ] = field(default_factory=dict)
     tcp_speed_limit: Annotated[
         float, Rule("Ceiling of the tool's speed, mm/s; at least 10.", gt=0, le=10000)

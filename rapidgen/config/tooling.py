@@ -111,3 +111,30 @@ def routine_of(
         model.OwnParameter(p.name, p.type, p.mode == "inout") for p in given.parameters
     )
     return model.OwnRoutine(name, given.call, parameters)
+
+
+def data_of(
+    keys: schema.GroupKeys, path: KeyPath, report: DraftFindings
+) -> tuple[model.OwnDatum, ...]:
+    """What clients may read and write. The control server does it, and finds a datum by the part
+    of its name that is one in the whole task."""
+    if keys.data and keys.ports.control == 0:
+        report.error(
+            "RG014",
+            "`data` needs the control port",
+            (*path, "data"),
+            help="leave out `ports: {control: 0}`, or this",
+        )
+    found: dict[str, str] = {}
+    for name in keys.data:
+        plain = name.partition(":")[2].casefold()
+        if plain in found:
+            report.error(
+                "RG014",
+                f"'{name}' and '{found[plain]}' are one name to RAPID",
+                (*path, "data", name),
+                help="data of two modules of a task are global under two names only",
+                key=True,
+            )
+        found[plain] = name
+    return tuple(model.OwnDatum(name, d.type, d.access) for name, d in keys.data.items())

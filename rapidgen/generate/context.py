@@ -135,6 +135,8 @@ def group_context(config: RobotConfig, group: GroupConfig, build_id: str) -> dic
         "exposed": exposed,
         "marks": any(signal["is_set"] for signal in exposed),
         "routines": _routines(group),
+        "data": _data(group),
+        "data_reply": messages.DATA.reply(ReplyCode.SUCCESS).length,
         "most_arguments": MOST_ARGUMENTS,
         "result_reply": messages.RESULT.reply(ReplyCode.SUCCESS).length,
         "most_marks": MOST_SIGNALS,
@@ -216,6 +218,19 @@ def _routines(group: GroupConfig) -> list[dict[str, object]]:
             ],
         }
         for n, routine in enumerate(group.routines, 1)
+    ]
+
+
+def _data(group: GroupConfig) -> list[dict[str, object]]:
+    """The customer's data, by number; a name without its module, as GetDataVal wants it."""
+    return [
+        {
+            "n": n,
+            "name": datum.name.partition(":")[2],
+            "type": datum.type,
+            "is_set": datum.access == "write",
+        }
+        for n, datum in enumerate(group.data)
     ]
 
 

@@ -240,7 +240,7 @@ def _call(walk: _Walk, step: ProgramStep) -> tuple[Sequence[float], float]:
         given = f"{len(step.arguments)} of {len(wanted)} parameters"
         walk.say("RG670", f"routine '{step.routine}' is called with {given}")
     for parameter, value in zip(wanted, step.arguments, strict=False):
-        if not _fits(parameter.type, value):
+        if not fits(parameter.type, value):
             walk.say(
                 "RG670",
                 f"{parameter.name} of '{step.routine}' is a {parameter.type}, not {value!r}",
@@ -249,7 +249,8 @@ def _call(walk: _Walk, step: ProgramStep) -> tuple[Sequence[float], float]:
     return (number,), 0.0
 
 
-def _fits(kind: str, value: float | bool | str) -> bool:
+def fits(kind: str, value: float | bool | str) -> bool:
+    """Whether a value is one of a RAPID type: num, bool or string."""
     if kind == "string":
         return (
             isinstance(value, str)

@@ -16,6 +16,7 @@ from rapidgen.wire.simple_message.declaration import (
     int32,
 )
 from rapidgen.wire.simple_message.spec import (
+    LONGEST_TEXT,
     MAX_JOINTS,
     MAX_LENGTH,
     MOST_ARGUMENTS,
@@ -458,6 +459,34 @@ RESULT = MessageType(
     (Port.MOTION,),
     since=3,
     replies=(Reply(ReplyCode.SUCCESS, ResultReply),),
+)
+
+
+class DataRequest(NamedTuple):
+    """Reads or writes one of the PERS of the robot's own program that the configuration lists."""
+
+    datum: Annotated[int, int32("of the group's configuration, from 0")]
+    write: Annotated[int, int32("1 write, 0 read")]
+    value: Annotated[float, float32("1", "of a num, or 0 and 1 of a bool")]
+    text: Annotated[str, chars(LONGEST_TEXT, "of a string, a byte each character")]
+
+
+class DataReply(NamedTuple):
+    """Reply to DATA: the value as it was read, after any writing."""
+
+    datum: Annotated[int, int32()]
+    value: Annotated[float, float32("1", "of a num, or 0 and 1 of a bool")]
+    text: Annotated[str, chars(LONGEST_TEXT, "of a string")]
+
+
+DATA = MessageType(
+    "DATA",
+    1311,
+    DataRequest,
+    _CLIENT,
+    (Port.CONTROL,),
+    since=3,
+    replies=(Reply(ReplyCode.SUCCESS, DataReply), _NOT_DONE),
 )
 
 MESSAGES = tuple(row for row in tuple(globals().values()) if isinstance(row, MessageType))
