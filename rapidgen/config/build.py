@@ -230,7 +230,7 @@ def _group(
             for number, wobj in enumerate(keys.work_objects)
         ),
         routines=tuple(
-            routine_of(name, routine, (*path, "routines", name), report)
+            routine_of(name, routine, (*path, "routines", name), report, bool(draft.chain))
             for name, routine in keys.routines.items()
         ),
         data=data_of(keys, path, report),

@@ -110,17 +110,19 @@ class OwnParameter:
     """A parameter of a routine; `inout`: its value then is a result."""
 
     name: str
-    type: Literal["num", "bool", "string"]
+    type: Literal["num", "bool", "string", "robtarget", "jointtarget"]
     inout: bool = False
 
 
 @dataclass(frozen=True, slots=True)
 class OwnRoutine:
-    """A procedure of the customer's that a program may call; `call` is what late binding finds."""
+    """A procedure of the customer's that a program may call; `call` is what late binding finds.
+    One that `returns` something is a function, which the module that calls it is linked to."""
 
     name: str
     call: str
     parameters: tuple[OwnParameter, ...] = ()
+    returns: Literal["", "num", "bool", "string"] = field(default="", metadata=SPARSE)
 
 
 @dataclass(frozen=True, slots=True)

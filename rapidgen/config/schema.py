@@ -221,9 +221,12 @@ class ParameterKeys(Part):
     """A parameter of a routine."""
 
     name: Annotated[Identifier, Rule("Name of the parameter, for people.")]
-    type: Annotated[Literal["num", "bool", "string"], Rule("Type; a string has 80 characters.")]
+    type: Annotated[
+        Literal["num", "bool", "string", "robtarget", "jointtarget"],
+        Rule("Type; a string has 80 characters."),
+    ]
     mode: Annotated[
-        Literal["in", "inout"], Rule("`inout`: its value then is a result (num and bool).")
+        Literal["in", "inout"], Rule("`inout`: its value then is a result (not of a target).")
     ] = "in"
 
 
@@ -241,6 +244,12 @@ class RoutineKeys(Part):
     parameters: Annotated[
         list[ParameterKeys], Rule("Its parameters, in their order.", max_length=8)
     ] = field(default_factory=list)
+    returns: Annotated[
+        Literal["", "num", "bool", "string"],
+        Rule(
+            "It is a function of this type. It is linked: without it the motion task does not run."
+        ),
+    ] = ""
 
 
 @dataclass(frozen=True)

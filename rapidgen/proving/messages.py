@@ -149,6 +149,7 @@ class RawReason(IntEnum):
     MOTORS_OFF = 21
     EMERGENCY_STOP = 22
     BUILD_MISMATCH = 24
+    MOVING = 25
     IDLE = 27
     NOT_SERVING = 28
     NO_INSTRUCTION = 29
@@ -171,6 +172,7 @@ class RawReason(IntEnum):
     INTERNAL = 49
     WAITED = 50
     ROUTINE = 51
+    OVERTIME = 52
 
 
 def text_of(reason: RawReason) -> str:
@@ -342,6 +344,8 @@ class RawEvent(NamedTuple):
     number: int
     type: int
     title: str
+    first: str
+    second: str
 
 
 class RawPointsAccepted(NamedTuple):
@@ -388,9 +392,9 @@ class RawSignalReply(NamedTuple):
 
 
 class RawResult(NamedTuple):
-    """RESULT of the routine that a program called last."""
+    """RESULT of the routine that a program called last, with the text of a parameter."""
 
-    trajectory: int
+    parameter: int
 
 
 class RawResultReply(NamedTuple):
@@ -399,6 +403,7 @@ class RawResultReply(NamedTuple):
     trajectory: int
     error: int
     values: tuple[float, ...]
+    text: str
 
 
 class RawAccepted(NamedTuple):
@@ -464,7 +469,7 @@ _LAYOUTS: tuple[tuple[int, int, type[RawContent], str], ...] = (
     (PROGRAM, 1, RawPointsAccepted, "i i i i i i i"),
     (PROGRAM, 2, RawPointsRefused, "i i i i i i"),
     (RESULT, 0, RawResult, "i"),
-    (RESULT, 1, RawResultReply, "i i 8f"),
+    (RESULT, 1, RawResultReply, "i i 8f 80s"),
     (STOPPED, 0, RawStopped, "i i i 10f"),
     (PAUSE, 0, RawPause, "i"),
     (PAUSE, 2, RawNotDone, "i"),
@@ -476,7 +481,7 @@ _LAYOUTS: tuple[tuple[int, int, type[RawContent], str], ...] = (
     (SIGNAL, 0, RawSignal, "i i f"),
     (SIGNAL, 1, RawSignalReply, "i f"),
     (SIGNAL, 2, RawNotDone, "i"),
-    (EVENT, 0, RawEvent, "i i i 80s"),
+    (EVENT, 0, RawEvent, "i i i 80s 80s 80s"),
     (DATA, 0, RawDatum, "i i f 80s"),
     (DATA, 1, RawDatumReply, "i f 80s"),
     (DATA, 2, RawNotDone, "i"),

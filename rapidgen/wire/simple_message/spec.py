@@ -251,6 +251,7 @@ class Reason(IntEnum):
     INTERNAL = 49, "the driver met a state that it does not know"
     WAITED = 50, "a signal did not come in time"
     ROUTINE = 51, "a routine has raised an error"
+    OVERTIME = 52, "a routine took longer than it may"
 
 
 def error_code(reason: Reason, joint: int = 0) -> int:
