@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Protocol
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, error, suggest
 from rapidgen.machine.io import Awaited, IOSystem
 from rapidgen.machine.log import EventLog
+from rapidgen.machine.operator import Operator
 from rapidgen.machine.scheduler import S, Scheduler
 from rapidgen.motion.system import MotionSystem
 from rapidgen.runtime.task.task import Task
@@ -21,6 +22,8 @@ GUESSED = 49_910
 """Event: an input that nobody drives became what a program waits for. The number is ours."""
 _PATIENCE = 0.5
 """Seconds that a program waits for a guessed input."""
+Said = tuple[str, float | str]
+"""A guessed input, or a dialog with its text, and what it became."""
 Posture = tuple[float, ...]
 """Controller axes, rad and m, wire order."""
 
@@ -36,6 +39,8 @@ class Surroundings:
     """Inputs that nobody drives, lower case: they become what somebody waits for."""
     polled: "tuple[Polled, ...]" = ()
     """Where programs look for them in loops."""
+    dialogs: bool = False
+    """Whether dialogs are answered that nobody else is there for."""
 
 
 class Booted(Protocol):
@@ -46,6 +51,7 @@ class Booted(Protocol):
         """Its event log."""
 
     io: IOSystem
+    operator: Operator
     motion: MotionSystem
     scheduler: Scheduler
     rapid_tasks: dict[str, Task]
@@ -112,10 +118,10 @@ def _nameless(system: System, cell: "CellDescription") -> Iterator[Diagnostic]:
                     )
 
 
-def settle(controller: Booted, around: Surroundings) -> list[tuple[str, float]]:
+def settle(controller: Booted, around: Surroundings) -> list[Said]:
     """Put the robots where they start, let devices watch their signals, and guessed inputs become
-    what a program waits for; the list grows by each of these answers (signal, value)."""
-    answered: list[tuple[str, float]] = []
+    what a program waits for; the list grows by each of these answers (signal or dialog, value)."""
+    answered: list[Said] = []
     for name, posture in around.starts.items():
         controller.motion.group(name).jump(posture)
     for reaction in around.reactions:
@@ -139,6 +145,15 @@ def settle(controller: Booted, around: Surroundings) -> list[tuple[str, float]]:
         from rapidgen.controller.polling import Buttons
 
         Buttons(controller, around.polled, answered)
+    # Beside a real clock a person sits, who answers by the control port.
+    if (
+        around.dialogs
+        and not controller.operator.present
+        and controller.scheduler.clock == "virtual"
+    ):
+        from rapidgen.controller.answering import Chooser
+
+        Chooser(controller.operator, controller.scheduler, answered)
     return answered
 
 

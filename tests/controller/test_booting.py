@@ -214,3 +214,37 @@ def test_a_faulty_value_is_no_missing_one_too(tmp_path):
     found = fault.value.diagnostics
     assert [(d.code, d.span.line) for d in found] == [("RG006", 2), ("RG006", 4)]
     assert "begin with a letter" in found[1].help
+
+
+def test_dialogs_of_a_guessed_cell_get_their_default_and_then_each_choice_in_turn(tmp_path):
+    path = tmp_path / "asks.mod"
+    path.write_text(
+        "MODULE asks\n PERS num key := 0;\n PERS num sum := 0;\n VAR num n;\n PROC main()\n"
+        '  WHILE key <> 3 DO\n   TPReadFK key, "Where?", "left", "", "right", "", "";\n'
+        "   sum := 10 * sum + key;\n  ENDWHILE\n"
+        '  TPReadNum n, "How many?";\n  sum := 10 * sum + n;\n'
+        r'  sum := 10 * sum + UINumEntry(\Header:="N"\InitValue:=7\MinValue:=5\MaxValue:=9);'
+        "\n"
+        r'  IF UIMessageBox(\Message:="On?"\Buttons:=btnYesNo\DefaultBtn:=resNo) = resNo THEN'
+        "\n   sum := 10 * sum + 8;\n  ENDIF\n ENDPROC\nENDMODULE\n"
+    )
+    with VirtualController.from_files([path], cell="guess", cycle="once") as controller:
+        assert controller.run(max_time=60) == "finished"
+        assert controller.task("T_ROB1")["asks:sum"] == 13178
+        assert controller.answered == [
+            ("TPReadFK 'Where?'", "left"),
+            ("TPReadFK 'Where?'", "right"),
+            ("TPReadNum 'How many?'", "1"),
+            ("UINumEntry 'N'", "7"),
+            ("UIMessageBox 'On?'", "No"),
+        ]
+
+
+def test_a_script_of_answers_is_all_that_is_answered(tmp_path):
+    path = tmp_path / "asks.mod"
+    path.write_text(
+        'MODULE asks\n VAR num n;\n PROC main()\n  TPReadNum n, "A";\n ENDPROC\nENDMODULE\n'
+    )
+    with VirtualController.from_files([path], cell="guess", cycle="once", answers=[]) as controller:
+        assert controller.run(max_time=60) == "deadlock"
+        assert controller.answered == []
