@@ -1,7 +1,7 @@
 """What the description of a cell does to a controller: signals and data that its programs find,
 where its robots stand at first, and devices that answer signals."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Protocol
 
@@ -57,8 +57,11 @@ class Booted(Protocol):
     rapid_tasks: dict[str, Task]
 
 
-def furnish(system: System, cell: "CellDescription") -> System:
-    """`system` with the signals and the data of `cell` that it does not have itself.
+def furnish(
+    system: System, cell: "CellDescription", data: Iterable[tuple[str, str, str]] = ()
+) -> System:
+    """`system` with the signals and the data of `cell` that it does not have itself, and with
+    further `data` (type, name, initial value or nothing).
 
     The data are those of an installed module: a program's own hide them. Raises DiagnosticError
     RG434 for a device that names a signal which nobody has.
@@ -80,6 +83,9 @@ def furnish(system: System, cell: "CellDescription") -> System:
         raise DiagnosticError(faults)
     text = "".join(
         f"    TASK PERS {kind} {name} := {value};\n" for kind, name, value in _data(cell)
+    )
+    text += "".join(
+        f"    VAR {kind} {name}{' := ' if value else ''}{value};\n" for kind, name, value in data
     )
     if not text:
         return system

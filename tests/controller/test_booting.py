@@ -87,8 +87,8 @@ def test_a_guessed_cell_has_what_the_program_names(program):
         "partHere": "signaldi",
         "tGrip": "tooldata",
         "wTable": "wobjdata",
+        "clock9": "clock",
     }
-    assert [(one.name, one.type) for one in found.guessed.unknown] == [("clock9", "clock")]
     assert found.guessed.named[0].span.line == 3
     (table,) = found.guessed.cell.work_objects
     x, y, z = table.user_frame.position
@@ -248,3 +248,40 @@ def test_a_script_of_answers_is_all_that_is_answered(tmp_path):
     with VirtualController.from_files([path], cell="guess", cycle="once", answers=[]) as controller:
         assert controller.run(max_time=60) == "deadlock"
         assert controller.answered == []
+
+
+def test_plain_data_that_nobody_declares_are_what_their_use_says(tmp_path):
+    path = tmp_path / "names.mod"
+    path.write_text(
+        'MODULE names\n CONST string named := "sig_a";\n VAR signaldo alias1;\n'
+        " VAR robtarget seen;\n PROC main()\n  AliasIO named, alias1;\n  Set alias1;\n"
+        "  DeactUnit M7;\n  MoveJ pHome, v25, z5, tool0;\n  MoveL pHome, vSlow, zMine, tool0;\n"
+        '  IF bReady OR nMode > 3 THEN\n   TPWrite stText + "x";\n  ENDIF\n'
+        "  WHILE nCount < nMax DO\n   nCount := nCount + 1;\n  ENDWHILE\n"
+        '  FOR i FROM 1 TO nParts DO\n   TPWrite "part";\n  ENDFOR\n  x{3} := unheard;\n'
+        " ENDPROC\nENDMODULE\n"
+    )
+    found = load_target([path], Wishes(cell="guess", robot="irb1600"))
+    assert found.guessed is not None
+    assert {one.name: one.type for one in found.guessed.named} == {
+        "sig_a": "signaldo",
+        "M7": "mecunit",
+        "pHome": "robtarget",
+        "v25": "speeddata",
+        "vSlow": "speeddata",
+        "zMine": "zonedata",
+        "bReady": "bool",
+        "nMode": "num",
+        "stText": "string",
+        "nCount": "num",
+        "nMax": "num",
+        "nParts": "num",
+    }
+    assert [one.name for one in found.guessed.unknown] == ["unheard"]
+    with VirtualController.boot(found, cycle="once") as controller:
+        start = controller.positions()
+        controller.run(max_time=20)
+        assert controller.signals["sig_a"] == 1
+        assert controller.positions() == pytest.approx(start, abs=1e-5), "a target is where it is"
+        assert controller.task("T_ROB1")["cell_data:v25"].v_tcp == 25
+        assert controller.task("T_ROB1")["cell_data:vSlow"].v_tcp == 100
