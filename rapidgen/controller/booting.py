@@ -103,6 +103,9 @@ def _loose(targets: Sequence[Source], wishes: Wishes) -> System:
             "name a module, a folder with modules, a generated folder or a backup",
         )
     by_task = {task: list(names) for task, names in wishes.tasks.items()}
+    only = Path(targets[0]) if len(targets) == 1 and not by_task else None
+    if only is not None and only.is_dir() and (folders := files.task_folders(only)):
+        return files.read_files(folders, entry=wishes.entry or "main", name=only.name)
     if targets:
         own = by_task.pop("T_ROB1", [])
         by_task = {"T_ROB1": [*own, *targets], **by_task}

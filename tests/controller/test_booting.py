@@ -285,3 +285,14 @@ def test_plain_data_that_nobody_declares_are_what_their_use_says(tmp_path):
         assert controller.positions() == pytest.approx(start, abs=1e-5), "a target is where it is"
         assert controller.task("T_ROB1")["cell_data:v25"].v_tcp == 25
         assert controller.task("T_ROB1")["cell_data:vSlow"].v_tcp == 100
+
+
+def test_a_folder_with_a_folder_for_each_task_is_those_tasks(tmp_path):
+    text = "MODULE m\n PROC main()\n  {} doMet, 1;\n ENDPROC\nENDMODULE\n"
+    for task, said in (("T_ROB_L", "SetDO"), ("T_ROB_R", "WaitDO")):
+        (tmp_path / task).mkdir()
+        (tmp_path / task / "m.mod").write_text(text.format(said))
+    found = load_target([tmp_path], Wishes(cell="guess", robot="irb14000"))
+    assert [group.task for group in found.groups] == ["T_ROB_L", "T_ROB_R"]
+    with VirtualController.boot(found, cycle="once") as controller:
+        assert controller.run(max_time=20) == "finished"

@@ -122,7 +122,7 @@ def main(folder: Path, robots: Sequence[str]) -> None:
     ends: Counter[str] = Counter()
     shares: list[float] = []
     for program in programs(folder):
-        backup = program.files[0].is_dir()
+        backup = program.is_backup
         robot, outcome = best(program, ("",) if backup else robots)
         ends[("backups: " if backup else "mains: ") + outcome.end.split(" (")[0]] += 1
         if not backup:
