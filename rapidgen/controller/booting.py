@@ -186,7 +186,7 @@ def _surrounded(found: Bootable, cell: "CellDescription | None", wishes: Wishes)
             tuple(reaction for rows in cell.devices.values() for reaction in rows),
             frozenset(inputs if guessed is not None else ()),
             guessed.polled if guessed is not None else (),
-            dialogs=guessed is not None,
+            is_guess=guessed is not None,
         ),
         guessed=guessed,
     )

@@ -39,8 +39,8 @@ class Surroundings:
     """Inputs that nobody drives, lower case: they become what somebody waits for."""
     polled: "tuple[Polled, ...]" = ()
     """Where programs look for them in loops."""
-    dialogs: bool = False
-    """Whether dialogs are answered that nobody else is there for."""
+    is_guess: bool = False
+    """Whether dialogs are answered that nobody else is there for, and I/O units are as named."""
 
 
 class Booted(Protocol):
@@ -151,9 +151,10 @@ def settle(controller: Booted, around: Surroundings) -> list[Said]:
         from rapidgen.controller.polling import Buttons
 
         Buttons(controller, around.polled, answered)
+    controller.io.any_unit = around.is_guess
     # Beside a real clock a person sits, who answers by the control port.
     if (
-        around.dialogs
+        around.is_guess
         and not controller.operator.present
         and controller.scheduler.clock == "virtual"
     ):
