@@ -19,7 +19,7 @@ from rapidgen.deploy.live.proof import ReadBack, prove, way_back
 from rapidgen.deploy.live.view import Row
 from rapidgen.deploy.plan import Plan
 from rapidgen.deploy.transports.transport import TransportFault, refused
-from rapidgen.deploy.work import Work
+from rapidgen.deploy.work import Work, go_on
 from rapidgen.diagnostics import DiagnosticError, error
 from rapidgen.system import CfgText, write_cfg
 from rapidgen.wire.rws.bodies import Generation
@@ -106,6 +106,7 @@ def _await(run: Live) -> None:
         if what != told:
             run.work.say(f"waiting for a person: {what}; {mend}")
             told = what
+        go_on(run.work)
         run.options.pause(_LOOK)
         left -= _LOOK
 
