@@ -10,7 +10,8 @@ from rapidgen.axes import frames
 from rapidgen.axes.frames import Pose
 from rapidgen.axes.kinematics import AxisConfiguration, Kinematics
 from rapidgen.axes.mapping import JointMap
-from rapidgen.config import load_config, shipped_names
+from rapidgen.config import shipped_names
+from rapidgen.config.compiled import shipped_groups
 from rapidgen.config.library import variants
 from rapidgen.config.model import GroupConfig
 from rapidgen.config.of_variant import group_of
@@ -75,7 +76,7 @@ def likely(system: System, default: str) -> Likely | None:
 def _candidates(default: str) -> Iterator[tuple[str, GroupConfig]]:
     for name in dict.fromkeys((default, *shipped_names())):
         if name != _SEVEN_AXES:
-            yield name, load_config(name).groups[0]
+            yield name, shipped_groups(name)[0]
     for variant in variants():
         group = None if variant.model else group_of(variant)
         if group is not None:
