@@ -260,6 +260,7 @@ def test_plain_data_that_nobody_declares_are_what_their_use_says(tmp_path):
         "  DeactUnit M7;\n  MoveJ pHome, v25, z5, tool0;\n  MoveL pHome, vSlow, zMine, tool0;\n"
         '  IF bReady OR nMode > 3 THEN\n   TPWrite stText + "x";\n  ENDIF\n'
         "  WHILE nCount < nMax DO\n   nCount := nCount + 1;\n  ENDWHILE\n"
+        "  WaitDI Sensor, 1;\n"
         '  FOR i FROM 1 TO nParts DO\n   TPWrite "part";\n  ENDFOR\n  x{3} := unheard;\n'
         " ENDPROC\nENDMODULE\n"
     )
@@ -278,6 +279,7 @@ def test_plain_data_that_nobody_declares_are_what_their_use_says(tmp_path):
         "nCount": "num",
         "nMax": "num",
         "nParts": "num",
+        "Sensor": "signaldi",
     }
     assert [one.name for one in found.guessed.unknown] == ["unheard"]
     with VirtualController.boot(found, cycle="once") as controller:
