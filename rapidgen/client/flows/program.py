@@ -27,7 +27,7 @@ from rapidgen.diagnostics import suggest
 from rapidgen.wire.simple_message import encode, messages
 from rapidgen.wire.simple_message.spec import Comm, EventType, Port, Reason
 
-_STEP = {"revolute": 0.2, "prismatic": 0.1}
+LONGEST_JOG = {"revolute": 0.2, "prismatic": 0.1}
 """rad and m of one jog."""
 _DEAD_MAN = 0.2
 """s without a word of the client after which a jogged robot is stopped."""
@@ -83,7 +83,9 @@ def jog(core: Core, /, *, speed: SpeedLike = SLOW, **by: float) -> Flow[Result]:
     assert state is not None
     target = dict(zip(group.names, state.joints, strict=True))
     for name, step in by.items():
-        most = _STEP.get(group.joints[group.names.index(name)].kind if name in target else "", 0.0)
+        most = LONGEST_JOG.get(
+            group.joints[group.names.index(name)].kind if name in target else "", 0.0
+        )
         if not abs(step) <= most:
             raise InvalidProgram.because(
                 "RG670",
