@@ -57,7 +57,7 @@ VARIANTS = {
     "signals": (SIGNALS, "signals hello control-stop"),
     "data": (DATA, "own-data hello control-stop"),
     "routines": (ROUTINES, "routine-absent routine-results routine-alone program-waits"),
-    "signals on the way": (SIGNALS, "program-signals program-sets"),
+    "signals on the way": (SIGNALS, "program-signals program-sets program-without-signals"),
     "tools": (TOOLS, "program-tools program-waits"),
     "some clients": (["network.allowed_clients=[10.0.0.9]"], "strangers single-point"),
     "impatient": (["network.receive_timeout=3"], "stalls half-header"),

@@ -23,6 +23,7 @@ from rapidgen.proving.programs import (
     reached,
 )
 from rapidgen.proving.suite.control import not_done
+from rapidgen.proving.suite.programs import corners_made
 from rapidgen.proving.track import Position
 
 case = Theme("programs", needs="stream")
@@ -168,6 +169,9 @@ def _sets(bench: Bench) -> None:
             told = _sends(client, WAIT_SIGNAL, [float(index), 1.0, 1.0])
             client.refused(told, RawReason.BAD_VALUE, 0, f"a wait for {signal.name}")
             continue
+        if bench.controller.signals[signal.name] == 0:
+            _accepted(_sends(client, WAIT_SIGNAL, [float(index), 0.0, 0.0], before=there))
+            bench.wait_until_at(there.joints, 60)
         if signal.kind[1] == "I":
             _waits(bench, client, index, signal.name)
             seen = bench.progress(watcher)
@@ -183,6 +187,50 @@ def _sets(bench: Bench) -> None:
         for kind, more in ((SET, [1.0]), (WAIT_SIGNAL, [1.0, 1.0])):
             told = _sends(client, kind, [float(len(exposed)), *more])
             client.refused(told, RawReason.NO_SIGNAL, 0, f"{kind.name} of no signal")
+        corners_made(bench)
+
+
+@case("program-without-signals", "a signal that the controller does not have ends its program")
+def _without(bench: Bench) -> None:
+    """Set, on the way and waited for; the others work."""
+    exposed = bench.config.signals
+    for index, signal in enumerate(exposed):
+        there = tuple(s for s in bench.system.signals if s.name != signal.name)
+        with bench.beside(replace(bench.system, signals=there)) as other:
+            _one_without(other, index, signal)
+
+
+def _one_without(bench: Bench, index: int, signal: ExposedSignal) -> None:
+    client, watcher = Programmer(bench), bench.watcher()
+    first, second, *_ = orders(bench, 4, random.Random(26))
+    client.takes("a program", [first])
+    bench.wait_until_at(first.joints, 60)
+    writes = signal.access == "write" and signal.kind[1] == "O"
+    sent = [_sends(client, SET, [float(index), 1.0])] if writes else []
+    if writes and computes(bench):
+        bench.run(0.5)
+        pose = reached(bench, second.joints)
+        line = replace(second, kind=MOVES[0], pose=pose, marks=((float(index), 1.0, START, 0.01),))
+        sent.append(client.send([line]))
+    for told in sent:
+        _accepted(told)
+        bench.stays(1, "the signal is not there")
+        _no_signal(bench.progress(watcher), signal)
+    if signal.kind[0] != "A":
+        _accepted(_sends(client, WAIT_SIGNAL, [float(index), 1.0, 5.0], behind=second))
+        bench.stays(1, "the signal is not there")
+        _no_signal(bench.progress(watcher), signal)
+    for number, other in enumerate(bench.config.signals):
+        if number != index and other.access == "write":
+            _accepted(_sends(client, SET, [float(number), 1.0]))
+            bench.run(0.5)
+            if bench.controller.signals[other.name] != 1:
+                raise Broken(f"{signal.name} is not there, and {other.name} is not set")
+
+
+def _no_signal(told: messages.RawProgress, signal: ExposedSignal) -> None:
+    if (told.reason, told.reached) != (RawReason.NO_SIGNAL, 0):
+        raise Broken(f"{signal.name} is not there, PROGRESS says {told}")
 
 
 def _waits(bench: Bench, client: Programmer, index: int, name: str) -> None:
