@@ -8,6 +8,7 @@ from dataclasses import replace
 from rapidgen.axes import frames
 from rapidgen.axes.frames import Pose
 from rapidgen.config.model import ExposedSignal, Placement
+from rapidgen.motion.moves import Singularities
 from rapidgen.proving import messages
 from rapidgen.proving.batches import millionths
 from rapidgen.proving.behaviour import Theme
@@ -28,7 +29,7 @@ from rapidgen.proving.track import Position
 
 case = Theme("programs", needs="stream")
 
-SET, WAIT_SIGNAL = RawInstruction.SET, RawInstruction.WAIT_SIGNAL
+SET, WAIT_SIGNAL, SETTINGS = RawInstruction.SET, RawInstruction.WAIT_SIGNAL, RawInstruction.SETTINGS
 MOVES = (RawInstruction.MOVE_L, RawInstruction.MOVE_J)
 START, END, TIME = 0.0, 1.0, 2.0
 """Where a signal is set: m behind the beginning, m before the end, s before it."""
@@ -52,10 +53,11 @@ def _signals(bench: Bench) -> None:
         return
     there = replace(last, kind=MOVES[0], pose=reached(bench, last.joints), speed=0.1)
     back = replace(there, joints=first.joints, pose=reached(bench, first.joints))
-    for kind in MOVES:
+    for kind in (*MOVES, RawInstruction.MOVE_ABSJ):
         for number in written:
             for go, from_there in ((there, first), (back, there)):
-                _one_way(bench, client, replace(go, kind=kind), from_there.joints, number)
+                own = replace(go, kind=kind, pose=go.pose if kind in MOVES else None)
+                _one_way(bench, client, own, from_there.joints, number)
     _eight(bench, client, there, written[0])
     _wrong_marks(bench, client, replace(back, kind=MOVES[0]), written[0])
 
@@ -134,9 +136,10 @@ def _wrong_marks(bench: Bench, client: Programmer, order: RawOrder, number: int)
     for marks, reason in wrong:
         told = client.send([replace(order, marks=tuple(marks))])
         client.refused(told, reason, 0, f"signals {marks}")
-    standing = replace(order, kind=RawInstruction.MOVE_ABSJ, pose=None)
-    told = client.send([replace(standing, marks=((n, 1.0, START, 0.01),))])
-    client.refused(told, RawReason.NO_INSTRUCTION, 0, "a signal on the way of MoveAbsJ")
+    words = [*millionths(bench.position), 2048 + RawInstruction.WAIT]
+    client.number += 1
+    told = client.say([*words, *millionths([1.0, n, 1.0, START, 0.01, 0.5])], 1, ALL)
+    client.refused(told, RawReason.NO_INSTRUCTION, 0, "a signal on the way of a wait")
     bench.stays(0.5, "no signal was right")
 
 
@@ -343,3 +346,34 @@ def _speed(bench: Bench) -> None:
     bench.sets_off(client.link, bench.wave(10), 0.3)
     if not isinstance(control.ask(messages.RawSpeed(50.0)), messages.RawAcknowledged):
         raise Broken("a trajectory behind a program does not take SPEED")
+
+
+@case("program-settings", "singularities and configurations are allowed on request alone")
+def _settings(bench: Bench) -> None:
+    """From the instruction on, and no longer than the program: it ends, or is stopped."""
+    client, modal = Programmer(bench), bench.motion_group.modal
+    if bench.motion_group.kinematics is None:
+        client.refused(_sends(client, SETTINGS, [0.0]), RawReason.NO_INSTRUCTION, 0, "settings")
+        return
+    there = replace(
+        orders(bench, 2, random.Random(27))[1], kind=RawInstruction.MOVE_ABSJ, pose=None
+    )
+    for value in (4.0, -1.0, 0.5):
+        told = _sends(client, SETTINGS, [value])
+        client.refused(told, RawReason.BAD_VALUE, 0, f"settings {value}")
+    for bits in range(4):
+        start = replace(there, joints=bench.position)
+        _accepted(_sends(client, SETTINGS, [float(bits)], behind=there))
+        bench.wait_until_moving()
+        now = (modal.singularities is Singularities.WRIST, not modal.check_linear)
+        if now != (bool(bits & 1), bool(bits & 2)):
+            raise Broken(f"settings {bits}: SingArea Wrist and ConfL Off are {now}")
+        if bits == 3:
+            client.link.stop()
+        else:
+            bench.wait_until_at(there.joints, 60)
+        bench.wait_until_standing(10)
+        bench.run(0.5)
+        if modal.singularities is not Singularities.OFF or not modal.check_linear:
+            raise Broken(f"a program with settings {bits} is over, and they are not")
+        there = start
