@@ -119,6 +119,9 @@ runtime-mutants: $(STAMP) ## 15 min: the same for the conformance files of the r
 driver-mutants: $(STAMP) ## 12 min: which mutants of the generated modules the suite notices
 	$(BIN)/python benchmarks/mutation.py --jobs 2 --budget 4 --output build/mutation.jsonl irb120
 
+program-mutants: $(STAMP) ## 15 min: the same for the modules of motion programs, in a cell with signals, tools, routines and data
+	$(BIN)/python benchmarks/mutation.py --jobs 2 --budget 8 --output build/program-mutation.jsonl --themes programs "own routines" "own data" --only ROS_programs ROS_execution ROS_data -- benchmarks/cell.yaml
+
 motion-campaign: $(STAMP) ## 10 min: 10,000 random programs with random stops
 	$(BIN)/python -m tests.motion.campaign
 
