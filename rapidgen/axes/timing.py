@@ -7,6 +7,7 @@ of the two times; at the first and last point speed comes up from and goes down 
 the segment.
 """
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -107,7 +108,7 @@ def slow_down(times: Array, positions: Array, speed: Array, acceleration: Array)
 
 
 def resample(times: Array, positions: Array, period: float) -> tuple[Array, Array]:
-    """Points at an equal spacing close to `period` s, first and last kept exactly.
+    """Points at an equal spacing of `period` s or little more, first and last kept exactly.
 
     Between points axes move linearly, so ranges and speeds stay within those of the input.
     """
@@ -116,7 +117,8 @@ def resample(times: Array, positions: Array, period: float) -> tuple[Array, Arra
     _segments(stamps, points)
     if not period > 0:
         raise ValueError("the period must be positive")
-    count = max(1, round((stamps[-1] - stamps[0]) / period))
+    # No segment below the period, which may be the shortest that a controller follows.
+    count = max(1, math.floor((stamps[-1] - stamps[0]) / period + 1e-6))
     fresh = np.linspace(stamps[0], stamps[-1], count + 1)
     columns = [np.interp(fresh, stamps, points[:, j]) for j in range(points.shape[1])]
     return fresh, np.stack(columns, axis=1)

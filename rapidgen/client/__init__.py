@@ -12,6 +12,7 @@ from rapidgen.client.errors import (
     ConnectionLost,
     IncompatibleDriver,
     InvalidProgram,
+    InvalidTarget,
     InvalidTrajectory,
     MotionError,
     MotionFailed,
@@ -28,7 +29,7 @@ from rapidgen.client.errors import (
 )
 from rapidgen.client.program import Program, Speed, Trigger, Zone, pulse
 from rapidgen.client.threads import Execution, ProgramRun, Robot, Stream
-from rapidgen.client.trajectory import Trajectory
+from rapidgen.client.trajectory import Trajectory, TrajectoryPoint
 from rapidgen.wire.simple_message.spec import EventType, Reason, TrajectoryState
 
 if TYPE_CHECKING:
@@ -52,6 +53,7 @@ __all__ = [
     "Feedback",
     "IncompatibleDriver",
     "InvalidProgram",
+    "InvalidTarget",
     "InvalidTrajectory",
     "MotionError",
     "MotionFailed",
@@ -76,6 +78,7 @@ __all__ = [
     "Stream",
     "Timeouts",
     "Trajectory",
+    "TrajectoryPoint",
     "TrajectoryRefused",
     "TrajectoryState",
     "Trigger",

@@ -25,6 +25,12 @@ class JointRecording:
     def __len__(self) -> int:
         return len(self._samples)
 
+    def __repr__(self) -> str:
+        return f"<JointRecording {self.trajectory()}>"
+
+    def _repr_html_(self) -> str:
+        return self.trajectory()._repr_html_()
+
     @property
     def began(self) -> float:
         """The client's clock at the first message; 0 without one."""

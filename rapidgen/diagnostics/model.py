@@ -80,6 +80,11 @@ class DiagnosticError(Exception):
     ) -> None:
         found = (diagnostics,) if isinstance(diagnostics, Diagnostic) else tuple(diagnostics)
         super().__init__("; ".join(f"{d.code}: {d.message}" for d in found))
+        # Python shows these below a traceback: whoever calls no command sees place and mend, too.
+        for d in found:
+            for line in (f"{d.span.path}:{d.span.line}" if d.span else "", *d.notes, d.help):
+                if line:
+                    self.add_note(f"{d.code}: {line}")
         self.diagnostics: tuple[Diagnostic, ...] = found
         self.exit_code = exit_code
 

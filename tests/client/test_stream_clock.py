@@ -50,6 +50,17 @@ def carried(request):
     return request.param
 
 
+def test_one_point_is_appended_as_it_is_said():
+    with streamed() as (robot, driver), robot.stream() as stream:
+        for time, joints in wave(30):
+            stream.append(time, joints)
+        assert stream.total == 30
+        with pytest.raises(InvalidTrajectory):
+            stream.append(9.0, 0.5)
+        with pytest.raises(InvalidTrajectory):
+            stream.append("soon", [0.0] * 6)
+
+
 def test_it_starves_stands_and_goes_on(carried):
     with carried() as (robot, peer):
         points = list(wave(40))

@@ -6,6 +6,7 @@ Its owner holds a lock (sync) or a loop (async) and moves the bytes.
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from math import isfinite
 
 from rapidgen import __version__
 from rapidgen.client.core.checks import (
@@ -14,13 +15,14 @@ from rapidgen.client.core.checks import (
     Way,
     check_points,
     check_trajectory,
+    require_trajectory,
     to_stream,
 )
 from rapidgen.client.core.download import Download
 from rapidgen.client.core.group import PLAIN_CAPACITY, Group
 from rapidgen.client.core.heartbeat import HeartbeatSchedule
 from rapidgen.client.core.motion import place_of, refused
-from rapidgen.client.core.program_checks import CheckedProgram, check_program
+from rapidgen.client.core.program_checks import CheckedProgram, check_program, require_program
 from rapidgen.client.core.request_port import PendingReply, RequestPort
 from rapidgen.client.core.state_port import Evidence, StatePort
 from rapidgen.client.core.stream import InstructionQueue, PointQueue, PointStream, SendQueue
@@ -29,6 +31,7 @@ from rapidgen.client.errors import (
     NotReady,
     NotSupported,
     ProtocolError,
+    RequestRefused,
     RobotError,
     RobotTimeout,
     fault,
@@ -278,9 +281,14 @@ class Core:
         return encode(messages.HeartbeatRequest(timeout * max(1.0, pace)), Comm.REQUEST)
 
     def post(self, content: Content) -> PendingReply:
-        """A request for the control port; it goes out next."""
+        """A request for the control port; it goes out next. Raises RequestRefused for a value
+        that its message cannot hold."""
         pending = PendingReply(number_of(content))
-        self._outbox.append((pending, encode(content, Comm.REQUEST)))
+        try:
+            frame = encode(content, Comm.REQUEST)
+        except ContentError as error:
+            raise RequestRefused.because("RG625", f"cannot be asked for: {error}") from error
+        self._outbox.append((pending, frame))
         return pending
 
     def blind_stops(self) -> list[Port]:
@@ -369,6 +377,7 @@ class Core:
         motion need not wait for the last point. Raises InvalidTrajectory, NotReady (no state
         yet), NotSupported (no driver that streams).
         """
+        require_trajectory(trajectory)
         if way == "stream":
             self.require_streaming()
             return check_points(trajectory, self.known_group, before=None, start=self.start)
@@ -384,6 +393,7 @@ class Core:
 
         Raises InvalidProgram, NotReady (no state yet), NotSupported.
         """
+        require_program(program)
         hello = self.state_port.driver.hello
         if hello is None or Feature.PROGRAMS not in Feature(hello.features):
             raise NotSupported.because(
@@ -411,6 +421,15 @@ class Core:
         start = self.state_port.wire_joints
         if start is None:
             raise _unknown()
+        # No distance from such a value is too far, and none is near.
+        lost = [n for n, v in zip(self.known_group.names, start, strict=False) if not isfinite(v)]
+        if lost:
+            raise NotReady.because(
+                "RG621",
+                f"the controller tells no number for {', '.join(lost)}",
+                "look at the robot: where it stands is not known",
+                **self.evidence(),
+            )
         return start
 
     @property
