@@ -38,7 +38,7 @@ def demo(
         controller.start()
         address = controller.address(group.name, timeout=_SERVERS)
         _say(f"booted  {len(controller.tasks)} tasks, RobotWare {model.robotware[0]}, at {address}")
-        with Robot(model, address=address, group=group.name) as robot:
+        with Robot(model, address=address, group=group.name, feedback=True) as robot:
             robot.wait_until(lambda s: s.status.motion_possible is TriState.TRUE, _SERVERS)
             trajectory = _trajectory(robot)
             with robot.recording() as recording:
@@ -101,14 +101,10 @@ def _report(
 def _draw(
     output: Path, trajectory: "Trajectory", recording: "JointRecording", group: "GroupConfig"
 ) -> None:
-    from rapidgen.view.plot import PlottedCurve, write_plot
+    from rapidgen.view import plot
+    from rapidgen.view.plotting import files_of
 
-    png, html = output / "demo.png", output / "demo.html"
-    write_plot(
-        png,
-        html,
-        [PlottedCurve("commanded", trajectory), PlottedCurve("executed", recording.trajectory())],
-        title=f"{group.model or group.name}: commanded and executed joints",
-        prismatic=[j.name for j in group.joints if j.kind == "prismatic"],
-    )
-    _say(f"drew    {png} and {html}")
+    title = f"{group.model or group.name}: commanded and executed joints"
+    made = plot(trajectory, recording, title=title)
+    written = [str(made.save(path)) for path in files_of(output / "demo")]
+    _say(f"drew    {' and '.join(written)}")

@@ -35,7 +35,11 @@ class Outputs:
 
     def refuse_unwritable(self) -> None:
         """Refuse, before anything runs, a file that cannot be written behind it."""
-        files = [*self.coverage, *(_pictures(self.plot, "") if self.plot else ())]
+        files = list(self.coverage)
+        if self.plot is not None:
+            from rapidgen.view.plotting import files_of
+
+            files += files_of(self.plot)
         if self.profile not in ("", "-"):
             files.append(Path(self.profile))
         for path in files:
@@ -85,20 +89,17 @@ class Observed:
             self._draw(self.wanted.plot)
 
     def _draw(self, plot: Path) -> None:
-        from rapidgen.cli.plot import draw_recording
         from rapidgen.motion.recorder import PERIOD
+        from rapidgen.view import plot as draw
+        from rapidgen.view.plotting import files_of
 
         period = max(PERIOD, self.controller.now / _SAMPLES)
         several = len(self._recorders) > 1
         for group, recorder in self._recorders.items():
-            paths = _pictures(plot, f"_{group}" if several else "")
             title = f"{self.controller.system.name}, {group}"
-            draw_recording(recorder.recording(period), paths, title=title)
-
-
-def _pictures(plot: Path, more: str) -> tuple[Path, Path]:
-    base = plot.with_suffix("") if plot.suffix.lower() in (".png", ".html") else plot
-    return base.with_name(f"{base.name}{more}.png"), base.with_name(f"{base.name}{more}.html")
+            made = draw(recorder.recording(period), title=title)
+            for path in files_of(plot.with_stem(f"{plot.stem}_{group}") if several else plot):
+                made.save(path)
 
 
 def _page(controller: "VirtualController", coverage: "Coverage") -> str:

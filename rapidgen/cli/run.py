@@ -76,7 +76,7 @@ def run(
     ] = None,
     plot: Annotated[
         Path | None,
-        typer.Option("--plot", metavar="F", help="F.png and F.html of what the robots did."),
+        typer.Option("--plot", metavar="F", help="What the robots did: .html, .png, .svg."),
     ] = None,
     backup: options.Backup = None,
     check: options.LoadCheck = True,

@@ -1,5 +1,6 @@
 """The paired Python client: sync and async."""
 
+import logging
 from typing import TYPE_CHECKING
 
 from rapidgen.client.aio import AsyncExecution, AsyncProgramRun, AsyncRobot, AsyncStream
@@ -34,6 +35,9 @@ from rapidgen.wire.simple_message.spec import EventType, Reason, TrajectoryState
 
 if TYPE_CHECKING:
     from rapidgen.client.rws import AsyncController, Controller
+
+# Whoever wants to read it says where it goes; nobody else is bothered.
+logging.getLogger("rapidgen").addHandler(logging.NullHandler())
 
 __all__ = [
     "AsyncCell",

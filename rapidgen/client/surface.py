@@ -215,6 +215,7 @@ class RobotSurface(Generic[C_co, Execution, Stream, Run]):
             feedback=feedback,
             # No robot is at this machine's own address.
             simulated=self.address.is_loopback,
+            where=str(self.address),
         )
         self._carrier = self._carrier_type(self.address, make_core)
         self._core = self._carrier.core
@@ -258,6 +259,18 @@ class RobotSurface(Generic[C_co, Execution, Stream, Run]):
         with self._carrier.guard:
             return self._core.state_port.messages
 
+    def _unfinished(self) -> str:
+        """What is under way, for who leaves a block without having waited for it; else nothing."""
+        with self._carrier.guard:
+            motion = self._core.motion
+            if motion is None or motion.is_over:
+                return ""
+            done = f"{motion.progress.reached or 0} of {motion.total} {motion.noun}s"
+        return (
+            f"the robot was stopped at the end of the block, behind {done} of a motion that was "
+            "under way: wait for it with `execution.result()`, or end it with `cancel()`"
+        )
+
     # State
 
     next_state = _of_core(flows.state.next_state)
@@ -282,15 +295,16 @@ class RobotSurface(Generic[C_co, Execution, Stream, Run]):
 
     @contextmanager
     def recording(self) -> Iterator[JointRecording]:
-        """Keep every joint message while the block runs."""
+        """Keep every joint message while the block runs; with `feedback`, by the controller's own
+        time."""
         recording = JointRecording(self.group)
         with self._carrier.guard:
-            self._core.state_port.listeners.append(recording.add)
+            self._core.state_port.listeners.append(recording)
         try:
             yield recording
         finally:
             with self._carrier.guard:
-                self._core.state_port.listeners.remove(recording.add)
+                self._core.state_port.listeners.remove(recording)
 
     # Motion
 

@@ -122,7 +122,7 @@ def test_cancel_is_stop_and_nothing_after_the_end(connected):
 
 
 def test_closing_stops_what_moves(connected):
-    with connected() as (robot, controller):
+    with pytest.warns(RuntimeWarning, match="was stopped"), connected() as (robot, controller):
         robot.execute(LONG)
     assert len(controller.stops) == 1
 

@@ -51,7 +51,7 @@ def carried(request):
 
 
 def test_one_point_is_appended_as_it_is_said():
-    with streamed() as (robot, driver), robot.stream() as stream:
+    with streamed() as (robot, _), robot.stream() as stream:
         for time, joints in wave(30):
             stream.append(time, joints)
         assert stream.total == 30

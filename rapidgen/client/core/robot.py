@@ -3,6 +3,7 @@
 Its owner holds a lock (sync) or a loop (async) and moves the bytes.
 """
 
+import logging
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -100,12 +101,13 @@ class Core:
         reconnect: float = 0.0,
         feedback: bool = False,
         simulated: bool = False,
+        where: str = "",
     ) -> None:
         """`watch`: never move, only look. `plain`: do not ask for a rapidgen driver.
 
         `reconnect`: for how many s a lost connection is tried again; 0: not. `feedback`: ask
         for joints with the controller's own time and velocities. `simulated`: the controller's
-        clock may run faster than this one.
+        clock may run faster than this one. `where`: which robot this is, for the log.
         """
         self.simulated = simulated
         self.watch = watch
@@ -117,7 +119,7 @@ class Core:
         self.clock = clock
         self.plain = plain
         self.configured = group
-        self.state_port = StatePort(clock)
+        self.state_port = StatePort(clock, where)
         self.state_open = False
         self.ports = {Port.MOTION: RequestPort(), Port.CONTROL: RequestPort()}
         self.fault: RobotError | None = None
@@ -206,6 +208,7 @@ class Core:
         else:
             self.ports[port].is_open = False
         self.fault = error
+        self.state_port.note(str(error), logging.INFO)
         if port is Port.CONTROL:
             # Takes nothing from a motion under way; the controller stops it by itself where it
             # awaited a heartbeat there.
@@ -215,6 +218,8 @@ class Core:
 
     def closed(self) -> None:
         """The caller closed all connections."""
+        if self.state_open:
+            self.state_port.note("closed", logging.INFO)
         self.fault = None
         self.state_open = False
         for talk in self.ports.values():
@@ -306,6 +311,8 @@ class Core:
         ports = [port for port, talk in self.ports.items() if talk.is_open]
         for port in ports:
             self.request_stop(port)
+            why = f"STOP over the {port.name.lower()} port: nobody sees the robot any more"
+            self.state_port.note(why, logging.WARNING)
         return ports
 
     # What callers ask
@@ -326,7 +333,7 @@ class Core:
 
     def without_control(self, why: str) -> None:
         """There is no control connection, though the driver has the port."""
-        self.state_port.note(why)
+        self.state_port.note(f"no control connection: {why}", logging.INFO)
         self.state_port.driver = replace(self.state_port.driver, control_fault=why)
 
     def hello(self, *, subscribe: bool = True) -> bytes:
@@ -407,6 +414,7 @@ class Core:
 
     def check_whole(self, trajectory: Trajectory, capacity: int | None = None) -> CheckedTrajectory:
         """Check what goes by download. Raises InvalidTrajectory, NotReady."""
+        require_trajectory(trajectory)
         return check_trajectory(
             trajectory,
             self.known_group,

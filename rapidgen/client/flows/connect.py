@@ -1,5 +1,6 @@
 """Connecting, and finding out who is there."""
 
+import logging
 import math
 
 from rapidgen.client.core.group import Group
@@ -49,6 +50,9 @@ def _open(core: Core) -> Flow[None]:
         left = max(0.0, asked + limits.hello - core.clock())
         yield Wait(lambda: state_port.hello is not None or not core.state_open, left)
     _meet(core, state_port.hello)
+    told = state_port.driver.hello
+    who = f"rapidgen {state_port.driver.version}, build {told.build_id}" if told else "plain"
+    state_port.note(f"connected: {who}, {state_port.status}", logging.INFO)
     if core.watch:
         return
     yield Open(Port.MOTION, limits.connect)
@@ -149,5 +153,5 @@ def alive(core: Core, *, to_move: bool = False) -> Flow[None]:
         except (ConnectionFailed, ConnectionLost, RobotTimeout) as error:
             if core.clock() + _RETRY >= deadline:
                 raise
-            core.state_port.note(str(error))
+            core.state_port.note(f"connecting again: {error}", logging.WARNING)
         yield Wait(lambda: False, _RETRY)
