@@ -67,6 +67,20 @@ def sim(
         bool,
         typer.Option("--rws-lenient", help="Let through what real web services refuse."),
     ] = False,
+    view: Annotated[
+        bool, typer.Option("--view", help="Serve a page that shows the robot: `view` in `ready`.")
+    ] = False,
+    view_port: Annotated[
+        int, typer.Option(help="Port of that page; 0: any free port.", min=0, max=65_535)
+    ] = 0,
+    record: Annotated[
+        Path | None,
+        typer.Option(help="Record everything: FILE.mcap, after a restart FILE-2.mcap ..."),
+    ] = None,
+    watch: Annotated[
+        list[str] | None,
+        typer.Option(help="Record an expression, too; may be repeated.", metavar="TASK:EXPRESSION"),
+    ] = None,
     answers: Annotated[
         Path | None, typer.Option(help="The operator's answers: `rapidgen explain RG420`.")
     ] = None,
@@ -121,8 +135,10 @@ def sim(
         with (
             _control(cabinet) as control,
             _faces(cabinet, host, ftp, sftp, (rws, rws_port, not rws_lenient)) as faces,
+            _page(cabinet, host, view_port if view else None) as page,
+            _recording(cabinet, record, watch or ()),
         ):
-            return _serve(cabinet, found, host, speed, {"control": control, **faces})
+            return _serve(cabinet, found, host, speed, {"control": control, **faces, **page})
 
 
 def _serve(
@@ -267,6 +283,60 @@ def _faces(
             if service.host_key:
                 told["fingerprint"] = service.host_key
         yield told
+
+
+@contextmanager
+def _page(cabinet: "Cabinet", host: str, port: int | None) -> "Iterator[Members]":
+    """The page that shows the robot; what `ready` tells of it.
+
+    Raises DiagnosticError RG920, RG921.
+    """
+    if port is None:
+        yield {}
+        return
+    from rapidgen.view.server import serve_page
+    from rapidgen.view.simulator.simulation import Simulation
+
+    page = serve_page(Simulation(cabinet), host, port)
+    cabinet.on_boot.append(page.renew)
+    try:
+        yield {"view": page.url}
+    finally:
+        page.close()
+
+
+@contextmanager
+def _recording(cabinet: "Cabinet", path: Path | None, watches: "Iterable[str]") -> "Iterator[None]":
+    """A recording while it runs, another one after each restart. Raises OSError."""
+    pairs = [(task, text) for task, _, text in (watch.partition(":") for watch in watches)]
+    for task, text in pairs:
+        if not text or task not in cabinet.controller.rapid_tasks:
+            known = ", ".join(cabinet.controller.rapid_tasks)
+            raise typer.BadParameter(f"--watch takes TASK:EXPRESSION; tasks are {known}")
+    if path is None:
+        if pairs:
+            raise typer.BadParameter("--watch is for --record")
+        yield
+        return
+    from rapidgen.view.recording.writer import record
+
+    serial = 1
+    end = record(cabinet.controller, path, pairs)
+
+    def again() -> None:
+        nonlocal end, serial
+        serial += 1
+        end = record(cabinet.controller, path.with_stem(f"{path.stem}-{serial}"), pairs)
+
+    def stop() -> None:
+        end()
+
+    cabinet.on_restart.append(stop)
+    cabinet.on_boot.append(again)
+    try:
+        yield
+    finally:
+        end()
 
 
 def _start_cold(controller: "VirtualController") -> None:

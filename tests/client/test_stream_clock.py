@@ -517,6 +517,7 @@ def test_a_trajectory_is_checked_once(monkeypatch, points, way):
             robot.stream().append([0, 1], [[0.0] * 6] * 2)
         else:
             robot.execute(Trajectory.from_points([[0.0] * 6] * points, seconds=0.1), way=way)
+        robot.stop()
     assert len(checks) == 1
 
 
