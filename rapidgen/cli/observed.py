@@ -9,6 +9,8 @@ from rapidgen._writing import check_writable, write_whole
 from rapidgen.diagnostics import refusal
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from rapidgen.controller.controller import VirtualController
     from rapidgen.controller.tracing import Coverage, Profile
     from rapidgen.motion.recorder import Recorder
@@ -42,16 +44,7 @@ class Outputs:
             files += files_of(self.plot)
         if self.profile not in ("", "-"):
             files.append(Path(self.profile))
-        for path in files:
-            try:
-                check_writable(path)
-            except OSError as fault:
-                raise refusal(
-                    "RG901",
-                    None,
-                    f"cannot write {path}: {fault.strerror}",
-                    "name a file in a folder that exists and may be written",
-                ) from fault
+        refuse_unwritable(files)
 
 
 @dataclass
@@ -100,6 +93,20 @@ class Observed:
             made = draw(recorder.recording(period), title=title)
             for path in files_of(plot.with_stem(f"{plot.stem}_{group}") if several else plot):
                 made.save(path)
+
+
+def refuse_unwritable(files: "Sequence[Path]") -> None:
+    """Refuse a file that could not be written later. Raises DiagnosticError RG901."""
+    for path in files:
+        try:
+            check_writable(path)
+        except OSError as fault:
+            raise refusal(
+                "RG901",
+                None,
+                f"cannot write {path}: {fault.strerror}",
+                "name a file in a folder that exists and may be written",
+            ) from fault
 
 
 def _page(controller: "VirtualController", coverage: "Coverage") -> str:

@@ -8,6 +8,10 @@ import typer
 from rapidgen.diagnostics import DiagnosticError, Span, error
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from rapidgen.client import Robot, Trajectory
+    from rapidgen.client.recording import JointRecording
     from rapidgen.motion.recorder import Recording
 
 
@@ -47,20 +51,21 @@ def plot(
     from rapidgen.view import plot as draw
     from rapidgen.view.plotting import files_of
 
-    group = None
+    group, metres = None, linear or ()
     if robot:
         config = load_config(robot)
         group = Group.of(config, config.groups[0])
-    options = {"group": group, "linear": linear or ()}
     if executed is None and _is_recording(commanded):
-        made = draw(_recording(commanded), title=commanded.name, **options)
+        made = draw(_recording(commanded), title=commanded.name, group=group, linear=metres)
     elif executed is None:
         trajectory = Trajectory.from_csv(commanded)
-        made = draw(trajectory, labels=[commanded.stem], title=commanded.name, **options)
+        title = commanded.name
+        made = draw(trajectory, labels=[commanded.stem], title=title, group=group, linear=metres)
     else:
         both = Trajectory.from_csv(commanded), Trajectory.from_csv(executed)
         title = f"{commanded.name} against {executed.name}"
-        made = draw(*both, labels=["commanded", "executed"], title=title, **options)
+        labels = "commanded", "executed"
+        made = draw(*both, labels=labels, title=title, group=group, linear=metres)
     for path in files_of(out if out is not None else commanded.with_suffix("")):
         typer.echo(made.save(path))
     return 0
@@ -70,6 +75,21 @@ def _is_recording(path: Path) -> bool:
     from rapidgen.motion.recorder import is_recording
 
     return path.is_file() and is_recording(path)
+
+
+def draw_motion(
+    files: "Sequence[Path]",
+    robot: "Robot",
+    commanded: "Trajectory",
+    executed: "JointRecording | None",
+) -> None:
+    """Write a trajectory and what became of it."""
+    from rapidgen.view import plot as draw
+
+    both = (commanded, executed) if executed is not None and len(executed) else (commanded,)
+    made = draw(*both, group=robot.group, title=f"joints at {robot.address}")
+    for path in files:
+        typer.echo(f"drew {made.save(path)}", err=True)
 
 
 def _recording(path: Path) -> "Recording":

@@ -30,7 +30,7 @@ from rapidgen.client.errors import (
 )
 from rapidgen.client.program import Program, Speed, Trigger, Zone, pulse
 from rapidgen.client.threads import Execution, ProgramRun, Robot, Stream
-from rapidgen.client.trajectory import Trajectory, TrajectoryPoint
+from rapidgen.client.trajectory import Trajectory, Waypoint
 from rapidgen.wire.simple_message.spec import EventType, Reason, TrajectoryState
 
 if TYPE_CHECKING:
@@ -82,10 +82,10 @@ __all__ = [
     "Stream",
     "Timeouts",
     "Trajectory",
-    "TrajectoryPoint",
     "TrajectoryRefused",
     "TrajectoryState",
     "Trigger",
+    "Waypoint",
     "Zone",
     "pulse",
 ]

@@ -23,7 +23,7 @@ _SHOWN = 4
 """Points that a notebook shows from either end."""
 
 
-class TrajectoryPoint(NamedTuple):
+class Waypoint(NamedTuple):
     """One point: `time` s, and `joints` in rad or m, in the trajectory's order."""
 
     time: float
@@ -85,12 +85,12 @@ class Trajectory:
         return len(self.times)
 
     @overload
-    def __getitem__(self, which: int) -> TrajectoryPoint: ...
+    def __getitem__(self, which: int) -> Waypoint: ...
     @overload
     def __getitem__(self, which: slice) -> "Trajectory": ...
     @overload
     def __getitem__(self, which: str) -> Array: ...
-    def __getitem__(self, which: int | slice | str) -> "TrajectoryPoint | Trajectory | Array":
+    def __getitem__(self, which: int | slice | str) -> "Waypoint | Trajectory | Array":
         """A point, some points, or a joint's values. Raises IndexError, KeyError."""
         if isinstance(which, str):
             if which not in self.names:
@@ -100,10 +100,10 @@ class Trajectory:
         if isinstance(which, slice):
             times, positions = self.times[which], self.positions[which]
             return replace(self, times=times, positions=positions, lines=self.lines[which])
-        return TrajectoryPoint(float(self.times[which]), tuple(self.positions[which].tolist()))
+        return Waypoint(float(self.times[which]), tuple(self.positions[which].tolist()))
 
-    def __iter__(self) -> Iterator[TrajectoryPoint]:
-        return map(TrajectoryPoint, self.times.tolist(), map(tuple, self.positions.tolist()))
+    def __iter__(self) -> Iterator[Waypoint]:
+        return map(Waypoint, self.times.tolist(), map(tuple, self.positions.tolist()))
 
     def __repr__(self) -> str:
         return f"<Trajectory {self}>"

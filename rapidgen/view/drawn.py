@@ -2,7 +2,6 @@
 
 import io
 from collections.abc import Sequence
-from typing import Literal
 
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
@@ -12,8 +11,8 @@ from rapidgen.view.curves import Chart
 _LIMIT = "0.6"
 
 
-def picture(title: str, charts: Sequence[Chart], kind: Literal["png", "svg"]) -> bytes:
-    """PNG or SVG, two charts a row; no window and no global state of pyplot is touched."""
+def picture(title: str, charts: Sequence[Chart], kind: str) -> bytes:
+    """PNG or SVG (`kind` png, svg), two charts a row; no global state of pyplot is touched."""
     columns = 1 if len(charts) <= 1 else 2
     rows = max(1, -(-len(charts) // columns))
     figure = Figure(figsize=(5.6 * columns, 2.2 * rows + 0.8), layout="constrained")
@@ -24,10 +23,10 @@ def picture(title: str, charts: Sequence[Chart], kind: Literal["png", "svg"]) ->
         axes.set_title(_plain(chart.heading), fontsize=10, loc="left")
         for number, curve in enumerate(chart.curves):
             # The first is wider, so that those over it do not hide it.
-            look = {"linewidth": 2.6 if number == 0 and len(chart.curves) > 1 else 1.2}
+            (line,) = axes.plot(curve.times, curve.values, label=_plain(curve.label))
+            line.set_linewidth(2.6 if number == 0 and len(chart.curves) > 1 else 1.2)
             if curve.is_limit:
-                look = {"linestyle": "--", "color": _LIMIT}
-            axes.plot(curve.times, curve.values, label=_plain(curve.label), **look)
+                line.set(linestyle="--", color=_LIMIT)
         axes.grid(alpha=0.3)
         axes.tick_params(labelsize=8)
         axes.set_xlabel("s", fontsize=8)

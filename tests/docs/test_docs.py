@@ -45,9 +45,15 @@ def files(path):
 
 
 @pytest.fixture
-def environment():
+def environment(tmp_path):
     binaries = str(Path(sys.executable).parent)
-    return {**os.environ, "PATH": binaries + os.pathsep + os.environ["PATH"], "NO_COLOR": "1"}
+    return {
+        **os.environ,
+        "PATH": binaries + os.pathsep + os.environ["PATH"],
+        "NO_COLOR": "1",
+        # Simulators of this page alone are found by `--to sim`.
+        "XDG_RUNTIME_DIR": str(tmp_path),
+    }
 
 
 @pytest.mark.parametrize("path", [p for p in PAGES if blocks(p, "console")], ids=lambda p: p.name)
