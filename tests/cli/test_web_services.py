@@ -81,7 +81,7 @@ def test_a_backup_comes_here_and_boots(host, capsys, tmp_path):
     [
         (["status", "ftp://h"], "RG657", 2),
         (["status", "rws://u:p@h"], "RG657", 2),
-        (["status", "rws://127.0.0.1:1"], "RG651", 1),
+        (["status", "rws://127.0.0.1:1"], "RG512", 2),
     ],
 )
 def test_wrong_words_are_explained(words, code, exit_code, capsys, monkeypatch):

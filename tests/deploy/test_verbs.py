@@ -1,5 +1,6 @@
 """plan, deploy, rollback, uninstall and doctor as commands."""
 
+import io
 import json
 import re
 import signal
@@ -299,6 +300,33 @@ def test_secrets_come_from_a_tight_file_or_the_environment_and_are_not_shown(tmp
     assert Credentials("Default User", Secret("robotics")).is_default
     file.write_text('password = "s3cret\n')
     assert "s3cret" not in render(refusal(find_password, *asked, **given).diagnostics)
+
+
+def test_no_password_is_tried_where_nobody_can_be_asked(run, home, built, monkeypatch):
+    monkeypatch.delenv("RAPIDGEN_PASSWORD", raising=False)
+    monkeypatch.setattr("sys.stdin", io.StringIO())
+    server = serve_ftp(home)
+    try:
+        url = f"ftp://{server.user}@127.0.0.1:{server.port}/"
+        code, _, err = run("plan", built(OLD), "--to", url)
+        assert (code, "error[RG512]: 127.0.0.1 wants a password" in err) == (2, True)
+        monkeypatch.setenv("RAPIDGEN_PASSWORD", "")
+        assert "RG502" in run("plan", built(OLD), "--to", url)[2]
+    finally:
+        server.close()
+
+
+def test_no_letter_of_a_password_is_shown(run, home, built, monkeypatch):
+    monkeypatch.setenv("RAPIDGEN_PASSWORD", "пароль")
+    server = serve_ftp(home)
+    try:
+        url = f"ftp://{server.user}@127.0.0.1:{server.port}/"
+        code, out, err = run("plan", built(OLD), "--to", url)
+    finally:
+        server.close()
+    assert (code, "error[RG502]" in err) == (1, True)
+    assert not set("пароль") & set(out + err)
+    assert "043f" not in out + err
 
 
 def test_a_login_without_password_and_key_says_so(run, home, built, tmp_path, monkeypatch):
