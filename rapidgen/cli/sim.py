@@ -67,6 +67,24 @@ def sim(
         bool,
         typer.Option("--rws-lenient", help="Let through what real web services refuse."),
     ] = False,
+    rws_deny: Annotated[
+        list[str] | None,
+        typer.Option(help="UAS name of a grant that `Default User` lacks.", metavar="GRANT"),
+    ] = None,
+    view: Annotated[
+        bool, typer.Option("--view", help="Serve a page that shows the robot: `view` in `ready`.")
+    ] = False,
+    view_port: Annotated[
+        int, typer.Option(help="Port of that page; 0: any free port.", min=0, max=65_535)
+    ] = 0,
+    record: Annotated[
+        Path | None,
+        typer.Option(help="Record everything: FILE.mcap, after a restart FILE-2.mcap ..."),
+    ] = None,
+    watch: Annotated[
+        list[str] | None,
+        typer.Option(help="Record an expression, too; may be repeated.", metavar="TASK:EXPRESSION"),
+    ] = None,
     answers: Annotated[
         Path | None, typer.Option(help="The operator's answers: `rapidgen explain RG420`.")
     ] = None,
@@ -104,6 +122,7 @@ def sim(
     script = read_answers(answers) if answers is not None else None
     _check_host(host)
     _check_release(found, rws)
+    denied = _denied(rws_deny or ())
     if ports is None and found.driver:
         _check_ports(found, host, port_offset)
     with Cabinet.boot(
@@ -121,9 +140,11 @@ def sim(
             _start_cold(cabinet.controller)
         with (
             _control(cabinet) as control,
-            _faces(cabinet, host, ftp, sftp, (rws, rws_port, not rws_lenient)) as faces,
+            _faces(cabinet, host, ftp, sftp, (rws, rws_port, not rws_lenient, denied)) as faces,
+            _page(cabinet, host, view_port if view else None) as page,
+            _recording(cabinet, record, watch or ()),
         ):
-            return _serve(cabinet, found, host, speed, {"control": control, **faces})
+            return _serve(cabinet, found, host, speed, {"control": control, **faces, **page})
 
 
 def _serve(
@@ -231,7 +252,7 @@ def _faces(
     host: str,
     ftp: int | None,
     sftp: int | None,
-    rws: tuple[str | None, int, bool],
+    rws: tuple[str | None, int, bool, frozenset[str]],
 ) -> "Iterator[Members]":
     """HOME over FTP and SFTP, Robot Web Services; what `ready` tells of each.
 
@@ -258,14 +279,15 @@ def _faces(
             if service.host_key:
                 login["host_key"] = service.host_key
             told[name] = login
-        generation, port, strict = rws
+        generation, port, strict, denied = rws
         if generation is not None:
             from rapidgen.faces.rws.office import Accounts
-            from rapidgen.faces.rws.server import serve_rws
+            from rapidgen.faces.rws.server import KNOWN, serve_rws
             from rapidgen.wire.rws.bodies import Generation
 
-            own = os.environ.get("RAPIDGEN_PASSWORD")
-            accounts = Accounts({"Default User": own}) if own else None
+            own = os.environ.get("RAPIDGEN_PASSWORD") or KNOWN
+            users = {"Default User": own, "Admin": own}
+            accounts = Accounts(users, denied)
             which = Generation(int(generation))
             service = serve_rws(cabinet, which, host, port, accounts, strict=strict)
             stack.callback(service.close)
@@ -274,6 +296,60 @@ def _faces(
             if service.host_key:
                 told["fingerprint"] = service.host_key
         yield told
+
+
+@contextmanager
+def _page(cabinet: "Cabinet", host: str, port: int | None) -> "Iterator[Members]":
+    """The page that shows the robot; what `ready` tells of it.
+
+    Raises DiagnosticError RG920, RG921.
+    """
+    if port is None:
+        yield {}
+        return
+    from rapidgen.view.server import serve_page
+    from rapidgen.view.simulator.simulation import Simulation
+
+    page = serve_page(Simulation(cabinet), host, port)
+    cabinet.on_boot.append(page.renew)
+    try:
+        yield {"view": page.url}
+    finally:
+        page.close()
+
+
+@contextmanager
+def _recording(cabinet: "Cabinet", path: Path | None, watches: "Iterable[str]") -> "Iterator[None]":
+    """A recording while it runs, another one after each restart. Raises OSError."""
+    pairs = [(task, text) for task, _, text in (watch.partition(":") for watch in watches)]
+    for task, text in pairs:
+        if not text or task not in cabinet.controller.rapid_tasks:
+            known = ", ".join(cabinet.controller.rapid_tasks)
+            raise typer.BadParameter(f"--watch takes TASK:EXPRESSION; tasks are {known}")
+    if path is None:
+        if pairs:
+            raise typer.BadParameter("--watch is for --record")
+        yield
+        return
+    from rapidgen.view.recording.writer import record
+
+    serial = 1
+    end = record(cabinet.controller, path, pairs)
+
+    def again() -> None:
+        nonlocal end, serial
+        serial += 1
+        end = record(cabinet.controller, path.with_stem(f"{path.stem}-{serial}"), pairs)
+
+    def stop() -> None:
+        end()
+
+    cabinet.on_restart.append(stop)
+    cabinet.on_boot.append(again)
+    try:
+        yield
+    finally:
+        end()
 
 
 def _start_cold(controller: "VirtualController") -> None:
@@ -333,6 +409,15 @@ def _check_release(target: "Bootable", rws: str | None) -> None:
         raise typer.BadParameter(
             f"{target.name} is for RobotWare {major}.{minor}, which serves --rws {wanted}"
         )
+
+
+def _denied(grants: "Iterable[str]") -> frozenset[str]:
+    from rapidgen.wire.rws.grants import GRANTS
+
+    unknown = sorted(set(grants) - set(GRANTS))
+    if unknown:
+        raise typer.BadParameter(f"--rws-deny knows no grant {unknown[0]}: {', '.join(GRANTS)}")
+    return frozenset(grants)
 
 
 def _check_ports(target: "Bootable", host: str, offset: int) -> None:

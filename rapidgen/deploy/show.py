@@ -58,6 +58,9 @@ def plan_text(plan: Plan) -> str:
         out += _cfg_lines(plan, domain)
     if plan.is_pending:
         out.append("  * everything is loaded, and counts after a restart: restart pending")
+    elif plan.live is not None and plan.live.orphans:
+        names = ", ".join(plan.live.orphans)
+        out.append(f"  * cfg no longer has {names}, there until a restart: restart pending")
     for step in plan.steps:
         stop = " (stops motion)" if step.stops_motion else ""
         if step.who == BY_SERVICES:

@@ -33,7 +33,7 @@ def test_a_guessed_cell_is_told(capsys, program):
     code, out, err = run(capsys, program, "--cell", "guess")
     assert (code, out) == (0, ["done"])
     assert "diGripped  signaldi   work.mod:4" in err
-    assert "what the program waited for: diGripped = 1, giPart = 4" in err
+    assert "because the program waited for it: diGripped = 1, giPart = 4" in err
 
 
 def test_where_the_robot_starts(capsys, tmp_path):
