@@ -64,7 +64,8 @@ _MACHINE = {
     errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EROFS, errno.EMFILE, errno.ENFILE
 }  # fmt: skip
 _BAD_PATH = {
-    errno.ENOENT, errno.ENOTDIR, errno.EISDIR, errno.ENAMETOOLONG, errno.ELOOP, errno.EACCES
+    errno.ENOENT, errno.ENOTDIR, errno.EISDIR, errno.ENAMETOOLONG, errno.ELOOP, errno.EACCES,
+    errno.EEXIST
 }  # fmt: skip
 
 # Options that may stand without a value.
@@ -232,7 +233,9 @@ def _show(found: tuple[Diagnostic, ...], as_json: bool) -> None:
 def _usage(fault: TyperException) -> Diagnostic:
     context = getattr(fault, "ctx", None)
     path = context.command_path if context is not None else "rapidgen"
-    message = (fault.format_message() or "nothing to do").rstrip(".")
+    # pydantic's words where a type is checked; they are no user's.
+    message = (fault.format_message() or "nothing to do").rstrip(".").replace("Value error, ", "")
+    message = message.replace("Input should be", "it must be").replace("invalid value: ", "")
     return error(
         "RG901",
         None,

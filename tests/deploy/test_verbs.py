@@ -180,7 +180,7 @@ def test_nobody_there_to_answer(run, built, home, monkeypatch):
 
     monkeypatch.setattr("sys.stdin", NoTerminal())
     code, _, err = run("deploy", built(OLD), "--to", f"dir://{home}")
-    assert (code, "RG533" in err) == (1, True)
+    assert (code, "RG533" in err) == (2, True)
     assert list(home.iterdir()) == []
 
 
