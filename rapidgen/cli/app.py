@@ -5,6 +5,7 @@ Exit codes: 0 done or clean, 1 findings, failed or refused, 2 bad input or usage
 
 import errno
 import gc
+import json
 import os
 import signal
 import sys
@@ -18,7 +19,7 @@ from typer.exceptions import TyperException
 from rapidgen import __version__
 from rapidgen.cli.loudness import set_up
 from rapidgen.cli.terminal import use_colour
-from rapidgen.diagnostics import Diagnostic, DiagnosticError, Format, error, render
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, as_data, error, render
 
 # Each verb is a file of its own, imported when it is asked for; its help begins with the
 # sentence that stands here (a test compares).
@@ -225,7 +226,7 @@ def asks_json(words: Sequence[str]) -> bool:
 
 def _show(found: tuple[Diagnostic, ...], as_json: bool) -> None:
     if as_json:
-        sys.stdout.write(f'{{"errors": {render(found, Format.JSON).rstrip()}}}\n')
+        sys.stdout.write(json.dumps({"errors": as_data(found)}, ensure_ascii=False) + "\n")
     else:
         sys.stderr.write(render(found, colour=use_colour()))
 

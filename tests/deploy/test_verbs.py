@@ -14,7 +14,7 @@ from rapidgen.cli.doctor import doctor
 from rapidgen.cli.plan import plan
 from rapidgen.cli.rollback import rollback
 from rapidgen.cli.uninstall import uninstall
-from rapidgen.deploy import parse_target
+from rapidgen.deploy import TransportFault, parse_target
 from rapidgen.deploy.driverset import NEW as STAGED
 from rapidgen.deploy.fleet import GivingUp
 from rapidgen.deploy.secrets import Credentials, Secret, find_password, redact
@@ -140,6 +140,28 @@ def test_a_plan_is_json_where_that_was_asked_for(run, home):
     told = json.loads(run("plan", "irb120", "--to", f"dir://{home}", "--json")[1])
     assert [plan["target"] for plan in told] == [f"dir://{home}"]
     assert {file["action"] for file in told[0]["files"]} == {"add"}
+
+
+def test_what_became_of_controllers_is_json_where_that_was_asked_for(run, built, home, monkeypatch):
+    url = f"dir://{home}"
+    words = ("deploy", built(OLD), "--to", url, "--yes", "--json")
+    for result in ("done", "same"):
+        code, out, _ = run(*words)
+        told = json.loads(out)
+        assert (code, told["errors"]) == (0, [])
+        assert [(c["target"], c["result"]) for c in told["controllers"]] == [(url, result)]
+    rows = json.loads(run("rollback", built(OLD), "--to", url, "--list", "--json")[1])
+    assert rows == []
+
+    def full(self, path, data):
+        raise TransportFault("full", "no room")
+
+    monkeypatch.setattr(FolderTransport, "write", full)
+    code, out, _ = run("deploy", built(NEW), "--to", url, "--yes", "--json")
+    told = json.loads(out)
+    assert (code, told["controllers"][0]["result"]) == (1, "failed")
+    assert [found["code"] for found in told["errors"]] == ["RG507"]
+    assert told["controllers"][0]["errors"] == told["errors"]
 
 
 def test_ctrl_c_ends_before_files_are_switched_and_tells_what_stands(
