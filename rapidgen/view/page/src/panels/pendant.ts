@@ -1,0 +1,87 @@
+// What a pendant has: key, motors, stop and start, speed, the operator window with its dialogs.
+
+import { Choice, h, say, section } from "../dom";
+import type { Act, Dialog, PanelState } from "../messages";
+import type { MakePanel } from "../panel";
+
+const PACES = [0.1, 0.25, 0.5, 1, 2, 5, 10, 50, 100];
+
+export const pendantPanel: MakePanel = ({ link, order }) => {
+  let status: PanelState | null = null;
+  const act = (action: Act["action"]) => () => order({ do: "act", action });
+  const button = (text: string, action: Act["action"], kind = ""): HTMLButtonElement =>
+    h("button", { type: "button", class: kind, onclick: act(action) }, text);
+
+  const stop = h("button", {
+    type: "button", class: "emergency",
+    onclick: () => order({ do: "act", action: status?.e_stop ? "reset-e-stop" : "e-stop" }),
+  }, "Emergency stop");
+  const mode = new Choice<NonNullable<PanelState["mode"]>>("Mode",
+    [["auto", "Auto"], ["manual_reduced", "Manual"], ["manual_full", "Full speed"]],
+    (value) => order({ do: "mode", mode: value }));
+  const motors = new Choice<"motors-on" | "motors-off">("Motors",
+    [["motors-on", "On"], ["motors-off", "Off"]], (action) => order({ do: "act", action }));
+
+  const speed = h("input", { type: "range", min: 0, max: 100, step: 1, id: "speed" });
+  const speedText = h("output", { for: "speed" });
+  speed.addEventListener("change", () => order({ do: "override", value: Number(speed.value) / 100 }));
+  speed.addEventListener("input", () => say(speedText, `${speed.value} %`));
+
+  const pause = h("button", { type: "button" }, "Pause");
+  const pace = h("select", { id: "pace" },
+    ...PACES.map((value) => h("option", { value, selected: value === 1 }, `${value} ×`)));
+  pause.addEventListener("click", () =>
+    order({ do: "pace", value: status?.pace ? 0 : Number(pace.value) }));
+  pace.addEventListener("change", () => order({ do: "pace", value: Number(pace.value) }));
+
+  const tasks = h("tbody", {});
+  const rows = h("pre", { class: "screen", "aria-label": "Operator window", tabindex: 0 });
+  const dialogs = h("div", { class: "dialogs", "aria-live": "polite" });
+
+  link.on("panel", (now) => {
+    status = now;
+    stop.classList.toggle("pressed", now.e_stop === true);
+    say(stop, now.e_stop ? "Reset emergency stop" : "Emergency stop");
+    mode.show(now.mode);
+    motors.show(now.motors_on === null ? null : now.motors_on ? "motors-on" : "motors-off");
+    if (document.activeElement !== speed) speed.value = String(Math.round(now.override * 100));
+    say(speedText, `${speed.value} %`);
+    say(pause, now.pace ? "Pause" : "Go on");
+    if (now.pace) pace.value = String(PACES.find((value) => value >= now.pace) ?? 100);
+    tasks.replaceChildren(...Object.entries(now.tasks).map(([name, word]) =>
+      h("tr", {}, h("th", { scope: "row" }, name), h("td", { "data-state": word }, word))));
+  });
+  link.on("screen", (screen) => say(rows, screen.rows.join("\n")));
+  link.on("dialogs", ({ waiting }) => {
+    dialogs.replaceChildren(...waiting.map((question) => dialog(question, (value) =>
+      order({ do: "answer", number: question.number, value }))));
+  });
+
+  const element = h("div", { class: "panel" },
+    dialogs,
+    h("div", { class: "commands" }, stop),
+    section("Mode", mode.element),
+    section("Motors", motors.element),
+    section("Program", h("div", { class: "row" },
+      button("Start", "start", "primary"), button("Stop", "stop"), button("PP to main", "pp-to-main"))),
+    section("Speed", h("label", { class: "row", for: "speed" }, speed, speedText)),
+    section("Time", h("div", { class: "row" }, pause, pace)),
+    section("Operator window", rows),
+    section("Tasks", h("table", {}, tasks)),
+  );
+  return { id: "pendant", title: "Pendant", element };
+};
+
+function dialog(question: Dialog, answer: (value: string) => void): HTMLElement {
+  const head = h("p", {}, h("b", {}, `${question.task} asks`), " ", question.text);
+  if (question.choices.length) {
+    return h("div", { class: "dialog" }, head, h("div", { class: "row" }, ...question.choices
+      .filter((choice) => choice !== "")
+      .map((choice) => h("button", { type: "button", class: "primary", onclick: () => answer(choice) }, choice))));
+  }
+  const typed = h("input", { type: "text", maxlength: 200, "aria-label": question.text || "Answer" });
+  return h("form", {
+    class: "dialog",
+    onsubmit: (event) => { event.preventDefault(); answer(typed.value); },
+  }, head, h("div", { class: "row" }, typed, h("button", { class: "primary" }, "Answer")));
+}

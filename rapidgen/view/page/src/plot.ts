@@ -1,0 +1,79 @@
+// Curves over time, by themselves in a page: synced, zoomed by dragging, each switched off by its name.
+//
+// The page has a <script type="application/json" id="plot-data"> with PlotData and an element #plots.
+
+import uPlot from "uplot";
+import "uplot/dist/uPlot.min.css";
+import "./plot.css";
+
+export interface Curve {
+  name: string;
+  /** One value for each time; null is a gap. */
+  values: (number | null)[];
+  /** A CSS colour; without it one of a row. */
+  color?: string;
+  dashed?: boolean;
+}
+
+export interface Chart {
+  title: string;
+  unit?: string;
+  curves: Curve[];
+}
+
+export interface PlotData {
+  /** s, rising; all charts share it. */
+  time: number[];
+  charts: Chart[];
+}
+
+const COLOURS = ["#2f6fd0", "#d9662b", "#3a9a50", "#a04bb8", "#c9a227", "#3aa6a6", "#d0402c", "#6b7680"];
+
+/** Draw charts below one another; their cursors and their zoom are one. */
+export function draw(data: PlotData, into: HTMLElement): uPlot[] {
+  const sync = uPlot.sync(`charts-${Math.random()}`);
+  const charts: uPlot[] = [];
+  let zooming = false;
+  const zoom = (from: uPlot): void => {
+    const { min, max } = from.scales["x"] ?? {};
+    if (zooming || min === undefined || max === undefined || min === null || max === null) return;
+    zooming = true;
+    for (const other of charts) if (other !== from) other.setScale("x", { min, max });
+    zooming = false;
+  };
+  const ink = getComputedStyle(into).color;
+  const lines = { grid: { stroke: faint(ink), width: 1 }, ticks: { stroke: faint(ink), width: 1 } };
+  for (const chart of data.charts) {
+    const options: uPlot.Options = {
+      title: chart.unit ? `${chart.title} (${chart.unit})` : chart.title,
+      width: Math.max(320, into.clientWidth), height: 240,
+      cursor: { sync: { key: sync.key }, drag: { x: true, y: false } },
+      scales: { x: { time: false } },
+      axes: [
+        { stroke: ink, label: "s", ...lines },
+        { stroke: ink, size: 64, ...lines },
+      ],
+      series: [{ label: "time", value: (_, value) => (value === null ? "" : `${value.toFixed(3)} s`) },
+        ...chart.curves.map((curve, i) => ({
+          label: curve.name, stroke: curve.color ?? COLOURS[i % COLOURS.length] ?? ink, width: 1.5,
+          ...(curve.dashed ? { dash: [6, 4] } : {}),
+        }))],
+      hooks: { setScale: [(own, key) => { if (key === "x") zoom(own); }] },
+    };
+    charts.push(new uPlot(options, [data.time, ...chart.curves.map((curve) => curve.values)], into));
+  }
+  new ResizeObserver(() => {
+    for (const chart of charts) chart.setSize({ width: Math.max(320, into.clientWidth), height: 240 });
+  }).observe(into);
+  return charts;
+}
+
+function faint(ink: string): string {
+  return ink.replace(/^rgba?\(([^)/]*?)(?:,[^,]*)?\)$/, (_, parts: string) =>
+    `rgba(${parts.split(",").slice(0, 3).join(",")}, 0.15)`);
+}
+
+const given = document.getElementById("plot-data");
+const into = document.getElementById("plots");
+if (given && into) draw(JSON.parse(given.textContent ?? "") as PlotData, into);
+Object.assign(window, { rapidgenPlot: { draw } });

@@ -1,0 +1,125 @@
+// The space with the robots. It is drawn when something has changed, never else.
+
+import * as THREE from "three";
+import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import type { Scene, Positions } from "../messages";
+import { palette } from "./palette";
+import { axes, Robot } from "./robot";
+
+export type ViewName = "fit" | "front" | "side" | "top";
+const FROM: Record<ViewName, [number, number, number]> = {
+  fit: [1.15, -1.35, 0.85], front: [1, 0, 0.001], side: [0, -1, 0.001], top: [0, -0.001, 1],
+};
+
+export class Stage {
+  readonly element: HTMLElement;
+  readonly robots = new Map<string, Robot>();
+  /** Pictures drawn so far, and the time of the state that the last one shows. */
+  drawn = { pictures: 0, time: 0 };
+  private readonly renderer: THREE.WebGLRenderer;
+  private readonly space = new THREE.Scene();
+  private readonly camera = new THREE.PerspectiveCamera(38, 1, 0.01, 200);
+  private readonly controls: OrbitControls;
+  private readonly palette = palette();
+  private readonly floor = new THREE.Group();
+  private due = false;
+  private time = 0;
+
+  /** Throws where there is no WebGL. */
+  constructor() {
+    this.renderer = new THREE.WebGLRenderer({ antialias: true, powerPreference: "low-power" });
+    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.element = this.renderer.domElement;
+    this.element.setAttribute("aria-label", "The robots in space");
+    this.element.tabIndex = 0;
+    this.camera.up.set(0, 0, 1);
+    this.controls = new OrbitControls(this.camera, this.element);
+    this.controls.listenToKeyEvents(this.element);
+    this.controls.addEventListener("change", () => this.draw());
+    const sun = new THREE.DirectionalLight("#ffffff", 1.9);
+    sun.position.set(2, -3, 4);
+    this.space.add(new THREE.HemisphereLight("#ffffff", "#8a9096", 1.6), sun, this.floor);
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.paint());
+    this.paint();
+  }
+
+  /** Follow the theme. */
+  paint(): void {
+    this.palette.renew();
+    this.space.background = new THREE.Color(this.palette.ground);
+    this.floor.clear();
+    const grid = new THREE.GridHelper(6, 24, this.palette.grid, this.palette.grid);
+    grid.rotation.x = Math.PI / 2;
+    this.floor.add(grid, axes(0.18, this.palette));
+    for (const robot of this.robots.values()) robot.paint();
+    this.draw();
+  }
+
+  /** The room that the picture has, in CSS pixels. */
+  resize(width: number, height: number): void {
+    if (width < 1 || height < 1) return;
+    this.renderer.setSize(width, height, false);
+    this.camera.aspect = width / height;
+    this.camera.updateProjectionMatrix();
+    this.draw();
+  }
+
+  /** Other robots. */
+  build(scene: Scene): void {
+    for (const robot of this.robots.values()) robot.dispose();
+    this.robots.clear();
+    for (const group of scene.groups) {
+      const robot = new Robot(group, this.palette, () => this.draw());
+      this.robots.set(group.name, robot);
+      this.space.add(robot.root);
+    }
+    this.look("fit");
+  }
+
+  show(state: Positions): void {
+    this.time = state.time;
+    [...this.robots.values()].forEach((robot, i) => {
+      const own = state.groups[i];
+      if (own) robot.show(own);
+    });
+    this.draw();
+  }
+
+  /** Look at everything from one of the named sides. */
+  look(name: ViewName): void {
+    const box = new THREE.Box3();
+    for (const robot of this.robots.values()) box.expandByObject(robot.root);
+    if (box.isEmpty()) box.set(new THREE.Vector3(-0.5, -0.5, 0), new THREE.Vector3(0.5, 0.5, 1));
+    const ball = box.getBoundingSphere(new THREE.Sphere());
+    const narrow = Math.min(1, this.camera.aspect);
+    const away = (ball.radius * 1.15) / Math.sin((this.camera.fov * Math.PI) / 360) / narrow;
+    this.camera.position.set(...FROM[name]).setLength(away).add(ball.center);
+    this.controls.target.copy(ball.center);
+    this.controls.update();
+    this.draw();
+  }
+
+  clearTrails(): void {
+    for (const robot of this.robots.values()) robot.trail.clear();
+    this.draw();
+  }
+
+  /** Draw before the next picture of the screen. */
+  draw(): void {
+    if (this.due) return;
+    this.due = true;
+    requestAnimationFrame(() => {
+      this.due = false;
+      this.renderer.render(this.space, this.camera);
+      this.drawn = { pictures: this.drawn.pictures + 1, time: this.time };
+    });
+  }
+
+  /** Where a point of the world is on the picture, in CSS pixels. */
+  pixel(point: readonly number[]): [number, number] {
+    this.camera.updateMatrixWorld();
+    const seen = new THREE.Vector3(...point).project(this.camera);
+    const { clientWidth, clientHeight } = this.element;
+    return [((seen.x + 1) / 2) * clientWidth, ((1 - seen.y) / 2) * clientHeight];
+  }
+}

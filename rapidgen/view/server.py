@@ -1,0 +1,244 @@
+"""The page on a port: aiohttp moves bytes in a thread of its own; what they mean is the hub's.
+
+Files are those that were there when it began, by name: no path of a request reaches the disk.
+"""
+
+import asyncio
+import threading
+from collections.abc import Awaitable, Callable
+from contextlib import suppress
+from dataclasses import dataclass, field
+from functools import partial
+from pathlib import Path
+from typing import Final
+
+from aiohttp import WSMsgType, web
+
+from rapidgen.diagnostics import refusal
+from rapidgen.view.aspect import Subject
+from rapidgen.view.doorkeeper import HEADERS, Doorkeeper
+from rapidgen.view.hub import Hub, Parcel
+
+ASSETS = Path(__file__).resolve().parent / "assets"
+_TYPES: Final = {
+    ".html": "text/html",
+    ".js": "text/javascript",
+    ".css": "text/css",
+    ".svg": "image/svg+xml",
+}
+LOOKS: Final = 1 / 30
+"""s between two looks at what is watched."""
+_LARGEST: Final = 1_048_576
+_UNREAD: Final = 256
+"""Messages that may wait for a page that does not read; passing ones are dropped before."""
+_PASSING: Final = 4
+Answer = Callable[[web.Request], Awaitable[web.StreamResponse]]
+
+
+@dataclass(frozen=True, slots=True)
+class Page:
+    """A running server of the page."""
+
+    url: str
+    """With the token: whoever has it, may look."""
+    _stop: Callable[[], None] = field(repr=False)
+    renew: Callable[[], None] = field(repr=False)
+    """Something else is watched; to be called on its thread."""
+
+    def close(self) -> None:
+        """Close the port and every connection; a second call does nothing."""
+        self._stop()
+
+
+def serve_page(watched: Subject, host: str = "127.0.0.1", port: int = 0) -> Page:
+    """Serve the page of what is watched. DiagnosticError RG920 (it is not built), RG921 (port)."""
+    server = _Server(watched, _assets())
+    server.start(host, port)
+    shown = "127.0.0.1" if host == "0.0.0.0" else host
+    return Page(
+        f"http://{shown}:{server.port}/#token={server.door.token}", server.stop, server.hub.renew
+    )
+
+
+def _assets() -> dict[str, tuple[bytes, str]]:
+    found = {}
+    if ASSETS.is_dir():
+        for path in ASSETS.iterdir():
+            if path.suffix in _TYPES:
+                found[path.name] = (path.read_bytes(), _TYPES[path.suffix])
+    if "index.html" not in found:
+        raise refusal(
+            "RG920",
+            None,
+            "the page has not been built",
+            "in a checkout, `make page` builds it; a wheel has it",
+            exit_code=1,
+        )
+    return found
+
+
+@dataclass(eq=False)
+class _Viewer:
+    """What waits for one page."""
+
+    waiting: asyncio.Queue[Parcel | None]
+
+    def take(self, parcel: Parcel) -> None:
+        """One more; a page that does not keep up misses what is passing."""
+        depth = self.waiting.qsize()
+        if depth > _UNREAD:
+            self.waiting.put_nowait(None)
+        elif not (parcel.passing and depth > _PASSING):
+            self.waiting.put_nowait(parcel)
+
+
+class _Server:
+    """One port, and the thread with its loop."""
+
+    def __init__(self, watched: Subject, assets: dict[str, tuple[bytes, str]]) -> None:
+        self.hub = Hub(watched)
+        self.door = Doorkeeper()
+        self.port = 0
+        self._watched = watched
+        self._assets = assets
+        self._loop = asyncio.new_event_loop()
+        self._sockets: set[web.WebSocketResponse] = set()
+        self._looked = True
+        app = web.Application(middlewares=[self._guarded], client_max_size=65_536)
+        app.router.add_get("/", self._asset)
+        app.router.add_get("/session", self._admitted)
+        app.router.add_post("/session", self._enter)
+        app.router.add_get("/link", self._link)
+        app.router.add_get("/{name}", self._asset)
+        self._runner = web.AppRunner(app, access_log=None, shutdown_timeout=0.05)
+        self._thread: threading.Thread | None = None
+
+    # -- the thread ------------------------------------------------------------------------------
+
+    def start(self, host: str, port: int) -> None:
+        """Open the port and begin to look."""
+        try:
+            self._loop.run_until_complete(self._open(host, port))
+        except OSError as error:
+            self._loop.run_until_complete(self._runner.cleanup())
+            self._loop.close()
+            raise refusal(
+                "RG921",
+                None,
+                f"cannot serve the page at {host}:{port}: {error.strerror or error}",
+                "name another port with `--view-port`, or 0 for any free one",
+                exit_code=1,
+            ) from error
+        self.hub.renew()
+        self._thread = threading.Thread(target=self._run, name=f"view:{self.port}", daemon=True)
+        self._thread.start()
+
+    async def _open(self, host: str, port: int) -> None:
+        await self._runner.setup()
+        site = web.TCPSite(self._runner, host, port)
+        await site.start()
+        self.port = self._runner.addresses[0][1]
+
+    def _run(self) -> None:
+        self._loop.call_soon(self._look)
+        self._loop.run_forever()
+
+    def stop(self) -> None:
+        """Close the port; a second call does nothing."""
+        thread, self._thread = self._thread, None
+        if thread is None:
+            return
+        asyncio.run_coroutine_threadsafe(self._close(), self._loop).result()
+        self._loop.call_soon_threadsafe(self._loop.stop)
+        thread.join()
+        self._loop.close()
+
+    async def _close(self) -> None:
+        for socket in tuple(self._sockets):
+            await socket.close()
+        await self._runner.cleanup()
+
+    def _soon(self, function: Callable[[], object]) -> None:
+        """Run a function on the loop; nobody is there to hear of it once that is closed."""
+        with suppress(RuntimeError):
+            self._loop.call_soon_threadsafe(function)
+
+    def _look(self) -> None:
+        """Ask for a look, unless nobody views or the last one has not been had."""
+        self._loop.call_later(LOOKS, self._look)
+        if not self._sockets or not self._looked:
+            return
+        self._looked = False
+
+        def now() -> None:
+            try:
+                self.hub.look()
+            finally:
+                self._looked = True
+
+        if not self._watched.post(now):
+            self._looked = True
+
+    # -- requests --------------------------------------------------------------------------------
+
+    @web.middleware
+    async def _guarded(self, request: web.Request, handler: Answer) -> web.StreamResponse:
+        if not self.door.addressed(request, self.port):
+            return web.Response(status=421, headers=HEADERS)
+        try:
+            response = await handler(request)
+        except web.HTTPException as refused:
+            return web.Response(status=refused.status, headers=HEADERS)
+        if not response.prepared:
+            response.headers.update(HEADERS)
+        return response
+
+    async def _asset(self, request: web.Request) -> web.Response:
+        found = self._assets.get(request.match_info.get("name", "index.html"))
+        if found is None:
+            return web.Response(status=404)
+        return web.Response(body=found[0], content_type=found[1], charset="utf-8")
+
+    async def _admitted(self, request: web.Request) -> web.Response:
+        return web.Response(status=204 if self.door.admitted(request, self.port) else 403)
+
+    async def _enter(self, request: web.Request) -> web.Response:
+        response = web.Response(status=204)
+        good = self.door.own(request) and self.door.enter(await request.text(), response, self.port)
+        return response if good else web.Response(status=403)
+
+    async def _link(self, request: web.Request) -> web.StreamResponse:
+        if not (self.door.own(request) and self.door.admitted(request, self.port)):
+            return web.Response(status=403)
+        socket = web.WebSocketResponse(max_msg_size=_LARGEST, heartbeat=20, compress=False)
+        await socket.prepare(request)
+        viewer = _Viewer(asyncio.Queue())
+        number = 0
+
+        def deliver(parcel: Parcel) -> None:
+            self._soon(lambda: viewer.take(parcel))
+
+        def join() -> None:
+            nonlocal number
+            number = self.hub.join(deliver)
+
+        self._sockets.add(socket)
+        self._watched.post(join)
+        sending = asyncio.ensure_future(_send(socket, viewer))
+        try:
+            async for message in socket:
+                if message.type is WSMsgType.TEXT:
+                    self._watched.post(partial(self.hub.ask, message.data, deliver))
+        finally:
+            self._sockets.discard(socket)
+            sending.cancel()
+            await asyncio.gather(sending, return_exceptions=True)
+            self._watched.post(lambda: self.hub.leave(number))
+        return socket
+
+
+async def _send(socket: web.WebSocketResponse, viewer: _Viewer) -> None:
+    """Send what comes until the page does not read any more."""
+    while (parcel := await viewer.waiting.get()) is not None:
+        await socket.send_str(parcel.data.decode())
+    await socket.close()

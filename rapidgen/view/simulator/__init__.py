@@ -1,0 +1,1 @@
+"""A virtual controller as it is viewed: one aspect a file."""

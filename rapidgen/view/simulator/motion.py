@@ -1,0 +1,115 @@
+"""The robots of a virtual controller: what they look like, and where they are."""
+
+from collections.abc import Iterable, Mapping
+
+from rapidgen.controller.cabinet import Cabinet
+from rapidgen.motion.group import MotionGroup
+from rapidgen.runtime.task.task import Task
+from rapidgen.view.aspect import Handler, NotDone
+from rapidgen.view.copying import jointtarget, python, robtarget
+from rapidgen.view.drawing import Drawing, described
+from rapidgen.view.messages import Copy, Jog, Positions, Request, RobotPlace, Scene, ToPage
+from rapidgen.view.robots import Carried, group_of, pose_of
+
+
+class MotionAspect:
+    """The scene, positions, and the robots put elsewhere by hand."""
+
+    def __init__(self, cabinet: Cabinet) -> None:
+        self._controller = cabinet.controller
+        self._scheduler = cabinet.controller.scheduler
+        self._groups = tuple(self._controller.motion.groups.values())
+        self._drawings = tuple(described(group.config) for group in self._groups)
+        self._told: tuple[RobotPlace, ...] = ()
+
+    def whole(self) -> Iterable[ToPage]:
+        """What is there and where it is."""
+        yield Scene(
+            title=self._controller.system.name,
+            kind="simulation",
+            may_command=True,
+            groups=tuple(
+                group_of(group.config, drawing)
+                for group, drawing in zip(self._groups, self._drawings, strict=True)
+            ),
+        )
+        yield self._state(self._now())
+
+    def changes(self) -> Iterable[ToPage]:
+        """Positions, where one has changed."""
+        now = self._now()
+        if now != self._told:
+            self._told = now
+            yield self._state(now)
+
+    def handlers(self) -> Mapping[type, Handler]:
+        """Jogging, and positions as text."""
+        return {Jog: self._jog, Copy: self._copy}
+
+    def _state(self, groups: tuple[RobotPlace, ...]) -> Positions:
+        return Positions(time=self._controller.now, groups=groups)
+
+    def _now(self) -> tuple[RobotPlace, ...]:
+        return tuple(map(self._of, self._groups, self._drawings))
+
+    def _of(self, group: MotionGroup, drawing: Drawing) -> RobotPlace:
+        actual = group.positions()
+        carried = self._carried(group)
+        tcp = carried.tcp(group.kinematics, actual)
+        return RobotPlace(
+            joints=drawing.values(group.map.to_urdf(actual)),
+            commanded=drawing.values(group.map.to_urdf(group.commanded())),
+            axes=actual,
+            tcp=None if tcp is None else pose_of(tcp),
+            tool=pose_of(carried.tool),
+            tool_held=carried.held,
+            work_object=pose_of(carried.object),
+            standing=group.is_standing,
+        )
+
+    def _carried(self, group: MotionGroup) -> Carried:
+        move = group.motion.move(self._scheduler.now)
+        if move is None:
+            return Carried.configured(group.config)
+        carrier = move.carrier.at(group.positions())
+        return Carried(carrier.tool, not carrier.stationary, carrier.object)
+
+    def _tasks(self) -> Iterable[Task]:
+        return self._controller.rapid_tasks.values()
+
+    def _jog(self, request: Request) -> str:
+        assert isinstance(request, Jog)
+        group = self._group(request.group)
+        joints = group.config.joints
+        if len(request.axes) != len(joints):
+            raise NotDone(f"{group.name} has {len(joints)} axes")
+        for joint, value in zip(joints, request.axes, strict=True):
+            if not joint.lower <= value <= joint.upper:
+                raise NotDone(f"{joint.name} would leave its range")
+        if any(t.state == "running" and t.spec.motion for t in self._tasks()):
+            raise NotDone("a program has the robot: stop it first")
+        try:
+            group.jog(request.axes)
+        except ValueError as error:
+            raise NotDone(str(error)) from error
+        return ""
+
+    def _copy(self, request: Request) -> str:
+        assert isinstance(request, Copy)
+        group = self._group(request.group)
+        posture = group.positions()
+        if request.form == "jointtarget":
+            return jointtarget(group.map, posture)
+        if request.form == "python":
+            return python(group.map, posture)
+        carried = self._carried(group)
+        tcp = carried.tcp(group.kinematics, posture)
+        if tcp is None or group.kinematics is None:
+            raise NotDone(f"the model of {group.name} has no geometry")
+        return robtarget(group.kinematics, posture, tcp, carried.object)
+
+    def _group(self, name: str) -> MotionGroup:
+        group = self._controller.motion.groups.get(name)
+        if group is None:
+            raise NotDone(f"there is no robot {name}")
+        return group

@@ -1,0 +1,27 @@
+"""A virtual controller that is viewed, over its restarts."""
+
+from collections.abc import Callable
+
+from rapidgen.controller.cabinet import Cabinet
+from rapidgen.view.aspect import Aspect
+from rapidgen.view.simulator.motion import MotionAspect
+from rapidgen.view.simulator.pendant import PendantAspect
+from rapidgen.view.simulator.telling import TellingAspect
+
+ASPECTS: tuple[Callable[[Cabinet], Aspect], ...] = (MotionAspect, PendantAspect, TellingAspect)
+"""What is told of a virtual controller; the scene comes first."""
+
+
+class Simulation:
+    """What the server watches: `serve_page(Simulation(cabinet))`."""
+
+    def __init__(self, cabinet: Cabinet) -> None:
+        self._cabinet = cabinet
+
+    def post(self, function: Callable[[], None]) -> bool:
+        """Run a function on the controller's thread; False while it restarts."""
+        return self._cabinet.post(function)
+
+    def aspects(self) -> tuple[Aspect, ...]:
+        """Topics of the controller that runs now."""
+        return tuple(make(self._cabinet) for make in ASPECTS)

@@ -1,0 +1,45 @@
+"""A simulator with its page in a process of its own, and waiting for what a page shows."""
+
+import json
+import os
+import subprocess
+import sys
+import time
+from contextlib import contextmanager
+
+PATIENCE = 60.0
+
+
+@contextmanager
+def simulator(*arguments, environment=None):
+    """`rapidgen sim ... --view` in a process of its own; what `ready` says, and the process."""
+    process = subprocess.Popen(
+        [sys.executable, "-m", "rapidgen.cli", "sim", *arguments, "--ports", "auto", "--view"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+        text=True,
+        env={**os.environ, **(environment or {})},
+    )
+    try:
+        line = process.stdout.readline()
+        assert line.startswith("ready "), line
+        yield json.loads(line.removeprefix("ready ")), process
+    finally:
+        process.terminate()
+        process.wait(PATIENCE)
+        process.stdout.close()
+
+
+def until(page, expression, wanted=lambda value: value):
+    """The value of an expression of the page, once it is as wanted.
+
+    Asked for again and again: what waits within a page needs `eval`, which its CSP forbids.
+    """
+    end = time.monotonic() + PATIENCE
+    while not wanted(value := page.evaluate(expression)):
+        assert time.monotonic() < end, (expression, value)
+        page.wait_for_timeout(20)
+    return value
+
+
+STATE = "window.rapidgen && rapidgen.state()"
