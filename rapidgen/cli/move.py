@@ -188,8 +188,10 @@ def _within_limits(robot: "Robot", goal: "Sequence[float]", units: Units) -> Non
     wire = group.map.to_controller(goal)
     for joint, value in zip(group.joints, wire, strict=True):
         if not joint.lower <= value <= joint.upper:
-            unit, *of = units.joint(joint.kind)
-            asked, lower, upper = (figure(v, *of) for v in (value, joint.lower, joint.upper))
+            unit, factor, digits = units.joint(joint.kind)
+            asked, lower, upper = (
+                figure(v, factor, digits) for v in (value, joint.lower, joint.upper)
+            )
             raise InvalidTrajectory.because(
                 "RG614",
                 f"{joint.name} is outside its limits: axis {joint.axis} would be at {asked} {unit}",

@@ -270,8 +270,9 @@ class Program:
         use. It runs in the motion task, while the robot stands and nothing of this program is left
         to move. What it raises ends the program; a STOP leaves it, wherever it is, and so does the
         controller after `timeout` s (0: never)."""
-        held = {"routine": routine, "arguments": arguments, "seconds": float(timeout)}
-        return self._add(Instruction.CALL, **held)
+        return self._add(
+            Instruction.CALL, routine=routine, arguments=arguments, seconds=float(timeout)
+        )
 
     def _hold(self, speed: SpeedLike | None, zone: ZoneLike | None) -> None:
         if speed is not None:
