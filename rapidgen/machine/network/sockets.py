@@ -1,8 +1,10 @@
 """Sockets as a program holds them, and the controller's table of those that are in use."""
 
+from collections.abc import Mapping
 from enum import IntEnum
+from types import MappingProxyType
 
-from rapidgen.machine.network.interface import Endpoint, Network
+from rapidgen.machine.network.interface import Endpoint, Network, NetworkFault, NetworkReason
 
 MAX_SOCKETS = 32
 """Sockets of one controller at a time (switch `sockets_limited`)."""
@@ -45,6 +47,17 @@ class SocketTable:
     def add(self, device: SocketDevice, task: str) -> None:
         """A socket comes into use."""
         self._owners[device] = task
+
+    @property
+    def in_use(self) -> Mapping[SocketDevice, str]:
+        """Sockets and the tasks that have them."""
+        return MappingProxyType(self._owners)
+
+    def cut(self, device: SocketDevice) -> None:
+        """The connection is reset, as a peer that has crashed does; the program finds out."""
+        if device.endpoint is not None:
+            device.endpoint.fault = NetworkFault(NetworkReason.RESET, "by hand")
+            self._network.close(device.endpoint, abort=True)
 
     def release(self, device: SocketDevice, *, abort: bool = False) -> None:
         """Close a socket; harmless when it is closed."""
