@@ -155,6 +155,47 @@ class Dialogs(Spoken):
     waiting: tuple[Dialog, ...]
 
 
+class ShownSignal(Spoken):
+    """A signal; `largest` is None where nothing bounds it."""
+
+    name: str
+    kind: Literal["DI", "DO", "GI", "GO", "AI", "AO"]
+    device: str
+    value: float
+    largest: float | None
+
+
+class Signals(Spoken):
+    """All signals."""
+
+    type: Literal["signals"] = "signals"
+    signals: tuple[ShownSignal, ...]
+
+
+class SignalValues(Spoken):
+    """Signals that have changed."""
+
+    type: Literal["values"] = "values"
+    values: Mapping[str, float]
+
+
+class ShownSocket(Spoken):
+    """A socket of a task. Addresses are empty where there is none."""
+
+    number: int
+    task: str
+    status: str
+    local: str
+    peer: str
+
+
+class Connections(Spoken):
+    """All sockets in use."""
+
+    type: Literal["connections"] = "connections"
+    sockets: tuple[ShownSocket, ...]
+
+
 class Replied(Spoken):
     """The answer to a request; `error` is empty when it was carried out."""
 
@@ -204,6 +245,21 @@ class SetPace(Spoken):
     value: Annotated[float, Field(ge=0, le=100)]
 
 
+class SetSignal(Spoken):
+    """Give a signal a value."""
+
+    do: Literal["signal"] = "signal"
+    name: str
+    value: Finite
+
+
+class Cut(Spoken):
+    """Cut a connection: the task's socket is reset, and so is the other end."""
+
+    do: Literal["cut"] = "cut"
+    number: int
+
+
 class AnswerQuestion(Spoken):
     """What the operator chose or typed."""
 
@@ -230,8 +286,21 @@ class Copy(Spoken):
 
 # -- both ways ------------------------------------------------------------------------------------
 
-ToPage: TypeAlias = Scene | Positions | PanelState | Log | Screen | Dialogs | Replied
-Request: TypeAlias = Act | SetMode | SetOverride | SetPace | AnswerQuestion | Jog | Copy
+ToPage: TypeAlias = (
+    Scene
+    | Positions
+    | PanelState
+    | Log
+    | Screen
+    | Dialogs
+    | Signals
+    | SignalValues
+    | Connections
+    | Replied
+)
+Request: TypeAlias = (
+    Act | SetMode | SetOverride | SetPace | AnswerQuestion | Jog | Copy | SetSignal | Cut
+)
 
 
 class FromPage(Spoken):

@@ -23,11 +23,23 @@ export interface Axis {
   readonly speed: number;
 }
 
+/** All sockets in use. */
+export interface Connections {
+  readonly type: "connections";
+  readonly sockets: readonly ShownSocket[];
+}
+
 /** Where a robot is, as text for a program; it is the reply's. */
 export interface Copy {
   readonly do: "copy";
   readonly group: string;
   readonly form: "jointtarget" | "robtarget" | "python";
+}
+
+/** Cut a connection: the task's socket is reset, and so is the other end. */
+export interface Cut {
+  readonly do: "cut";
+  readonly number: number;
 }
 
 /** A dialog that waits; without choices a text or number is typed. */
@@ -48,7 +60,7 @@ export interface Dialogs {
 /** A request and the number that its reply will have. */
 export interface FromPage {
   readonly id: number;
-  readonly request: Act | SetMode | SetOverride | SetPace | AnswerQuestion | Jog | Copy;
+  readonly request: Act | SetMode | SetOverride | SetPace | AnswerQuestion | Jog | Copy | SetSignal | Cut;
 }
 
 /** Put a standing robot elsewhere: controller axes in wire order. */
@@ -168,6 +180,43 @@ export interface SetPace {
   readonly value: number;
 }
 
-export type ToPage = Dialogs | Log | PanelState | Positions | Replied | Scene | Screen;
+/** Give a signal a value. */
+export interface SetSignal {
+  readonly do: "signal";
+  readonly name: string;
+  readonly value: number;
+}
 
-export type Request = Act | AnswerQuestion | Copy | Jog | SetMode | SetOverride | SetPace;
+/** A signal; `largest` is None where nothing bounds it. */
+export interface ShownSignal {
+  readonly name: string;
+  readonly kind: "DI" | "DO" | "GI" | "GO" | "AI" | "AO";
+  readonly device: string;
+  readonly value: number;
+  readonly largest: number | null;
+}
+
+/** A socket of a task. Addresses are empty where there is none. */
+export interface ShownSocket {
+  readonly number: number;
+  readonly task: string;
+  readonly status: string;
+  readonly local: string;
+  readonly peer: string;
+}
+
+/** Signals that have changed. */
+export interface SignalValues {
+  readonly type: "values";
+  readonly values: Readonly<Record<string, number>>;
+}
+
+/** All signals. */
+export interface Signals {
+  readonly type: "signals";
+  readonly signals: readonly ShownSignal[];
+}
+
+export type ToPage = Connections | Dialogs | Log | PanelState | Positions | Replied | Scene | Screen | SignalValues | Signals;
+
+export type Request = Act | AnswerQuestion | Copy | Cut | Jog | SetMode | SetOverride | SetPace | SetSignal;

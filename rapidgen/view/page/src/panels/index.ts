@@ -2,7 +2,9 @@
 
 import type { MakePanel } from "../panel";
 import { axesPanel } from "./axes";
+import { connectionsPanel } from "./connections";
 import { logPanel } from "./log";
 import { pendantPanel } from "./pendant";
+import { signalsPanel } from "./signals";
 
-export const PANELS: readonly MakePanel[] = [pendantPanel, axesPanel, logPanel];
+export const PANELS: readonly MakePanel[] = [pendantPanel, axesPanel, signalsPanel, logPanel, connectionsPanel];
