@@ -88,7 +88,7 @@ class RecordedPanel(Recorded):
     override: float
 
 
-class SignalValues(Recorded):
+class RecordedSignals(Recorded):
     """Signals that have changed."""
 
     values: dict[str, float]
@@ -144,7 +144,7 @@ CHANNELS: Final[Mapping[str, type[Recorded]]] = {
     "carried": CarriedFrames,
     "task": TaskPointers,
     "panel": RecordedPanel,
-    "signals": SignalValues,
+    "signals": RecordedSignals,
     "log": LogLine,
     "sockets": SocketFrame,
     "watch": WatchedValue,

@@ -156,7 +156,7 @@ class RecordingFile:
             case "panel":
                 moment.panel = self._decoded(m.RecordedPanel, message)
             case "signals":
-                moment.signals |= self._decoded(m.SignalValues, message).values
+                moment.signals |= self._decoded(m.RecordedSignals, message).values
             case "log":
                 moment.log = [*moment.log, self._decoded(m.LogLine, message)][-EVENTS_KEPT:]
             case "sockets":
@@ -205,7 +205,7 @@ class RecordingFile:
         """Times and values of a signal: at the beginning, and each change until the end, s."""
         found = [(begin, self.at(begin).signals[name])] if name in self.at(begin).signals else []
         for message in self._messages(round(begin * _NS) + 1, round(end * _NS), "signals"):
-            values = self._decoded(m.SignalValues, message).values
+            values = self._decoded(m.RecordedSignals, message).values
             if name in values:
                 found.append((message.time / _NS, values[name]))
         return found

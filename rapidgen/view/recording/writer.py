@@ -97,7 +97,7 @@ class RecordingWriter:
 
     def _follow(self, signal: Signal) -> None:
         def changed() -> None:
-            self._write("signals", m.SignalValues(values={signal.name: signal.value}))
+            self._write("signals", m.RecordedSignals(values={signal.name: signal.value}))
 
         signal.changed.add(changed)
         self._ends.append(lambda: signal.changed.remove(changed))
