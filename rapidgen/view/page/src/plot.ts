@@ -69,8 +69,8 @@ export function draw(data: PlotData, into: HTMLElement): uPlot[] {
 }
 
 function faint(ink: string): string {
-  return ink.replace(/^rgba?\(([^)/]*?)(?:,[^,]*)?\)$/, (_, parts: string) =>
-    `rgba(${parts.split(",").slice(0, 3).join(",")}, 0.15)`);
+  const [r = "128", g = r, b = r] = ink.match(/[\d.]+/g) ?? [];
+  return `rgba(${r}, ${g}, ${b}, 0.15)`;
 }
 
 const given = document.getElementById("plot-data");
