@@ -52,16 +52,15 @@ def resolve(
 def _by_name(text: str) -> Address:
     """An address that is no configuration; a name like that of a model is asked about.
 
-    Raises DiagnosticError RG607.
+    Raises InvalidTarget RG607.
     """
     meant = suggest(text, shipped_names()) if "." not in text and ":" not in text else ""
     if meant:
-        raise DiagnosticError(
-            fault(
-                "RG607",
-                f"'{text}' is no configuration and no shipped name",
-                f"{meant}; a host of this name is {text}:11000",
-            )
+        raise InvalidTarget.because(
+            "RG607",
+            f"'{text}' is no configuration and no shipped name",
+            f"{meant}; a host of this name is {text}:11000",
+            exit_code=2,
         )
     return parse_address(text)
 

@@ -5,7 +5,6 @@ import json
 import re
 import struct
 from datetime import UTC, datetime
-from pathlib import Path
 
 import numpy as np
 import pytest
