@@ -48,9 +48,11 @@ def open_page(browser):
     """Opens an address in a window of its own; what the page complains of is a fault at the end."""
     contexts, faults = [], []
 
-    def opened(url, **options):
+    def opened(url, before="", **options):
         context = browser.new_context(viewport={"width": 1280, "height": 720}, **options)
         contexts.append(context)
+        if before:
+            context.add_init_script(before)
         page = context.new_page()
         page.on("pageerror", lambda error: faults.append(str(error)))
         page.on("console", lambda told: faults.append(told.text) if told.type == "error" else None)
