@@ -7,12 +7,12 @@ STAMP := $(VENV)/.made
 SHELL := /bin/bash
 export TIMEFORMAT = %U s of CPU, %R s
 
-.PHONY: demo test lint types contract unit wheel page driver-hours room picture foreign campaigns clean
+.PHONY: demo test lint types contract unit wheel page driver-hours site release-lint changelog room picture foreign campaigns clean
 
 demo: $(STAMP)
 	$(BIN)/rapidgen demo
 
-test: lint types contract wheel driver-hours unit
+test: lint types contract wheel driver-hours site release-lint unit
 
 # The page of rapidgen/view: TypeScript, checked and bundled; again when a source of it has changed.
 PAGE := rapidgen/view/assets/index.html
@@ -66,6 +66,17 @@ $(WHEEL)/env/.made: pyproject.toml $(STAMP) $(PAGE)
 # The generated driver for some simulated hours; `make driver-day` is the long form.
 driver-hours: $(STAMP)
 	time $(BIN)/python benchmarks/campaign.py days --hours 4 --watched 0.25
+
+# The documentation as a site: build/site/index.html. A warning is an error, a link into nothing is one.
+site: $(STAMP)
+	time $(BIN)/python -m sphinx --fail-on-warning --quiet -d build/site-pages docs build/site
+
+# Workflows, image and changelog: what only a release uses. `.ci/release` makes one in dist/.
+release-lint: $(STAMP)
+	.ci/release --lint
+
+changelog: $(STAMP)
+	$(BIN)/towncrier build --yes --version $(VERSION)
 
 # Last, so that pytest's own summary closes the output.
 unit: $(STAMP) $(PAGE)
@@ -144,7 +155,7 @@ endurance: $(STAMP) ## 2 min: memory of an idle driver that is watched for ten s
 many-controllers: $(STAMP) ## 2 min: 50 controllers in real time, how late their states come
 	$(BIN)/python benchmarks/many_controllers.py
 
-BENCHES := startup start_of_run programs parsing kernels backup motion state client deploy driver streaming rws
+BENCHES := startup start_of_run programs parsing kernels backup motion state client deploy driver streaming rws recording
 bench: $(STAMP) ## 10 min: the figures of docs/develop/performance.md that need no argument
 	for name in $(BENCHES); do $(BIN)/python benchmarks/$$name.py || exit 1; done
 

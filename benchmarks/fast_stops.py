@@ -24,7 +24,7 @@ from rapidgen.generate import build, make_system
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.fast_stops import fast_stop
 from rapidgen.proving.settings import assumed, rows
-from rapidgen.proving.workers import each, in_a_fork
+from rapidgen.proving.workers import Local, each, in_a_fork
 
 ROBOTS = ("irb120", "irb6700", "irb2400", "irb120_track", "irb14000")
 FAR = (0.01, 0.1, 0.5)
@@ -43,8 +43,8 @@ def booted(robot, texts):
     return bench
 
 
-def one(seed):
-    bench = BENCHES[seed % len(BENCHES)]
+def one(benches, seed):
+    bench = benches[seed % len(benches)]
     return in_a_fork(lambda: fast_stop(bench, seed))
 
 
@@ -54,14 +54,19 @@ def cpu():
     return sum(usage.ru_utime + usage.ru_stime for usage in both)
 
 
-def told(what, done, total):
+def told(done):
     if done % 1000 == 0:
-        print(f"{done} of {total} {what} after {time.monotonic() - STARTED:.0f} s", flush=True)
+        after = time.monotonic() - STARTED
+        print(f"{done} of {GIVEN.count} stops after {after:.0f} s", flush=True)
 
 
 def main():
     seeds = list(range(GIVEN.first, GIVEN.first + GIVEN.count))
-    stops = each(seeds, one, GIVEN.jobs, "stops", told)
+    stops = []
+    with Local(BENCHES, GIVEN.jobs) as workers:
+        for stop in each(workers, seeds, one):
+            stops.append(stop)
+            told(len(stops))
     for stop in stops:
         if stop.finding:
             print(f"seed {stop.seed}: {stop.finding}")

@@ -19,8 +19,9 @@ from driven import driven
 from rapidgen.client import Program
 from rapidgen.config import load_config
 from rapidgen.generate import build, make_system
+from rapidgen.proving.batches import millionths
 from rapidgen.proving.bench import Bench
-from rapidgen.proving.messages import RawInstruction, RawStreamFlag, millionths
+from rapidgen.proving.messages import RawInstruction, RawStreamFlag
 from rapidgen.proving.programs import Programmer, RawOrder, bent, reached
 from rapidgen.proving.stream import Streamer
 from rapidgen.system.model import ModuleFile

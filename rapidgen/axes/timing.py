@@ -8,6 +8,7 @@ the segment.
 """
 
 from dataclasses import dataclass
+from math import floor
 
 import numpy as np
 import numpy.typing as npt
@@ -107,7 +108,8 @@ def slow_down(times: Array, positions: Array, speed: Array, acceleration: Array)
 
 
 def resample(times: Array, positions: Array, period: float) -> tuple[Array, Array]:
-    """Points at an equal spacing close to `period` s, first and last kept exactly.
+    """Points at an equal spacing close to `period` s and not below it, where the whole is not;
+    first and last kept exactly.
 
     Between points axes move linearly, so ranges and speeds stay within those of the input.
     """
@@ -116,7 +118,8 @@ def resample(times: Array, positions: Array, period: float) -> tuple[Array, Arra
     _segments(stamps, points)
     if not period > 0:
         raise ValueError("the period must be positive")
-    count = max(1, round((stamps[-1] - stamps[0]) / period))
+    # A spacing that is a period up to rounding is one.
+    count = max(1, floor((stamps[-1] - stamps[0]) / period * (1 + 1e-9)))
     fresh = np.linspace(stamps[0], stamps[-1], count + 1)
     columns = [np.interp(fresh, stamps, points[:, j]) for j in range(points.shape[1])]
     return fresh, np.stack(columns, axis=1)

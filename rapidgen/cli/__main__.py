@@ -1,5 +1,5 @@
 """`python -m rapidgen.cli` is the `rapidgen` command."""
 
-from rapidgen.cli.app import run
+from rapidgen.cli.entry import run
 
 run()

@@ -8,7 +8,7 @@ import gc
 import os
 import signal
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from importlib import import_module
 from typing import Annotated
 
@@ -16,8 +16,9 @@ import typer
 from typer.exceptions import TyperException
 
 from rapidgen import __version__
+from rapidgen.cli.loudness import set_up
 from rapidgen.cli.terminal import use_colour
-from rapidgen.diagnostics import Diagnostic, DiagnosticError, error, render
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, Format, error, render
 
 # Each verb is a file of its own, imported when it is asked for; its help begins with the
 # sentence that stands here (a test compares).
@@ -33,7 +34,9 @@ VERBS = {
     "sim": "Run a virtual controller in real time.",
     "test": "Prove the driver for this robot: every behaviour, stops and faults in many schedules.",
     "probe": "Write a module that asks a controller what is only assumed about it.",
-    "move": "Execute a trajectory. Ctrl-C stops the robot.",
+    "move": "Move a robot to joints, to a pose, or along a file.",
+    "jog": "Move joints a little from where they are: at most 11.4 deg or 100 mm.",
+    "pose": "Show where the tool is in the work object, and the joints; as `move` takes them.",
     "stop": "Stop the robot: every motion group, or one.",
     "monitor": "Watch a robot: joints against limits, mode, rate, jitter, last event.",
     "record": "Write every joint message to a CSV: `time,<joint names>` in s and rad (m).",
@@ -41,7 +44,7 @@ VERBS = {
     "log": "Show a controller's event log; follow it.",
     "start": "Start the program of a controller. THE ROBOT MAY MOVE.",
     "halt": "Stop the program of a controller.",
-    "io": "Show a controller's signals, or set one.",
+    "io": "Show signals of a driver or a controller, or set one.",
     "symbols": "Show a controller's RAPID data, or set one.",
     "backup": "Bring a backup of a controller here, which `sim` reads.",
     "plot": "Draw joints over time: FILE.png and FILE.html (which shows values at the pointer).",
@@ -84,18 +87,22 @@ def run(arguments: list[str] | None = None) -> None:
 
 def main(words: list[str]) -> int:
     """Run one verb; its exit code."""
+    as_json = asks_json(words)
+    words = set_up(words)
     if "" in words:
-        _show((_empty_argument(),))
+        _show((_empty_argument(),), as_json)
         return 2
     command = typer.main.get_command(_app(words))
+    # Who types nothing wants to know what there is.
+    words = words or ["--help"]
     try:
         result = command.main(args=words, prog_name="rapidgen", standalone_mode=False)
         sys.stdout.flush()
     except DiagnosticError as fault:
-        _show(fault.diagnostics)
+        _show(fault.diagnostics, as_json)
         return fault.exit_code
     except TyperException as fault:
-        _show((_usage(fault),))
+        _show((_usage(fault),), as_json)
         return 2
     except (KeyboardInterrupt, typer.Abort):
         sys.stderr.write("\nstopped\n")
@@ -110,7 +117,7 @@ def main(words: list[str]) -> int:
     except OSError as fault:
         if fault.filename is None and fault.errno not in _MACHINE | {errno.ENOENT}:
             raise
-        return _refused(fault)
+        return _refused(fault, as_json)
     return result if isinstance(result, int) else 0
 
 
@@ -132,7 +139,6 @@ def _app(words: list[str]) -> typer.Typer:
         name="rapidgen",
         help="RAPID drivers for ABB robots: generate, run, deploy, drive.",
         rich_markup_mode=None,
-        no_args_is_help=True,
         pretty_exceptions_enable=False,
         context_settings={"help_option_names": ["-h", "--help"]},
     )
@@ -167,7 +173,15 @@ def _root(
     version: Annotated[
         bool, typer.Option("--version", callback=_version, is_eager=True, help="Show the version.")
     ] = False,
+    verbose: Annotated[
+        int,
+        typer.Option(
+            "--verbose", "-v", count=True, show_default=False, help="Say what is done; -vv: all."
+        ),
+    ] = 0,
+    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="No progress, errors only.")] = False,
 ) -> None:
+    # Taken out by `loudness.set_up` before; here for the help.
     pass
 
 
@@ -179,7 +193,7 @@ def _unheard() -> int:
     return 128 + signal.SIGPIPE
 
 
-def _refused(fault: OSError) -> int:
+def _refused(fault: OSError, as_json: bool) -> int:
     """Say what the operating system refused; the exit code."""
     if fault.filename is not None:
         message, mend = f"cannot use {fault.filename}", "free it, or name another one"
@@ -190,7 +204,7 @@ def _refused(fault: OSError) -> int:
     else:
         message, mend = "cannot go on", "is the folder that you are in still there?"
     text = f"{message}: {fault.strerror}"
-    _show((error("RG903", None, text, mend),))
+    _show((error("RG903", None, text, mend),), as_json)
     return 2 if fault.errno in _BAD_PATH else 1
 
 
@@ -203,8 +217,16 @@ def _empty_argument() -> Diagnostic:
     )
 
 
-def _show(found: tuple[Diagnostic, ...]) -> None:
-    sys.stderr.write(render(found, colour=use_colour()))
+def asks_json(words: Sequence[str]) -> bool:
+    """Whether stdout is read by a program: then errors are JSON there, too."""
+    return "--json" in words
+
+
+def _show(found: tuple[Diagnostic, ...], as_json: bool) -> None:
+    if as_json:
+        sys.stdout.write(f'{{"errors": {render(found, Format.JSON).rstrip()}}}\n')
+    else:
+        sys.stderr.write(render(found, colour=use_colour()))
 
 
 def _usage(fault: TyperException) -> Diagnostic:

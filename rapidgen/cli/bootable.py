@@ -12,6 +12,7 @@ from rapidgen.diagnostics import DiagnosticError, Severity, refusal, render
 if TYPE_CHECKING:
     from rapidgen.controller.booting import Bootable
     from rapidgen.controller.guessing import Named
+    from rapidgen.controller.surroundings import Said
 
 
 def chosen(
@@ -86,16 +87,17 @@ def _table(title: str, rows: "Sequence[Named]") -> str:
     return f"{title}:\n{''.join(lines)}"
 
 
-def answers_told(answers: "Iterable[tuple[str, float]]") -> str:
-    """What guessed inputs became because a program waited for it."""
+def answers_told(answers: "Iterable[Said]") -> str:
+    """What guessed inputs became, and dialogs were answered, because a program waited for it."""
     counted = Counter(answers)
     if not counted:
         return ""
     given = (
-        f"{name} = {value:g}" + (f" ({count} times)" if count > 1 else "")
+        f"{name} = {value if isinstance(value, str) else f'{value:g}'}"
+        + (f" ({count} times)" if count > 1 else "")
         for (name, value), count in counted.items()
     )
-    return f"guessed inputs became what the program waited for: {', '.join(given)}\n"
+    return f"guessed, because the program waited for it: {', '.join(given)}\n"
 
 
 def _refuse_unloadable(found: "Bootable") -> None:

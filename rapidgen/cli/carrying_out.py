@@ -14,10 +14,9 @@ if TYPE_CHECKING:
 
 def show_plans(plans: "Sequence[Plan]") -> None:
     """All plans, on stderr."""
-    from rapidgen.deploy.show import plan_text
+    from rapidgen.deploy.show import plans_text
 
-    for plan in plans:
-        typer.echo(plan_text(plan), err=True, nl=False)
+    typer.echo(plans_text(plans), err=True, nl=False)
 
 
 def make_sure(question: str, *, yes: bool) -> None:
@@ -28,12 +27,22 @@ def make_sure(question: str, *, yes: bool) -> None:
 
 
 def carry_out(job: "FleetJob", plans: "Sequence[Plan]") -> int:
-    """Do what was planned; a table of the controllers. Raises DiagnosticError where one failed."""
+    """Do what was planned; a table of the controllers. Raises DiagnosticError where one failed,
+    KeyboardInterrupt behind the table when somebody has given up."""
+    from dataclasses import replace
+
+    from rapidgen.deploy.fleet import GivingUp
     from rapidgen.deploy.session import apply_all
     from rapidgen.deploy.show import table
 
-    outcomes = apply_all(job, plans, lambda line: typer.echo(line, err=True))
+    def say(line: str) -> None:
+        typer.echo(line, err=True)
+
+    giving_up = GivingUp(say)
+    outcomes = apply_all(replace(job, giving_up=giving_up), plans, say)
     typer.echo(table(outcomes), nl=False)
+    if giving_up:
+        raise KeyboardInterrupt
     failures = [o.error for o in outcomes if o.error is not None]
     if failures:
         raise DiagnosticError([d for f in failures for d in f.diagnostics], exit_code=1)

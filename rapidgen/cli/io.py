@@ -1,5 +1,7 @@
 """`rapidgen io`: signals over Robot Web Services, or those that a driver exposes."""
 
+import json
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Annotated
 
@@ -23,16 +25,41 @@ def io(
     user: options.User = "",
     secrets: options.Secrets = None,
     fingerprint: options.Fingerprint = "",
+    as_json: options.AsJson = False,
 ) -> int:
-    """Show a controller's signals, or set one.
+    """Show signals of a driver or a controller, or set one.
 
-    Over web services a write is asked about, unless the controller is a virtual one, and read
-    back. Over a driver: the signals that its configuration exposes.
+    Over a driver: those that its configuration exposes. Its control port serves one client, the
+    newest: while the robot moves, asking is refused. Over web services a write is asked about,
+    unless the controller is a virtual one, and read back.
+
+    rapidgen io cell.yaml gripper 1 --to sim
     """
     wanted = _number(value) if value else None
     if "://" in target:
-        return _over_web_services(target, name, wanted, yes, user, secrets, fingerprint)
-    return _over_driver(target, name, wanted, to, group)
+        read = _over_web_services(target, name, wanted, yes, user, secrets, fingerprint)
+    else:
+        read = _over_driver(target, name, wanted, to, group)
+    if as_json:
+        typer.echo(json.dumps([asdict(signal) for signal in read]))
+        return 0
+    width = max((len(signal.name) for signal in read), default=0)
+    for signal in read:
+        note = "  simulated" if signal.simulated else ""
+        typer.echo(f"{signal.name:<{width}}  {signal.type:<2}  {signal.value:g}{note}")
+    if not read:
+        typer.echo(f"{target} has no signals: `signals:` of a configuration exposes them", err=True)
+    return 0
+
+
+@dataclass(frozen=True, slots=True)
+class _Read:
+    """A signal as it is shown."""
+
+    name: str
+    type: str
+    value: float
+    simulated: bool = False
 
 
 def _number(text: str) -> float:
@@ -50,7 +77,7 @@ def _over_web_services(
     user: str,
     secrets: Path | None,
     fingerprint: str,
-) -> int:
+) -> list[_Read]:
     from rapidgen.cli.carrying_out import make_sure
     from rapidgen.cli.web_services import controller
 
@@ -61,20 +88,30 @@ def _over_web_services(
             signals = [found.set_signal(name, value)]
         else:
             signals = [found.signal(name)] if name else list(found.signals())
-    width = max((len(signal.path) for signal in signals), default=0)
-    for signal in signals:
-        note = "  simulated" if signal.simulated else ""
-        typer.echo(f"{signal.path:<{width}}  {signal.type:<2}  {signal.value:g}{note}")
-    return 0
+    return [_Read(s.path, s.type, s.value, s.simulated) for s in signals]
 
 
-def _over_driver(config: str, name: str, value: float | None, to: str, group: str) -> int:
-    from rapidgen.client import Robot
+def _over_driver(config: str, name: str, value: float | None, to: str, group: str) -> list[_Read]:
+    from rapidgen.client import NotReady, Robot
     from rapidgen.config import load_config
 
-    names = [name] if name else [signal.name for signal in load_config(config).signals]
-    with Robot(config, address=to or None, group=group, watch=True) as robot:
-        for one in names:
-            now = robot.read_signal(one) if value is None else robot.write_signal(one, value)
-            typer.echo(f"{one}  {now:g}")
-    return 0
+    kinds = {signal.name: signal.kind for signal in load_config(config).signals}
+    names = [name] if name else list(kinds)
+    if not names:
+        return []
+    with Robot(config, address=to or None, group=group, watch=True) as watcher:
+        if watcher.state.is_moving:
+            raise NotReady.because(
+                "RG622",
+                "the robot moves: who moves it would lose the connection, and the robot would stop",
+                "ask again when it stands",
+            )
+    with Robot(config, address=to or None, group=group) as robot:
+        return [
+            _Read(
+                one,
+                kinds.get(one, ""),
+                robot.read_signal(one) if value is None else robot.write_signal(one, value),
+            )
+            for one in names
+        ]

@@ -1,4 +1,4 @@
-"""`rapidgen move`: a trajectory from a file, checked, shown, confirmed and executed."""
+"""`rapidgen move`: to joints, to a pose, or along a file; checked, shown, confirmed, executed."""
 
 import sys
 from pathlib import Path
@@ -7,28 +7,46 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from rapidgen.cli import options
+from rapidgen.cli.goals import Units, figure, named_text, read_joints, read_pose
 from rapidgen.cli.terminal import use_colour
-from rapidgen.diagnostics import Diagnostic, render
+from rapidgen.diagnostics import render
 
 if TYPE_CHECKING:
-    from rapidgen.client import Result, Robot, Trajectory
+    from collections.abc import Sequence
+
+    from rapidgen.axes.frames import Pose
+    from rapidgen.client import InvalidTrajectory, Result, Robot, Trajectory
     from rapidgen.client.core.checks import Way
 
 
 def move(
     config: options.Config,
-    points: Annotated[Path, typer.Argument(help="CSV `time,<joint names>` (s, rad, m), or JSON.")],
+    points: Annotated[
+        Path | None, typer.Argument(help="CSV `time,<joint names>` (s, rad, m), or JSON.")
+    ] = None,
+    joints: Annotated[
+        str,
+        typer.Option(help="Go there: all joints, or some as NAME=VALUE.", metavar="J1,J2,..."),
+    ] = "",
+    pose: Annotated[
+        str,
+        typer.Option(
+            help="Go there: the tool in the work object; X,Y,Z alone keeps the orientation.",
+            metavar="X,Y,Z,Q1..Q4",
+        ),
+    ] = "",
     to: options.RobotAddress = "",
     group: options.Group = "",
-    yes: Annotated[
-        bool, typer.Option("--yes", "-y", help="Do not ask; answers on this machine only.")
+    dry_run: Annotated[
+        bool, typer.Option("--dry-run", help="Check and show; send nothing.")
     ] = False,
-    move_real_robot: Annotated[
-        str, typer.Option(help="The host once more: its area is clear.", metavar="HOST")
-    ] = "",
+    yes: options.YesHere = False,
+    move_real_robot: options.RealRobot = "",
     speed: Annotated[
         float | None,
-        typer.Option(help="Share of the file's speed; a first run on a real host has 0.1."),
+        typer.Option(
+            help="Share of the file's speed, or of the axes'; a first run on a real host has 0.1."
+        ),
     ] = None,
     approach: Annotated[
         float | None,
@@ -41,7 +59,12 @@ def move(
     record: Annotated[
         Path | None, typer.Option(help="Write the executed joints as CSV.", metavar="FILE")
     ] = None,
-    as_json: Annotated[bool, typer.Option("--json", help="One JSON object on stdout.")] = False,
+    plot: Annotated[
+        Path | None,
+        typer.Option(help="Draw commanded and executed joints: PNG and HTML.", metavar="FILE"),
+    ] = None,
+    rad: options.InRad = False,
+    as_json: options.AsJson = False,
     stream: Annotated[
         bool | None,
         typer.Option(
@@ -50,40 +73,141 @@ def move(
         ),
     ] = None,
 ) -> int:
-    """Execute a trajectory. Ctrl-C stops the robot."""
-    from rapidgen.cli.following import follow
-    from rapidgen.client import Robot, Trajectory
-    from rapidgen.client.permission import first_speed, need_confirmation, remember
+    """Move a robot to joints, to a pose, or along a file. Ctrl-C stops it.
 
-    asked = (
-        Trajectory.from_json(points) if points.suffix == ".json" else Trajectory.from_csv(points)
-    )
-    _positive("--speed", speed)
-    _positive("--approach", approach)
-    _positive("--resample", resample)
-    robot = Robot(config, address=to or None, group=group)
-    must_ask = need_confirmation(robot.address, yes=yes, real_robot=move_real_robot)
-    used = first_speed(robot.address, asked) if speed is None else speed
+    To joints and to a pose all axes go together, from where the robot stands. Figures are deg and
+    mm, with --rad rad and m; files are always rad and m.
+
+    rapidgen move cell.yaml --joints 0,10,0,0,30,0 --to sim
+    """
+    from rapidgen.cli.moving import carried_out, confirm_at, permitted
+    from rapidgen.cli.plot import draw_motion
+    from rapidgen.client import Robot
+    from rapidgen.client.permission import first_speed, remember
+
+    _one_goal(points, joints, pose, approach)
+    for option, value in (("--speed", speed), ("--approach", approach), ("--resample", resample)):
+        _positive(option, value)
+    files = _writable(record, plot)
+    asked = _from_file(points) if points is not None else None
+    units = Units(rad)
+    robot = Robot(config, address=to or None, group=group, watch=dry_run)
+    must_ask = not dry_run and permitted(robot, to, yes=yes, real_robot=move_real_robot)
     with robot:
-        trajectory = asked.scaled(used)
+        if asked is None:
+            used = first_speed(robot.address, None) if speed is None else speed
+            trajectory = _to_goal(robot, units, joints, pose, used)
+        else:
+            used = first_speed(robot.address, asked) if speed is None else speed
+            trajectory = asked.scaled(used)
         if resample is not None:
             trajectory = _resampled(trajectory, resample)
         if approach is not None:
             trajectory = trajectory.starting_at(robot.state, approach)
         warnings = robot.check(trajectory)
         way = _way(robot, trajectory, stream)
-        _show_plan(robot, trajectory, used, way)
-        _tell(warnings)
+        whose = "the axes'" if asked is None else "the file's"
+        _show_plan(robot, trajectory, f"{used:.0%} of {whose} speed", way, units)
+        sys.stderr.write(render(warnings, colour=use_colour()))
+        if dry_run:
+            if files is not None:
+                draw_motion(files, robot, trajectory, None)
+            _report_dry(trajectory, way, as_json)
+            return 0
         if must_ask:
-            _ask(robot)
+            confirm_at(robot)
         with robot.recording() as recording:
-            result = follow(robot.execute(trajectory, way=way))
-        if record is not None:
-            recording.to_csv(record)
-    if not robot.address.is_loopback:
+            try:
+                result = carried_out(robot, trajectory, way, units)
+            finally:
+                if record is not None:
+                    recording.to_csv(record)
+                if files is not None:
+                    draw_motion(files, robot, trajectory, recording)
+    if asked is not None and not robot.address.is_loopback:
         remember(robot.address, asked)
-    _report(result, as_json)
+    _report(robot, result, units, as_json)
     return 0
+
+
+def _one_goal(points: Path | None, joints: str, pose: str, approach: float | None) -> None:
+    given = [name for name, said in (("--joints", joints), ("--pose", pose)) if said]
+    if points is not None:
+        given.insert(0, "a file")
+    if len(given) != 1:
+        raise typer.BadParameter(
+            f"where to? {' and '.join(given)} were given"
+            if given
+            else "where to? Give a file of points, --joints, or --pose"
+        )
+    if approach is not None and points is None:
+        raise typer.BadParameter(f"{given[0]} begins where the robot is", param_hint="--approach")
+
+
+def _writable(record: Path | None, plot: Path | None) -> "tuple[Path, Path] | None":
+    """The pictures' files; all that is to be written is refused now where it cannot be."""
+    from rapidgen.cli.observed import pictures, refuse_unwritable
+
+    files = pictures(plot) if plot is not None else None
+    refuse_unwritable([path for path in (record, *(files or ())) if path is not None])
+    return files
+
+
+def _from_file(points: Path) -> "Trajectory":
+    from rapidgen.client import Trajectory
+
+    if points.suffix == ".json":
+        return Trajectory.from_json(points)
+    return Trajectory.from_csv(points)
+
+
+def _to_goal(robot: "Robot", units: Units, joints: str, pose: str, speed: float) -> "Trajectory":
+    """From where the robot stands to a goal, all axes together, at a share of their speed."""
+    from rapidgen.client import Trajectory
+
+    here = robot.state.joints
+    if joints:
+        goal = read_joints(joints, units, robot.group, here)
+        _within_limits(robot, goal, units)
+    else:
+        wanted = read_pose(pose, units, robot.pose)
+        found = robot.joints_for(wanted)
+        if not found:
+            raise _unreached(robot, wanted)
+        goal = found[0]
+    return Trajectory.from_points([here, goal], seconds=1.0, names=robot.group.names).timed(
+        robot.group, speed
+    )
+
+
+def _within_limits(robot: "Robot", goal: "Sequence[float]", units: Units) -> None:
+    """Refuse a goal outside the axes' limits, in the units that it was typed in."""
+    from rapidgen.client import InvalidTrajectory
+
+    group = robot.group
+    wire = group.map.to_controller(goal)
+    for joint, value in zip(group.joints, wire, strict=True):
+        if not joint.lower <= value <= joint.upper:
+            unit, factor, digits = units.joint(joint.kind)
+            asked, lower, upper = (
+                figure(v, factor, digits) for v in (value, joint.lower, joint.upper)
+            )
+            raise InvalidTrajectory.because(
+                "RG614",
+                f"{joint.name} is outside its limits: axis {joint.axis} would be at {asked} {unit}",
+                f"{joint.axis} goes from {lower} to {upper} {unit}",
+            )
+
+
+def _unreached(robot: "Robot", pose: "Pose") -> "InvalidTrajectory":
+    from rapidgen.client import InvalidTrajectory
+
+    here = robot.group.map.to_controller(robot.state.joints)
+    return InvalidTrajectory.because(
+        "RG614",
+        f"no posture within the limits reaches the pose: {robot.group.poses.why_not(pose, here)}",
+        "`rapidgen pose` tells where the tool is now",
+    )
 
 
 def _resampled(trajectory: "Trajectory", period: float) -> "Trajectory":
@@ -106,11 +230,9 @@ def _positive(option: str, value: float | None) -> None:
         raise typer.BadParameter(f"must be above 0, not {value}", param_hint=option)
 
 
-def _tell(warnings: tuple[Diagnostic, ...]) -> None:
-    sys.stderr.write(render(warnings, colour=use_colour()))
-
-
-def _show_plan(robot: "Robot", trajectory: "Trajectory", speed: float, way: "Way") -> None:
+def _show_plan(
+    robot: "Robot", trajectory: "Trajectory", speed: str, way: "Way", units: Units
+) -> None:
     from rich.console import Console
     from rich.table import Table
 
@@ -118,55 +240,63 @@ def _show_plan(robot: "Robot", trajectory: "Trajectory", speed: float, way: "Way
     driver = robot.driver
     who = f"rapidgen driver {driver.version}" if driver.is_rapidgen else "plain simple_message"
     console.print(
-        f"{len(trajectory)} points, {trajectory.duration:.2f} s at {speed:.0%} of the file's "
-        f"speed, to {robot.address} ({who}), "
-        + ("sent while it moves" if way == "stream" else "sent before it moves")
+        f"{len(trajectory)} points, {trajectory.duration:.2f} s at {speed}, to {robot.address} "
+        f"({who}), sent {'while' if way == 'stream' else 'before'} it moves"
     )
-    table = Table("joint", "here", "from", "to", "end", "least", "greatest", box=None)
+    table = Table("joint", box=None)
+    # Least and most are of all points; lower and upper are limits of the controller's axes.
+    for title in ("now", "least", "most", "end", "lower", "upper", ""):
+        table.add_column(title, justify="right" if title else "left")
     ordered = trajectory.reordered(robot.group.names)
     here = robot.state
     for index, joint in enumerate(robot.group.joints):
         column = ordered.positions[:, index]
+        unit, factor, digits = units.joint(joint.kind)
         values = (here.joints[index], column.min(), column.max(), column[-1])
-        table.add_row(
-            joint.name,
-            *(f"{value:.4f}" for value in values),
-            f"{joint.lower:.4f}",
-            f"{joint.upper:.4f}",
-        )
+        shown = (figure(value, factor, digits) for value in (*values, joint.lower, joint.upper))
+        table.add_row(joint.name, *shown, unit)
     console.print(table)
-    console.print("rad, m; least and greatest are limits of the controller's axes")
 
 
-def _ask(robot: "Robot") -> None:
-    from rapidgen.client.errors import NotReady
-
-    if not sys.stdin.isatty():
-        raise NotReady.because(
-            "RG641", "nobody is here to be asked: nothing was sent", "--yes answers", exit_code=2
-        )
-    typer.confirm(f"Move the robot at {robot.address}?", abort=True, err=True)
-
-
-def _report(result: "Result", as_json: bool) -> None:
+def _report_dry(trajectory: "Trajectory", way: "Way", as_json: bool) -> None:
     if as_json:
-        import json
+        _say_json(
+            {
+                "dry_run": True,
+                "points": len(trajectory),
+                "planned_seconds": trajectory.duration,
+                "way": way,
+                "joints": dict(
+                    zip(trajectory.names, trajectory.positions[-1].tolist(), strict=False)
+                ),
+            }
+        )
+    else:
+        typer.echo(f"dry run: {len(trajectory)} points would be executed; nothing was sent")
 
-        typer.echo(
-            json.dumps(
-                {
-                    "points": result.points,
-                    "seconds": result.seconds,
-                    "planned_seconds": result.planned_seconds,
-                    "deviation": result.deviation,
-                    "way": result.way,
-                    "starved": result.starved,
-                    "joints": result.state.by_name,
-                }
-            )
+
+def _say_json(told: dict[str, object]) -> None:
+    import json
+
+    typer.echo(json.dumps(told))
+
+
+def _report(robot: "Robot", result: "Result", units: Units, as_json: bool) -> None:
+    if as_json:
+        _say_json(
+            {
+                "points": result.points,
+                "seconds": result.seconds,
+                "planned_seconds": result.planned_seconds,
+                "deviation": result.deviation,
+                "way": result.way,
+                "starved": result.starved,
+                "joints": result.state.by_name,
+            }
         )
         return
     typer.echo(
         f"done: {result.points} points in {result.seconds:.2f} s, "
-        f"{result.deviation:.4f} (rad, m) from the last point ({result.way})"
+        f"{result.deviation:.4f} (rad, m) from the last point ({result.way})\n"
+        f"at {named_text(units, robot.group, result.state.joints)}"
     )

@@ -9,6 +9,8 @@ from rapidgen._writing import check_writable, write_whole
 from rapidgen.diagnostics import refusal
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from rapidgen.controller.controller import VirtualController
     from rapidgen.controller.tracing import Coverage, Profile
     from rapidgen.motion.recorder import Recorder
@@ -35,19 +37,10 @@ class Outputs:
 
     def refuse_unwritable(self) -> None:
         """Refuse, before anything runs, a file that cannot be written behind it."""
-        files = [*self.coverage, *(_pictures(self.plot, "") if self.plot else ())]
+        files = [*self.coverage, *(pictures(self.plot) if self.plot else ())]
         if self.profile not in ("", "-"):
             files.append(Path(self.profile))
-        for path in files:
-            try:
-                check_writable(path)
-            except OSError as fault:
-                raise refusal(
-                    "RG901",
-                    None,
-                    f"cannot write {path}: {fault.strerror}",
-                    "name a file in a folder that exists and may be written",
-                ) from fault
+        refuse_unwritable(files)
 
 
 @dataclass
@@ -91,12 +84,27 @@ class Observed:
         period = max(PERIOD, self.controller.now / _SAMPLES)
         several = len(self._recorders) > 1
         for group, recorder in self._recorders.items():
-            paths = _pictures(plot, f"_{group}" if several else "")
+            paths = pictures(plot, f"_{group}" if several else "")
             title = f"{self.controller.system.name}, {group}"
             draw_recording(recorder.recording(period), paths, title=title)
 
 
-def _pictures(plot: Path, more: str) -> tuple[Path, Path]:
+def refuse_unwritable(files: "Sequence[Path]") -> None:
+    """Refuse a file that could not be written later. Raises DiagnosticError RG901."""
+    for path in files:
+        try:
+            check_writable(path)
+        except OSError as fault:
+            raise refusal(
+                "RG901",
+                None,
+                f"cannot write {path}: {fault.strerror}",
+                "name a file in a folder that exists and may be written",
+            ) from fault
+
+
+def pictures(plot: Path, more: str = "") -> tuple[Path, Path]:
+    """PNG and HTML of a plot, whatever suffix it was given."""
     base = plot.with_suffix("") if plot.suffix.lower() in (".png", ".html") else plot
     return base.with_name(f"{base.name}{more}.png"), base.with_name(f"{base.name}{more}.html")
 

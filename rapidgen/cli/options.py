@@ -10,7 +10,7 @@ ConfigOrFolder = Annotated[
     str, typer.Argument(help="Configuration file, shipped name or generated folder.")
 ]
 ConfigOrHost = Annotated[
-    str, typer.Argument(help="Configuration file, shipped name or HOST[:M,S].")
+    str, typer.Argument(help="Configuration file, shipped name, HOST[:M,S,C], or `sim`.")
 ]
 Overrides = Annotated[
     list[str] | None,
@@ -104,6 +104,24 @@ Fingerprint = Annotated[
 
 # Of the verbs that talk to a driver.
 RobotAddress = Annotated[
-    str, typer.Option(help="Where the robot is; default this machine.", metavar="HOST[:M,S]")
+    str,
+    typer.Option(
+        help="Where the robot is: an address, or `sim`, the simulator that runs; default this "
+        "machine.",
+        metavar="HOST[:M,S,C]|sim",
+    ),
 ]
 Group = Annotated[str, typer.Option(help="Motion group, where there are several.")]
+InRad = Annotated[bool, typer.Option("--rad", help="Figures in rad and m, not in deg and mm.")]
+YesHere = Annotated[
+    bool, typer.Option("--yes", "-y", help="Do not ask; answers on this machine only.")
+]
+RealRobot = Annotated[
+    str,
+    typer.Option(
+        "--move-real-robot", help="The host once more: its area is clear.", metavar="HOST"
+    ),
+]
+AsJson = Annotated[
+    bool, typer.Option("--json", help="JSON on stdout, errors too; joints are rad and m.")
+]

@@ -18,6 +18,8 @@ def plan(
     detailed_exitcode: Annotated[
         bool, typer.Option("--detailed-exitcode", help="0 nothing to do, 1 error, 2 changes.")
     ] = False,
+    diff: Annotated[bool, typer.Option("--diff", help="Show the files' lines, too.")] = False,
+    as_json: options.AsJson = False,
     overrides: options.Overrides = None,
     user: options.User = "",
     secrets: options.Secrets = None,
@@ -34,10 +36,13 @@ def plan(
 
     rapidgen plan cell1.yaml --to "ftp://192.168.125.1/hd0a/SYSTEM/HOME" --out plan.json
     """
+    import json
+
     from rapidgen.cli.web_services import agree
     from rapidgen.deploy.fleet import parse_targets
+    from rapidgen.deploy.plan import plan_json
     from rapidgen.deploy.session import FleetJob, plan_all, wanted_set, write_plans
-    from rapidgen.deploy.show import plan_text
+    from rapidgen.deploy.show import plans_text
     from rapidgen.deploy.target import Access
 
     try:
@@ -61,7 +66,9 @@ def plan(
         raise DiagnosticError(
             error.diagnostics, exit_code=1 if detailed_exitcode else error.exit_code
         ) from error
-    for made in plans:
-        typer.echo(plan_text(made), nl=False)
+    if as_json:
+        typer.echo(json.dumps([plan_json(made) for made in plans], indent=2))
+    else:
+        typer.echo(plans_text(plans, diff=diff), nl=False)
     changed = any(not made.is_empty for made in plans)
     return 2 if changed and detailed_exitcode else 0

@@ -8,6 +8,8 @@ import typer
 from rapidgen.diagnostics import DiagnosticError, Span, error
 
 if TYPE_CHECKING:
+    from rapidgen.client import Robot, Trajectory
+    from rapidgen.client.recording import JointRecording
     from rapidgen.client.trajectory import Array
     from rapidgen.motion.recorder import Recording
     from rapidgen.view.plot import PlottedCurve
@@ -72,6 +74,23 @@ def draw_recording(found: "Recording", paths: tuple[Path, Path], *, title: str) 
 
     curves = _curves(found)
     write_plot(*paths, curves, title=title, prismatic=["x", "y", "z"], counts=[_MOVES])
+
+
+def draw_motion(
+    paths: tuple[Path, Path],
+    robot: "Robot",
+    commanded: "Trajectory",
+    executed: "JointRecording | None",
+) -> None:
+    """Write PNG and HTML of a trajectory and of what became of it."""
+    from rapidgen.view.plot import PlottedCurve, write_plot
+
+    curves = [PlottedCurve("commanded", commanded)]
+    if executed is not None and len(executed):
+        curves.append(PlottedCurve("executed", executed.trajectory()))
+    metres = [joint.name for joint in robot.group.joints if joint.kind == "prismatic"]
+    write_plot(*paths, curves, title=f"joints at {robot.address}", prismatic=metres)
+    typer.echo(f"drew {paths[0]} and {paths[1]}", err=True)
 
 
 def _recording(path: Path) -> "Recording":

@@ -126,7 +126,7 @@ def run(
         sys.stderr.write(render(warnings))
         observed = Observed(controller, wanted)
         controller.start_program()
-        wrong = _run(controller, max_time, max_statements)
+        wrong = _run(controller, max_time, max_statements, cell)
         sys.stderr.write(answers_told(controller.answered))
         observed.write()
     if wrong:
@@ -172,11 +172,13 @@ def _dialect(text: str) -> "Switches":
         ) from fault
 
 
-def _run(controller: "VirtualController", max_time: float, max_statements: int) -> list[Diagnostic]:
+def _run(
+    controller: "VirtualController", max_time: float, max_statements: int, cell: str
+) -> list[Diagnostic]:
     """Run to the end; what went wrong."""
     ended = controller.run(max_time=max_time, max_statements=max_statements)
     found = [
-        _fault(task.name, task.fault)
+        _fault(task.name, task.fault, cell)
         for task in controller.tasks.values()
         if task.fault is not None
     ]
@@ -199,7 +201,21 @@ def _run(controller: "VirtualController", max_time: float, max_statements: int) 
     return found
 
 
-def _fault(task: str, fault: "FatalError") -> Diagnostic:
+def _mend(fault: "FatalError", cell: str) -> str:
+    """What to do about a name that nothing declares; of other errors the program knows more."""
+    if "ERR_REFUNKDAT" in fault.arguments:
+        declared = "or load the module that declares it"
+        if cell:
+            return f"say it in the cell's description (`rapidgen schema --cell`), {declared}"
+        return (
+            f"`--cell guess` makes signals, tools and work objects that programs name, {declared}"
+        )
+    if {"ERR_REFUNKPRC", "ERR_REFUNKFUN"} & set(fault.arguments):
+        return "load the module that declares it"
+    return ""
+
+
+def _fault(task: str, fault: "FatalError", cell: str) -> Diagnostic:
     place = fault.stack[-1] if fault.stack else None
     notes = [f"event {fault.event} in task {task}"]
     notes += [t for t in fault.arguments if t]
@@ -213,5 +229,6 @@ def _fault(task: str, fault: "FatalError") -> Diagnostic:
         "RG407",
         fault.span or (place.span if place is not None else None),
         fault.title,
+        _mend(fault, cell),
         notes=tuple(notes),
     )

@@ -67,12 +67,24 @@ def sim(
         bool,
         typer.Option("--rws-lenient", help="Let through what real web services refuse."),
     ] = False,
+    rws_deny: Annotated[
+        list[str] | None,
+        typer.Option(help="UAS name of a grant that `Default User` lacks.", metavar="GRANT"),
+    ] = None,
     view: Annotated[
         bool, typer.Option("--view", help="Serve a page that shows the robot: `view` in `ready`.")
     ] = False,
     view_port: Annotated[
         int, typer.Option(help="Port of that page; 0: any free port.", min=0, max=65_535)
     ] = 0,
+    record: Annotated[
+        Path | None,
+        typer.Option(help="Record everything: FILE.mcap, after a restart FILE-2.mcap ..."),
+    ] = None,
+    watch: Annotated[
+        list[str] | None,
+        typer.Option(help="Record an expression, too; may be repeated.", metavar="TASK:EXPRESSION"),
+    ] = None,
     answers: Annotated[
         Path | None, typer.Option(help="The operator's answers: `rapidgen explain RG420`.")
     ] = None,
@@ -85,7 +97,8 @@ def sim(
     What a controller would not load is refused: all its errors are told, nothing runs. When
     its servers may be reached, stdout gets one line: `ready` and a JSON object with the ports of
     each group, of the control socket, and of the file servers with their login. What the
-    operator and the event log would show goes to stderr. Ctrl-C ends it.
+    operator and the event log would show goes to stderr. Ctrl-C ends it. The other verbs find it
+    by `--to sim`.
     """
     from rapidgen.cli.bootable import chosen
     from rapidgen.controller.cabinet import Cabinet
@@ -109,6 +122,7 @@ def sim(
     script = read_answers(answers) if answers is not None else None
     _check_host(host)
     _check_release(found, rws)
+    denied = _denied(rws_deny or ())
     if ports is None and found.driver:
         _check_ports(found, host, port_offset)
     with Cabinet.boot(
@@ -126,8 +140,9 @@ def sim(
             _start_cold(cabinet.controller)
         with (
             _control(cabinet) as control,
-            _faces(cabinet, host, ftp, sftp, (rws, rws_port, not rws_lenient)) as faces,
+            _faces(cabinet, host, ftp, sftp, (rws, rws_port, not rws_lenient, denied)) as faces,
             _page(cabinet, host, view_port if view else None) as page,
+            _recording(cabinet, record, watch or ()),
         ):
             return _serve(cabinet, found, host, speed, {"control": control, **faces, **page})
 
@@ -137,8 +152,10 @@ def _serve(
 ) -> int:
     """Run until a signal comes; the exit code."""
     import json
+    import os
     import signal
 
+    from rapidgen._running import Simulator, published
     from rapidgen.cli.readiness import PATIENCE, Readiness
 
     ended = False
@@ -173,18 +190,22 @@ def _serve(
             return 0
         if not readiness.up:
             raise readiness.refusal()
+        addresses = _addresses(controller, target, host)
         found = {
             "name": target.name,
             "host": host,
             "ports": _ports(controller, target),
+            "address": addresses,
             "listeners": {str(p): at[1] for p, at in controller.network.listeners.items()},
             **faces,
         }
         if not target.driver:
             for place in controller.where():
                 typer.echo(place, err=True)
-        typer.echo(f"ready {json.dumps(found)}")
-        cabinet.run(lambda: ended)
+        own = Simulator(target.name, os.getpid(), addresses)
+        with published(own):
+            typer.echo(f"ready {json.dumps(found)}")
+            cabinet.run(lambda: ended)
     finally:
         for number, handler in before.items():
             signal.signal(number, handler)
@@ -231,7 +252,7 @@ def _faces(
     host: str,
     ftp: int | None,
     sftp: int | None,
-    rws: tuple[str | None, int, bool],
+    rws: tuple[str | None, int, bool, frozenset[str]],
 ) -> "Iterator[Members]":
     """HOME over FTP and SFTP, Robot Web Services; what `ready` tells of each.
 
@@ -258,14 +279,15 @@ def _faces(
             if service.host_key:
                 login["host_key"] = service.host_key
             told[name] = login
-        generation, port, strict = rws
+        generation, port, strict, denied = rws
         if generation is not None:
             from rapidgen.faces.rws.office import Accounts
-            from rapidgen.faces.rws.server import serve_rws
+            from rapidgen.faces.rws.server import KNOWN, serve_rws
             from rapidgen.wire.rws.bodies import Generation
 
-            own = os.environ.get("RAPIDGEN_PASSWORD")
-            accounts = Accounts({"Default User": own}) if own else None
+            own = os.environ.get("RAPIDGEN_PASSWORD") or KNOWN
+            users = {"Default User": own, "Admin": own}
+            accounts = Accounts(users, denied)
             which = Generation(int(generation))
             service = serve_rws(cabinet, which, host, port, accounts, strict=strict)
             stack.callback(service.close)
@@ -294,6 +316,40 @@ def _page(cabinet: "Cabinet", host: str, port: int | None) -> "Iterator[Members]
         yield {"view": page.url}
     finally:
         page.close()
+
+
+@contextmanager
+def _recording(cabinet: "Cabinet", path: Path | None, watches: "Iterable[str]") -> "Iterator[None]":
+    """A recording while it runs, another one after each restart. Raises OSError."""
+    pairs = [(task, text) for task, _, text in (watch.partition(":") for watch in watches)]
+    for task, text in pairs:
+        if not text or task not in cabinet.controller.rapid_tasks:
+            known = ", ".join(cabinet.controller.rapid_tasks)
+            raise typer.BadParameter(f"--watch takes TASK:EXPRESSION; tasks are {known}")
+    if path is None:
+        if pairs:
+            raise typer.BadParameter("--watch is for --record")
+        yield
+        return
+    from rapidgen.view.recording.writer import record
+
+    serial = 1
+    end = record(cabinet.controller, path, pairs)
+
+    def again() -> None:
+        nonlocal end, serial
+        serial += 1
+        end = record(cabinet.controller, path.with_stem(f"{path.stem}-{serial}"), pairs)
+
+    def stop() -> None:
+        end()
+
+    cabinet.on_restart.append(stop)
+    cabinet.on_boot.append(again)
+    try:
+        yield
+    finally:
+        end()
 
 
 def _start_cold(controller: "VirtualController") -> None:
@@ -325,6 +381,16 @@ def _ports(controller: "VirtualController", target: "Bootable") -> dict[str, dic
     }
 
 
+def _addresses(controller: "VirtualController", target: "Bootable", host: str) -> dict[str, str]:
+    """HOST:MOTION,STATE[,CONTROL] of every group, for clients on this machine."""
+    here = "127.0.0.1" if host == "0.0.0.0" else host
+    found = {}
+    for group, ports in _ports(controller, target).items():
+        told = [str(ports[role]) for role in ("motion", "state", "control") if role in ports]
+        found[group] = f"{here}:{','.join(told)}"
+    return found
+
+
 def _check_host(host: str) -> None:
     import ipaddress
 
@@ -343,6 +409,15 @@ def _check_release(target: "Bootable", rws: str | None) -> None:
         raise typer.BadParameter(
             f"{target.name} is for RobotWare {major}.{minor}, which serves --rws {wanted}"
         )
+
+
+def _denied(grants: "Iterable[str]") -> frozenset[str]:
+    from rapidgen.wire.rws.grants import GRANTS
+
+    unknown = sorted(set(grants) - set(GRANTS))
+    if unknown:
+        raise typer.BadParameter(f"--rws-deny knows no grant {unknown[0]}: {', '.join(GRANTS)}")
+    return frozenset(grants)
 
 
 def _check_ports(target: "Bootable", host: str, offset: int) -> None:

@@ -1,19 +1,22 @@
-"""`rapidgen stop`: STOP to all motion groups of a robot, at once."""
+"""`rapidgen stop`: STOP to all motion groups of a robot, at once.
 
-from typing import TYPE_CHECKING, Annotated
+The first STOP is on its way before this is imported: `quick_stop`.
+"""
+
+from typing import Annotated
 
 import typer
 
 from rapidgen.cli import options
-
-if TYPE_CHECKING:
-    from rapidgen.client import State
+from rapidgen.cli.goals import Units, named_text
 
 
 def stop(
     config: options.ConfigOrHost,
     to: options.RobotAddress = "",
     group: Annotated[str, typer.Option(help="Only this motion group.")] = "",
+    rad: options.InRad = False,
+    as_json: options.AsJson = False,
 ) -> int:
     """Stop the robot: every motion group, or one. Not a safety function."""
     from rapidgen.client import Cell, Robot, Timeouts
@@ -27,13 +30,17 @@ def stop(
         cell.stop()
     finally:
         cell.close()
+    told = {}
     for name in names:
         with Robot(config, address=to or None, group=name, watch=True) as watcher:
             state = watcher.wait_until(lambda s: not s.is_moving, timeout=5)
-        label = f"{name}: " if name else ""
-        typer.echo(f"{label}stopped at {_joints(state)}")
+            told[name] = state.by_name
+            if not as_json:
+                label = f"{name}: " if name else ""
+                where = named_text(Units(rad), watcher.group, state.joints)
+                typer.echo(f"{label}stopped at {where}")
+    if as_json:
+        import json
+
+        typer.echo(json.dumps({"stopped": True, "groups": told}))
     return 0
-
-
-def _joints(state: "State") -> str:
-    return ", ".join(f"{name} {value:.4f}" for name, value in state.by_name.items())

@@ -1,19 +1,15 @@
 """`rapidgen test`: the driver's own suite, on the virtual controller, for this robot."""
 
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from rapidgen.cli import options
+from rapidgen.cli.progress import Bars
 from rapidgen.diagnostics import DiagnosticError, error, refusal, suggest
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from rich.progress import TaskID
-
     from rapidgen.config.model import RobotConfig
     from rapidgen.proving.model import Proof
 
@@ -53,6 +49,19 @@ def test(
     html: Annotated[
         Path | None, typer.Option(help="Write a report with plots.", metavar="FILE")
     ] = None,
+    results: Annotated[
+        Path | None,
+        typer.Option(help="Keep every result in FILE as it comes.", metavar="FILE"),
+    ] = None,
+    resume: Annotated[
+        bool, typer.Option("--resume", help="Go on where --results FILE was broken off.")
+    ] = False,
+    budget: Annotated[
+        str | None, typer.Option(help="Begin nothing more after that.", metavar="30min")
+    ] = None,
+    stop_on_failure: Annotated[
+        bool, typer.Option("--stop-on-failure", help="End with the first that does not hold.")
+    ] = False,
     overrides: options.Overrides = None,
     backup: Annotated[
         Path | None,
@@ -70,6 +79,7 @@ def test(
     import json
 
     from rapidgen.config import load_config
+    from rapidgen.proving.campaign import Limits
     from rapidgen.proving.report import as_json as report_as_json
     from rapidgen.proving.report import write_html, write_junit
     from rapidgen.proving.run import prove
@@ -83,9 +93,12 @@ def test(
     _check_names(case or [])
     assuming = [text for given in assume or () for text in given.split(",")]
     assumed(assuming)
-    for path in (junit, html):
+    limits = Limits(_seconds(budget), stop_on_failure)
+    if resume and results is None:
+        raise _resumes_nothing()
+    for path in (junit, html, results):
         _check_writable(path)
-    with _Progress() as progress:
+    with Bars() as progress:
         report = prove(
             model,
             seeds=seeds,
@@ -94,6 +107,9 @@ def test(
             strength=0 if quick else together,
             assuming=assuming,
             progress=progress,
+            limits=limits,
+            results=results,
+            resume=resume,
         )
     if junit is not None:
         write_junit(report, junit)
@@ -153,27 +169,25 @@ def _check_writable(path: Path | None) -> None:
         ) from fault
 
 
-class _Progress:
-    """A bar for each kind of work, on a terminal only."""
+_UNITS = {"s": 1, "min": 60, "h": 3600, "d": 86400}
 
-    def __init__(self) -> None:
-        from rich.console import Console
-        from rich.progress import Progress
 
-        self._bars = Progress(console=Console(stderr=True), disable=not sys.stderr.isatty())
-        self._tasks: dict[str, TaskID] = {}
+def _seconds(budget: str | None) -> float:
+    import math
+    import re
 
-    def __enter__(self) -> "Callable[[str, int, int], None]":
-        self._bars.start()
-        return self._step
+    if budget is None:
+        return math.inf
+    told = re.fullmatch(r"(\d+(?:\.\d+)?) ?(s|min|h|d)", budget)
+    if told is None:
+        mend = f"write a number and one of {', '.join(_UNITS)}: --budget 30min"
+        raise refusal("RG806", None, f"'{budget}' is no time", mend)
+    return float(told[1]) * _UNITS[told[2]]
 
-    def __exit__(self, *_: object) -> None:
-        self._bars.stop()
 
-    def _step(self, what: str, done: int, total: int) -> None:
-        if what not in self._tasks:
-            self._tasks[what] = self._bars.add_task(what, total=total)
-        self._bars.update(self._tasks[what], completed=done)
+def _resumes_nothing() -> DiagnosticError:
+    mend = "name the file that has them: --results FILE --resume"
+    return refusal("RG805", None, "--resume goes on with results, and no file was named", mend)
 
 
 def _show(report: "Proof", uncovered: bool) -> None:
@@ -205,6 +219,8 @@ def _show(report: "Proof", uncovered: bool) -> None:
     for finding in report.findings:
         console.print(f"failed: --replay {finding.seed}: {finding.detail}", markup=False)
     verdict = "everything held" if report.passed else "something did not hold"
+    if report.left:
+        verdict += f", {report.left} were not tried"
     if report.broken_off:
         verdict = "broken off"
     console.print(

@@ -30,7 +30,7 @@ from typing import TYPE_CHECKING, Any, Self
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, error
 
 if TYPE_CHECKING:
-    from rapidgen.client.core.state import State
+    from rapidgen.client.core.state import Event, State
     from rapidgen.wire.simple_message.spec import Reason
 
 
@@ -116,18 +116,24 @@ class RequestRefused(_Told):
 
 
 class RoutineFailed(RobotError):
-    """A procedure that was called has raised an error: `number` is its ERRNO."""
+    """A procedure that was called has raised an error: `number` is its ERRNO, `name` what RAPID or
+    the program calls it, empty: nothing does. Or an error that it did not handle has stopped the
+    program of the robot: `event` is the controller's, with the place."""
 
     def __init__(
         self,
         diagnostic: Diagnostic,
         *,
         number: int,
+        name: str = "",
+        event: "Event | None" = None,
         messages: Iterable[tuple[float, str]] = (),
         states: "Iterable[State]" = (),
     ) -> None:
         super().__init__(diagnostic, messages=messages, states=states)
         self.number = number
+        self.name = name
+        self.event = event
 
 
 class InvalidTrajectory(RobotError):

@@ -47,10 +47,13 @@ def _key(address: Address, trajectory: Trajectory) -> str:
     return content.hexdigest()[:32]
 
 
-def first_speed(address: Address, trajectory: Trajectory) -> float:
-    """FIRST_SPEED when this trajectory never ran to its end on this host, 1 otherwise."""
+def first_speed(address: Address, trajectory: Trajectory | None) -> float:
+    """FIRST_SPEED when this trajectory never ran to its end on this host, 1 otherwise; None: one
+    that is made on the spot."""
     if address.is_loopback:
         return 1.0
+    if trajectory is None:
+        return FIRST_SPEED
     try:
         known = _memory().read_text(encoding="ascii").split()
     except (OSError, UnicodeDecodeError):

@@ -95,6 +95,8 @@ ZONES: Mapping[str, Zone] = {
 """RAPID's own, by name."""
 SpeedLike: TypeAlias = float | Speed
 """m/s of the TCP, or all parts."""
+Argument: TypeAlias = float | bool | str | Pose | Sequence[float]
+"""Of a routine: a num, a bool, a string; the pose of a robtarget, the joints of a jointtarget."""
 ZoneLike: TypeAlias = float | str | Zone
 """m, a name of RAPID's such as "fine" and "z10", or all parts."""
 
@@ -150,7 +152,7 @@ class ProgramStep:
     value: float = 0.0
     seconds: float = 0.0
     routine: str = ""
-    arguments: tuple[float | bool | str, ...] = ()
+    arguments: tuple[Argument, ...] = ()
 
 
 class _Operands(TypedDict, total=False):
@@ -166,7 +168,7 @@ class _Operands(TypedDict, total=False):
     value: float
     seconds: float
     routine: str
-    arguments: tuple[float | bool | str, ...]
+    arguments: tuple[Argument, ...]
 
 
 class Program:
@@ -262,12 +264,15 @@ class Program:
         signals on its way."""
         return self._add(Instruction.SET, signal=signal, value=float(value))
 
-    def call(self, routine: str, *arguments: float | bool | str) -> Self:
+    def call(self, routine: str, *arguments: Argument, timeout: float = 0.0) -> Self:
         """Call a procedure of the controller's program, by its name in the configuration, with a
-        value for each of its parameters. It runs in the motion task, while the robot stands
-        and nothing of this program is left to move. What it raises ends the program; a STOP leaves
-        it, wherever it is."""
-        return self._add(Instruction.CALL, routine=routine, arguments=arguments)
+        value for each of its parameters; a pose is reached in the nearest posture, with the tool in
+        use. It runs in the motion task, while the robot stands and nothing of this program is left
+        to move. What it raises ends the program; a STOP leaves it, wherever it is, and so does the
+        controller after `timeout` s (0: never)."""
+        return self._add(
+            Instruction.CALL, routine=routine, arguments=arguments, seconds=float(timeout)
+        )
 
     def _hold(self, speed: SpeedLike | None, zone: ZoneLike | None) -> None:
         if speed is not None:

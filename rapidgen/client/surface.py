@@ -276,6 +276,8 @@ class RobotSurface(Generic[C_co, Execution, Stream, Run]):
     set_speed = _of_core(flows.control.set_speed)
     read_signal = _of_core(flows.control.read_signal)
     write_signal = _of_core(flows.control.write_signal)
+    read_data = _of_core(flows.data.read)
+    write_data = _of_core(flows.data.write)
     stop = _of_core(flows.stop.stop)
 
     move_to = _of_core(flows.program.move_to)

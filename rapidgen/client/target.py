@@ -5,6 +5,7 @@ from os import PathLike
 from rapidgen.client.address import LOOPBACK, Address, parse_address
 from rapidgen.client.core.group import Group
 from rapidgen.client.errors import fault
+from rapidgen.client.simulated import SIMULATOR, find_simulator
 from rapidgen.config import load_config, shipped_names
 from rapidgen.config.model import GroupConfig, RobotConfig
 from rapidgen.diagnostics import DiagnosticError, suggest
@@ -18,8 +19,8 @@ def resolve(
     """Where to connect, and what is known about the robot (None: ask the driver).
 
     A RobotConfig, a path that ends in .yaml, or a shipped name is a configuration; it is looked
-    for at `address`, else on this machine. Any other text is an address itself. Raises
-    DiagnosticError.
+    for at `address`, else on this machine. Any other text is an address itself. `sim` as an address
+    is the simulator that runs. Raises DiagnosticError.
     """
     if isinstance(target, RobotConfig):
         config = target
@@ -34,11 +35,13 @@ def resolve(
                         suggest(text, shipped_names()) or "`rapidgen robots` lists the names",
                     )
                 )
-            return parse_address(text), None
+            return find_simulator() if text == SIMULATOR else parse_address(text), None
         config = load_config(text)
     chosen = _group(config, group)
     if isinstance(address, Address):
         return address, Group.of(config, chosen)
+    if address == SIMULATOR:
+        return find_simulator(config.name, chosen.name), Group.of(config, chosen)
     return parse_address(address or LOOPBACK, chosen.ports), Group.of(config, chosen)
 
 

@@ -9,7 +9,7 @@ from rapidgen.config.draft import DraftFindings, GroupDraft
 from rapidgen.config.draft import Path as KeyPath
 from rapidgen.config.joints import joints_of
 from rapidgen.config.registry import find_shipped
-from rapidgen.config.tooling import routine_of, tool_of, work_object_of
+from rapidgen.config.tooling import data_of, routine_of, tool_of, work_object_of
 from rapidgen.config.variant_model import label
 from rapidgen.diagnostics import Severity
 
@@ -135,6 +135,9 @@ def _check_profile(configuration: schema.ConfigurationKeys, report: DraftFinding
         for name, group in configuration.groups.items()
         if group.ports.control
     ]
+    asked += [
+        ("groups", name, "data") for name, group in configuration.groups.items() if group.data
+    ]
     for path in asked:
         report.error(
             "RG014",
@@ -227,9 +230,10 @@ def _group(
             for number, wobj in enumerate(keys.work_objects)
         ),
         routines=tuple(
-            routine_of(name, routine, (*path, "routines", name), report)
+            routine_of(name, routine, (*path, "routines", name), report, bool(draft.chain))
             for name, routine in keys.routines.items()
         ),
+        data=data_of(keys, path, report),
         tcp_speed_limit=keys.tcp_speed_limit / 1000,
         external_units=tuple(keys.external_units),
         positioners=tuple(

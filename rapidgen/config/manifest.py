@@ -6,7 +6,7 @@ import typing
 from pathlib import Path
 
 from rapidgen._json import Json, Members, members
-from rapidgen.config.model import RobotConfig
+from rapidgen.config.model import GroupConfig, RobotConfig
 from rapidgen.config.rules import Hint
 from rapidgen.diagnostics import refusal
 
@@ -14,6 +14,18 @@ from rapidgen.diagnostics import refusal
 def to_manifest(config: RobotConfig) -> Members:
     """The configuration as dicts, lists, texts and numbers, without its path and inputs."""
     return members(_out(config))
+
+
+def group_to_manifest(group: GroupConfig) -> Members:
+    """One group of it, likewise."""
+    return members(_out(group))
+
+
+def group_from_manifest(data: Json, path: Path) -> GroupConfig:
+    """What `group_to_manifest` gave. TypeError, ValueError: it is something else."""
+    made = _in(GroupConfig, data, "group", path)
+    assert isinstance(made, GroupConfig)
+    return made
 
 
 def _out(value: object) -> Json:

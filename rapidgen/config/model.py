@@ -110,17 +110,29 @@ class OwnParameter:
     """A parameter of a routine; `inout`: its value then is a result."""
 
     name: str
-    type: Literal["num", "bool", "string"]
+    type: Literal["num", "bool", "string", "robtarget", "jointtarget"]
     inout: bool = False
 
 
 @dataclass(frozen=True, slots=True)
 class OwnRoutine:
-    """A procedure of the customer's that a program may call; `call` is what late binding finds."""
+    """A procedure of the customer's that a program may call; `call` is what late binding finds.
+    One that `returns` something is a function, which the module that calls it is linked to."""
 
     name: str
     call: str
     parameters: tuple[OwnParameter, ...] = ()
+    returns: Literal["", "num", "bool", "string"] = field(default="", metadata=SPARSE)
+
+
+@dataclass(frozen=True, slots=True)
+class OwnDatum:
+    """A PERS of the customer's that clients may read, and write where `access` says so; `name` is
+    MODULE:DATUM."""
+
+    name: str
+    type: Literal["num", "bool", "string"]
+    access: Literal["read", "write"] = "read"
 
 
 @dataclass(frozen=True, slots=True)
@@ -177,6 +189,7 @@ class GroupConfig:
     """Further ones, for motion programs."""
     work_objects: tuple[WorkObject, ...] = field(default=(), metadata=SPARSE)
     routines: tuple[OwnRoutine, ...] = field(default=(), metadata=SPARSE)
+    data: tuple[OwnDatum, ...] = field(default=(), metadata=SPARSE)
     kept: tuple[KeptAxis, ...] = field(default=(), metadata=SPARSE)
     """Robot axes without a joint."""
     unit_group: str = field(default="", metadata=SPARSE)

@@ -98,6 +98,7 @@ def _key_of(part: type) -> str:
         schema.FrameKeys: "frames",
         schema.LoadKeys: "`tool.load`",
         schema.SignalKeys: "`signals.NAME`",
+        schema.DatumKeys: "`data.MODULE:NAME`",
         schema.WorkObjectKeys: "`work_object`",
     }
     return names.get(part, f"`{_shown(part.__name__).lower()}`")

@@ -28,6 +28,7 @@ ROBOT_AXES = list(get_args(RobotAxis))
 NAME = r"^[A-Za-z][A-Za-z0-9_]{0,31}$"
 """A name of RAPID."""
 Identifier = Annotated[str, Rule(pattern=NAME)]
+DatumName = Annotated[str, Rule(pattern=r"^[A-Za-z][A-Za-z0-9_]{0,31}:[A-Za-z][A-Za-z0-9_]{0,31}$")]
 GroupName = Annotated[str, Rule(pattern=r"^[a-z][a-z0-9_]{0,11}$")]
 ConfigName = Annotated[str, Rule(pattern=r"^[A-Za-z][A-Za-z0-9_-]{0,39}$")]
 Port = Annotated[int, Rule(ge=1025, le=65535)]
@@ -220,9 +221,12 @@ class ParameterKeys(Part):
     """A parameter of a routine."""
 
     name: Annotated[Identifier, Rule("Name of the parameter, for people.")]
-    type: Annotated[Literal["num", "bool", "string"], Rule("Type; a string has 80 characters.")]
+    type: Annotated[
+        Literal["num", "bool", "string", "robtarget", "jointtarget"],
+        Rule("Type; a string has 80 characters."),
+    ]
     mode: Annotated[
-        Literal["in", "inout"], Rule("`inout`: its value then is a result (num and bool).")
+        Literal["in", "inout"], Rule("`inout`: its value then is a result (not of a target).")
     ] = "in"
 
 
@@ -240,6 +244,20 @@ class RoutineKeys(Part):
     parameters: Annotated[
         list[ParameterKeys], Rule("Its parameters, in their order.", max_length=8)
     ] = field(default_factory=list)
+    returns: Annotated[
+        Literal["", "num", "bool", "string"],
+        Rule(
+            "It is a function of this type. It is linked: without it the motion task does not run."
+        ),
+    ] = ""
+
+
+@dataclass(frozen=True)
+class DatumKeys(Part):
+    """A PERS of a module of yours in the motion task, global there, that clients may reach."""
+
+    type: Annotated[Literal["num", "bool", "string"], Rule("Type.")]
+    access: Annotated[Literal["read", "write"], Rule("`write`: read and written.")] = "read"
 
 
 @dataclass(frozen=True)
@@ -365,6 +383,13 @@ class GroupKeys(Part):
     ] = field(default_factory=list)
     routines: Annotated[
         dict[Identifier, RoutineKeys], Rule("Procedures of yours that clients may call, by name.")
+    ] = field(default_factory=dict)
+    data: Annotated[
+        dict[DatumName, DatumKeys],
+        Rule(
+            "PERS of yours that clients may read and write, by `MODULE:NAME`.",
+            max_length=64,
+        ),
     ] = field(default_factory=dict)
     tcp_speed_limit: Annotated[
         float, Rule("Ceiling of the tool's speed, mm/s; at least 10.", gt=0, le=10000)

@@ -5,6 +5,9 @@ import math
 from rapidgen.config import model, schema
 from rapidgen.config.draft import DraftFindings
 from rapidgen.config.draft import Path as KeyPath
+from rapidgen.diagnostics import Severity
+
+_MOST_PARAMETERS = 8
 
 
 def _unit_quaternion(
@@ -96,18 +99,72 @@ def work_object_of(
 
 
 def routine_of(
-    name: str, given: schema.RoutineKeys, path: KeyPath, report: DraftFindings
+    name: str,
+    given: schema.RoutineKeys,
+    path: KeyPath,
+    report: DraftFindings,
+    has_chain: bool,
 ) -> model.OwnRoutine:
-    """A procedure that a program may call."""
+    """A procedure or function that a program may call."""
     for number, parameter in enumerate(given.parameters):
-        if parameter.type == "string" and parameter.mode == "inout":
+        if parameter.type == "robtarget" and not has_chain:
             report.error(
                 "RG014",
-                f"parameter '{parameter.name}' is a string and no result",
-                (*path, "parameters", number, "mode"),
-                help="results are num and bool",
+                f"nobody knows which joints reach '{parameter.name}'",
+                (*path, "parameters", number, "type"),
+                help="a robtarget needs the group's `chain`; a jointtarget does not",
             )
+        if parameter.type.endswith("target") and parameter.mode == "inout":
+            report.error(
+                "RG014",
+                f"parameter '{parameter.name}' is a {parameter.type} and no result",
+                (*path, "parameters", number, "mode"),
+                help="results are num, bool and string",
+            )
+    if given.returns and len(given.parameters) == _MOST_PARAMETERS:
+        report.error(
+            "RG014",
+            f"function '{name}' has {_MOST_PARAMETERS} parameters",
+            (*path, "parameters"),
+            help=f"at most {_MOST_PARAMETERS - 1}: its value comes behind them",
+        )
+    if given.returns:
+        report.add(
+            "RG069",
+            Severity.WARNING,
+            f"function '{given.call}' is linked to the driver: where it is missing, or has other "
+            "parameters, the motion task has a reference error and does not run",
+            (*path, "returns"),
+            help="a procedure with an INOUT parameter is found when it is called",
+        )
     parameters = tuple(
         model.OwnParameter(p.name, p.type, p.mode == "inout") for p in given.parameters
     )
-    return model.OwnRoutine(name, given.call, parameters)
+    return model.OwnRoutine(name, given.call, parameters, given.returns)
+
+
+def data_of(
+    keys: schema.GroupKeys, path: KeyPath, report: DraftFindings
+) -> tuple[model.OwnDatum, ...]:
+    """What clients may read and write. The control server does it, and finds a datum by the part
+    of its name that is one in the whole task."""
+    if keys.data and keys.ports.control == 0:
+        report.error(
+            "RG014",
+            "`data` needs the control port",
+            (*path, "data"),
+            help="leave out `ports: {control: 0}`, or this",
+        )
+    found: dict[str, str] = {}
+    for name in keys.data:
+        plain = name.partition(":")[2].casefold()
+        if plain in found:
+            report.error(
+                "RG014",
+                f"'{name}' and '{found[plain]}' are one name to RAPID",
+                (*path, "data", name),
+                help="data of two modules of a task are global under two names only",
+                key=True,
+            )
+        found[plain] = name
+    return tuple(model.OwnDatum(name, d.type, d.access) for name, d in keys.data.items())

@@ -10,7 +10,7 @@ import rapidgen.system as files
 from rapidgen.config import from_manifest, load_config
 from rapidgen.config.model import GroupConfig, RobotConfig
 from rapidgen.controller.mechanics import mechanics
-from rapidgen.controller.starts import in_front, start_of, usual_start
+from rapidgen.controller.starts import in_front, stands, start_of, usual_start
 from rapidgen.controller.surroundings import Surroundings, furnish
 from rapidgen.diagnostics import Diagnostic, refusal, suggest
 from rapidgen.system.model import System
@@ -103,6 +103,9 @@ def _loose(targets: Sequence[Source], wishes: Wishes) -> System:
             "name a module, a folder with modules, a generated folder or a backup",
         )
     by_task = {task: list(names) for task, names in wishes.tasks.items()}
+    only = Path(targets[0]) if len(targets) == 1 and not by_task else None
+    if only is not None and only.is_dir() and (folders := files.task_folders(only)):
+        return files.read_files(folders, entry=wishes.entry or "main", name=only.name)
     if targets:
         own = by_task.pop("T_ROB1", [])
         by_task = {"T_ROB1": [*own, *targets], **by_task}
@@ -165,8 +168,11 @@ def _surrounded(found: Bootable, cell: "CellDescription | None", wishes: Wishes)
         from rapidgen.controller.guessing import guess
 
         units = [u for g in found.groups for u in (g.mechanical_unit, *g.external_units)]
-        guessed = guess(found.system, units, in_front(found.groups[0]))
+        first, *others = found.groups
+        guessed = guess(found.system, units, in_front(first), stands(first))
         cell = guessed.cell
+        first = replace(first, external_units=(*first.external_units, *guessed.units))
+        found = replace(found, groups=(first, *others))
     usual = not found.driver
     if cell is None:
         starts = dict(_starts(found.groups, {}, wishes.start, usual=usual))
@@ -174,12 +180,13 @@ def _surrounded(found: Bootable, cell: "CellDescription | None", wishes: Wishes)
     inputs = [name.casefold() for name, keys in cell.signals.items() if keys.kind.endswith("I")]
     return replace(
         found,
-        system=furnish(found.system, cell),
+        system=furnish(found.system, cell, guessed.data if guessed is not None else ()),
         surroundings=Surroundings(
             dict(_starts(found.groups, cell.robots, wishes.start, usual=usual)),
             tuple(reaction for rows in cell.devices.values() for reaction in rows),
             frozenset(inputs if guessed is not None else ()),
             guessed.polled if guessed is not None else (),
+            is_guess=guessed is not None,
         ),
         guessed=guessed,
     )

@@ -314,8 +314,8 @@ class VirtualController:
     def run_until(self, condition: Callable[[], bool], *, timeout: float | None = None) -> bool:
         """Let time pass until `condition()`, looked at after every event and slice.
 
-        False when `timeout` s passed first. Deadlock when nothing is ahead that could change
-        anything.
+        False when `timeout` s passed first, or a debugger has paused. Deadlock when nothing is
+        ahead that could change anything.
         """
         until = None if timeout is None else self.scheduler.now + round(timeout * _NS)
         outcome = self.scheduler.advance(until, condition)
@@ -325,8 +325,8 @@ class VirtualController:
 
     def run(
         self, *, max_time: float | None = None, max_statements: int | None = None
-    ) -> Literal["finished", "time", "statements", "deadlock"]:
-        """Let time pass until no task runs any more.
+    ) -> Literal["finished", "time", "statements", "deadlock", "paused"]:
+        """Let time pass until no task runs any more; `paused`: a debugger holds everything.
 
         `max_statements` bounds the work of all tasks, at the cost model's price of a statement.
         """
@@ -343,6 +343,8 @@ class VirtualController:
         outcome = scheduler.advance(until, lambda: self._all_ended() or exhausted())
         if self._all_ended():
             return "finished"
+        if outcome == "paused":
+            return "paused"
         if outcome == "stop":
             return "statements"
         # Nothing ahead before the limit of time is a deadlock, however long one would wait.

@@ -3,13 +3,16 @@
 A public program seldom has its controller's configuration beside it. The type of a name is that of
 the parameter that it is an argument of; where it is only read, its first letters tell as ABB's
 examples name signals (di, do, gi, go, ai, ao), and what is compared with 0 or 1 is a digital input.
-Tools have the load of tool0 and are the flange; a work object is a table in front of the robot.
-Values of other types say something about the program that nobody can guess; they stay unknown.
+Tools have the load of tool0 and are the flange; a work object is a table in front of the robot; a
+mechanical unit has no axes. Data of other types are what RAPID makes of a declaration without a
+value: 0, FALSE, an empty text; but a target is where the robot stands at first, `v25` is a speed of
+25 mm/s and `z5` a zone of 5 mm. What has no type that could be told stays unknown.
 """
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
+from types import MappingProxyType
 from typing import Literal, cast
 
 from rapidgen.config.cell import CellDescription, CellSignalKeys
@@ -22,10 +25,14 @@ from rapidgen.rapid.binding import (
     RoutineSymbol,
     Scope,
     TaskScope,
+    constant,
     installed_objects,
     match,
 )
+from rapidgen.rapid.binding.expressions import declared_type, type_of
 from rapidgen.rapid.binding.names import called
+from rapidgen.rapid.binding.types import NUMBER
+from rapidgen.rapid.builtins.signatures import type_class
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.rapid.syntax.walk import children, walk
 from rapidgen.system.model import System
@@ -37,6 +44,14 @@ _LOAD = Load(0.001, (0.0, 0.0, 0.000001))
 """That of tool0 [3HAC16581-1 tooldata]: a tool without any is refused by moves."""
 _DIONUM = frozenset(("high", "low", "edge"))
 _DATA = frozenset({"tooldata", "wobjdata", "loaddata"})
+_NUM = re.compile(r"n[A-Z_\d]|num[A-Z_\d]|reg\d")
+"""Names that programmers give to numbers: nCount."""
+_NUMBERED = re.compile(r"[vz](\d{1,4})", re.I)
+_RULED: Mapping[str, str] = {"AND": "bool", "OR": "bool", "XOR": "bool", "DIV": "num", "MOD": "num"}
+"""What operands are by their operator alone."""
+_ORDER = frozenset(("<", ">", "<=", ">="))
+_ALIASIO = 2
+_Use = tuple[n.Name, str, int]
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,14 +74,22 @@ class Guess:
     unknown: tuple[Named, ...]
     polled: tuple[Polled, ...] = ()
     """Comparisons of guessed inputs in loops."""
+    data: tuple[tuple[str, str, str], ...] = ()
+    """Type, name and initial value (empty: none is given) of data that no description has."""
+    units: tuple[str, ...] = ()
+    """Mechanical units."""
 
 
 def guess(
-    system: System, units: Iterable[str] = (), table: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    system: System,
+    units: Iterable[str] = (),
+    table: tuple[float, float, float] = (0.0, 0.0, 0.0),
+    stands: Mapping[str, str] = MappingProxyType({}),
 ) -> Guess:
     """The cell that the programs of `system` seem to stand in.
 
-    `units` are its mechanical units, `table` is where work objects are, m.
+    `units` are its mechanical units, `table` is where work objects are, m, `stands` the robtarget
+    and the jointtarget of the robot at first, as RAPID has them.
     """
     found: dict[str, Named] = {}
     assigned: set[str] = set()
@@ -90,9 +113,9 @@ def guess(
                     surer = replace(before, type=one.type, sure=one.sure)
                     found[one.name.casefold()] = surer
     for key in assigned & found.keys():
-        # No signal is assigned: it is a datum of some type.
+        # No signal is assigned: it is a number.
         if found[key].type.startswith("signal"):
-            found[key] = replace(found[key], type="")
+            found[key] = replace(found[key], type="num")
     made = {one.name: one.type for one in found.values()}
     cell = CellDescription(
         signals={
@@ -112,11 +135,32 @@ def guess(
     unknown = [one for one in found.values() if not _can_be_made(one.type)]
     inputs = {name.casefold() for name, keys in cell.signals.items() if keys.kind[1] == "I"}
     rows = dict.fromkeys(row for row in looked_at if row.signal in inputs)
-    return Guess(cell, tuple(named), tuple(unknown), tuple(rows))
+    data = tuple((one.type, one.name, _value(one, stands)) for one in named if _is_plain(one.type))
+    made_units = tuple(one.name for one in named if one.type == "mecunit")
+    return Guess(cell, tuple(named), tuple(unknown), tuple(rows), data, made_units)
 
 
 def _can_be_made(kind: str) -> bool:
-    return kind.startswith("signal") or kind in _DATA
+    return kind.startswith("signal") or kind in _DATA or kind == "mecunit" or _is_plain(kind)
+
+
+def _is_plain(kind: str) -> bool:
+    """Of a predefined type that any module may declare."""
+    ours = kind.startswith("signal") or kind in _DATA or kind in ("mecunit", "taskid")
+    return not ours and type_class(kind) is not None
+
+
+def _value(one: Named, stands: Mapping[str, str]) -> str:
+    numbered = _NUMBERED.fullmatch(one.name)
+    figure = float(numbered[1]) if numbered is not None else 0.0
+    match one.type:
+        case "speeddata":
+            return f"[{figure or 100:g},500,5000,1000]"
+        case "zonedata" if figure:
+            return f"[FALSE,{figure:g},{figure:g},{figure:g},1,{figure:g},1]"
+        case "zonedata":
+            return "[TRUE,0,0,0,0,0,0]"
+    return stands.get(one.type, "")
 
 
 def _assigned(module: ModuleScope) -> set[str]:
@@ -135,11 +179,10 @@ def _undeclared(module: ModuleScope) -> Iterator[Named]:
     stack: list[tuple[n.Node, Scope]] = [(d, module) for d in reversed(module.tree.declarations)]
     while stack:
         node, scope = stack.pop()
-        for name, kind in _uses(node, scope):
+        for name, kind, sure in _uses(node, scope):
             if scope.find(name.name) is None:
                 at = module.tree.source.span(name.first, name.first)
-                read_as = _read_as(name.name, node)
-                yield Named(name.name, kind or read_as, at, 2 if kind else bool(read_as))
+                yield Named(name.name, kind, at, sure)
         inside = scope
         if isinstance(node, n.RoutineDeclaration):
             inside = module.routine(node)
@@ -148,27 +191,66 @@ def _undeclared(module: ModuleScope) -> Iterator[Named]:
         stack += [(child, inside) for child in reversed(list(children(node)))]
 
 
-def _uses(node: n.Node, scope: Scope) -> Iterator[tuple[n.Name, str]]:
-    """Plain names that stand in a node, with the type that they must have; empty: any."""
+def _uses(node: n.Node, scope: Scope) -> Iterator[_Use]:
+    """Plain names that stand in a node, with the type that they seem to have (empty: any), and how
+    sure that is."""
     if isinstance(node, n.FunctionCall | n.ProcedureCall):
+        if node.name.lower() == "aliasio":
+            yield from _aliased(node, scope)
+            return
         routine = called(scope.find(node.name))
         if isinstance(routine, RoutineSymbol):
-            yield from _arguments(node.arguments, routine, scope)
+            for name, kind in _arguments(node.arguments, routine, scope):
+                # A signal stands for its value where a number is wanted.
+                if kind in ("", "num", "dnum"):
+                    found = _read_as(name.name, node) or kind
+                    yield name, found, 1 if found else 0
+                else:
+                    yield name, kind, 2
         return
-    for read in _read(node):
+    for read, kind in _read(node, scope):
         if isinstance(read, n.Name):
-            yield read, ""
+            # What compares is a number where nothing else tells.
+            plain = kind or (
+                "num" if isinstance(node, n.Binary) and node.operator in _ORDER else ""
+            )
+            found = _read_as(read.name, node) or plain.replace(NUMBER, "num")
+            yield read, found, 1 if found else 0
 
 
-def _read(node: n.Node) -> tuple[n.Expression, ...]:
+def _aliased(node: n.FunctionCall | n.ProcedureCall, scope: Scope) -> Iterator[_Use]:
+    """The signal behind an alias: a text names it, or it stands there itself."""
+    values = [argument.value for argument in node.arguments if argument.value is not None]
+    kind = declared_type(values[-1], scope) if len(values) == _ALIASIO else None
+    if kind is not None and kind.startswith("signal"):
+        given = constant(values[0], scope)
+        if isinstance(given, str):
+            yield n.Name(node.first, node.last, given), kind, 2
+        elif isinstance(values[0], n.Name):
+            yield values[0], kind, 2
+
+
+def _read(node: n.Node, scope: Scope) -> Iterator[tuple[n.Expression, str]]:
+    """Expressions in a node, and what they are by what stands beside them."""
     match node:
         case n.Binary():
-            return node.left, node.right
+            ruled = _RULED.get(node.operator, "")
+            yield node.left, ruled or type_of(node.right, scope) or ""
+            yield node.right, ruled or type_of(node.left, scope) or ""
+        case n.Unary():
+            yield node.operand, "bool" if node.operator == "NOT" else "num"
+        case n.Branch() | n.CompactIf() | n.While():
+            yield node.condition, "bool"
         case n.Assignment():
-            return (node.value,)
+            yield node.value, declared_type(node.target, scope) or ""
+            yield node.target, type_of(node.value, scope) or ""
         case n.Test():
-            return (node.subject,)
-    return ()
+            values = [value for case in node.cases for value in case.values]
+            yield node.subject, next(filter(None, (type_of(v, scope) for v in values)), "")
+        case n.For():
+            yield from ((end, "num") for end in (node.start, node.end))
+        case n.Index():
+            yield from ((index, "num") for index in node.indices)
 
 
 def _arguments(
@@ -178,9 +260,9 @@ def _arguments(
     for pair in match(parameters, arguments, lambda _, alternatives: alternatives[0]).pairs:
         value = pair.argument.value
         if isinstance(value, n.Name) and pair.parameter >= 0:
-            kind = (routine.module or scope.module).base(parameters[pair.parameter].type) or ""
-            # A signal stands for its value where a number is wanted.
-            yield value, "" if kind in ("anytype", "num", "dnum") else kind
+            wanted = parameters[pair.parameter]
+            kind = (routine.module or scope.module).base(wanted.type) or ""
+            yield value, "" if kind == "anytype" or wanted.dimensions else kind
 
 
 def _read_as(name: str, node: n.Node) -> str:
@@ -188,7 +270,7 @@ def _read_as(name: str, node: n.Node) -> str:
     prefix = _PREFIX.match(name)
     if prefix is not None:
         return f"signal{prefix[0].lower()}"
-    if isinstance(node, n.Binary) and node.operator in ("=", "<>"):
+    if isinstance(node, n.Binary) and node.operator in ("=", "<>") and not _NUM.match(name):
         for side in (node.left, node.right):
             if isinstance(side, n.NumberLiteral) and side.value in (0, 1):
                 return "signaldi"

@@ -8,7 +8,7 @@ the next one.
 import sys
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import Protocol, cast, get_args
+from typing import TYPE_CHECKING, Protocol, cast, get_args
 
 from rapidgen.machine.io import Awaited, IOSystem, Relation
 from rapidgen.machine.scheduler import S, Scheduler
@@ -17,6 +17,9 @@ from rapidgen.rapid.syntax import nodes as n
 from rapidgen.rapid.syntax.walk import walk
 from rapidgen.runtime.task.call_stack import stack_at
 from rapidgen.runtime.task.task import Task
+
+if TYPE_CHECKING:
+    from rapidgen.controller.surroundings import Said
 
 _HELD = 0.5
 """Seconds that an input is pressed."""
@@ -87,9 +90,7 @@ class Polling(Protocol):
 class Buttons:
     """Presses the inputs that tasks look for, one after the other."""
 
-    def __init__(
-        self, controller: Polling, rows: tuple[Polled, ...], said: list[tuple[str, float]]
-    ) -> None:
+    def __init__(self, controller: Polling, rows: tuple[Polled, ...], said: "list[Said]") -> None:
         self._controller = controller
         self._rows = rows
         self._said = said

@@ -6,7 +6,7 @@ program: the first MoveL would fail. A driver's robot starts at 0 as its own tes
 
 import math
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from rapidgen.axes.kinematics import Kinematics
 from rapidgen.axes.mapping import JointMap
@@ -45,6 +45,24 @@ def in_front(group: GroupConfig) -> tuple[float, float, float]:
         return (0.0, 0.0, 0.0)
     (x, y, z), _ = kinematics.forward(usual_start(group))
     return (x, y, z / 3)
+
+
+def stands(group: GroupConfig) -> Mapping[str, str]:
+    """Where the robot stands at first as RAPID's robtarget (in world and flange) and jointtarget;
+    none for a model without geometry."""
+    kinematics = Kinematics.of(group)
+    if kinematics is None:
+        return {}
+    posture = usual_start(group)
+    place, turn = kinematics.forward(posture)
+    robax, extax = JointMap.of(group).to_rapid(posture)
+    robtarget = (
+        [round(1000 * value, 3) for value in place],
+        [round(value, 6) for value in turn],
+        list(kinematics.configuration(posture)),
+        list(extax),
+    )
+    return {"robtarget": f"{list(robtarget)}", "jointtarget": f"{[list(robax), list(extax)]}"}
 
 
 def start_of(group: GroupConfig, values: Sequence[float], where: str) -> tuple[float, ...]:

@@ -1,13 +1,14 @@
 """What the description of a cell does to a controller: signals and data that its programs find,
 where its robots stand at first, and devices that answer signals."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Protocol
 
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, error, suggest
 from rapidgen.machine.io import Awaited, IOSystem
 from rapidgen.machine.log import EventLog
+from rapidgen.machine.operator import Operator
 from rapidgen.machine.scheduler import S, Scheduler
 from rapidgen.motion.system import MotionSystem
 from rapidgen.runtime.task.task import Task
@@ -21,6 +22,8 @@ GUESSED = 49_910
 """Event: an input that nobody drives became what a program waits for. The number is ours."""
 _PATIENCE = 0.5
 """Seconds that a program waits for a guessed input."""
+Said = tuple[str, float | str]
+"""A guessed input, or a dialog with its text, and what it became."""
 Posture = tuple[float, ...]
 """Controller axes, rad and m, wire order."""
 
@@ -36,6 +39,8 @@ class Surroundings:
     """Inputs that nobody drives, lower case: they become what somebody waits for."""
     polled: "tuple[Polled, ...]" = ()
     """Where programs look for them in loops."""
+    is_guess: bool = False
+    """Whether dialogs are answered that nobody else is there for, and I/O units are as named."""
 
 
 class Booted(Protocol):
@@ -46,13 +51,17 @@ class Booted(Protocol):
         """Its event log."""
 
     io: IOSystem
+    operator: Operator
     motion: MotionSystem
     scheduler: Scheduler
     rapid_tasks: dict[str, Task]
 
 
-def furnish(system: System, cell: "CellDescription") -> System:
-    """`system` with the signals and the data of `cell` that it does not have itself.
+def furnish(
+    system: System, cell: "CellDescription", data: Iterable[tuple[str, str, str]] = ()
+) -> System:
+    """`system` with the signals and the data of `cell` that it does not have itself, and with
+    further `data` (type, name, initial value or nothing).
 
     The data are those of an installed module: a program's own hide them. Raises DiagnosticError
     RG434 for a device that names a signal which nobody has.
@@ -74,6 +83,9 @@ def furnish(system: System, cell: "CellDescription") -> System:
         raise DiagnosticError(faults)
     text = "".join(
         f"    TASK PERS {kind} {name} := {value};\n" for kind, name, value in _data(cell)
+    )
+    text += "".join(
+        f"    VAR {kind} {name}{' := ' if value else ''}{value};\n" for kind, name, value in data
     )
     if not text:
         return system
@@ -112,10 +124,10 @@ def _nameless(system: System, cell: "CellDescription") -> Iterator[Diagnostic]:
                     )
 
 
-def settle(controller: Booted, around: Surroundings) -> list[tuple[str, float]]:
+def settle(controller: Booted, around: Surroundings) -> list[Said]:
     """Put the robots where they start, let devices watch their signals, and guessed inputs become
-    what a program waits for; the list grows by each of these answers (signal, value)."""
-    answered: list[tuple[str, float]] = []
+    what a program waits for; the list grows by each of these answers (signal or dialog, value)."""
+    answered: list[Said] = []
     for name, posture in around.starts.items():
         controller.motion.group(name).jump(posture)
     for reaction in around.reactions:
@@ -139,6 +151,16 @@ def settle(controller: Booted, around: Surroundings) -> list[tuple[str, float]]:
         from rapidgen.controller.polling import Buttons
 
         Buttons(controller, around.polled, answered)
+    controller.io.any_unit = around.is_guess
+    # Beside a real clock a person sits, who answers by the control port.
+    if (
+        around.is_guess
+        and not controller.operator.present
+        and controller.scheduler.clock == "virtual"
+    ):
+        from rapidgen.controller.answering import Chooser
+
+        Chooser(controller.operator, controller.scheduler, answered)
     return answered
 
 

@@ -6,7 +6,9 @@ trajectory is taken), the files, the fence's own files, everything read back onc
 manifest, and last the journal's end. Until `switching` stands, nothing old was touched.
 """
 
+from collections.abc import Callable
 from contextlib import nullcontext
+from dataclasses import replace
 
 from rapidgen.deploy.driverset import FENCE, NEW, DriverSet, SetFile, digest
 from rapidgen.deploy.keep import (
@@ -31,6 +33,7 @@ from rapidgen.deploy.work import (
     delete_all,
     delete_folder,
     differs,
+    go_on,
     names,
     probe,
     swap,
@@ -46,8 +49,11 @@ def apply(
     overwrite: bool = False,
     live: LiveOptions | None = None,
     say: Say = lambda _: None,
+    given_up: Callable[[], bool] = lambda: False,
 ) -> None:
     """Do exactly what `plan` says; nothing when it is empty. `live` is for web services.
+
+    `given_up` is asked until files are switched: then the controller stays as it was (RG545).
 
     Raises DiagnosticError: RG520, RG521, RG531, RG534, RG535, RG537, RG541 (conflicts), RG522,
     RG540 (the controller moved on, is another one), RG527, RG543 (cut), RG542 (not in this
@@ -58,7 +64,7 @@ def apply(
         raise DiagnosticError(conflicts, exit_code=1)
     run = None
     if transport.services is not None and plan.live is not None:
-        work = Work(transport, plan, "none", say)
+        work = Work(transport, plan, "none", say, given_up=given_up)
         run = Live(transport.services, work, plan.live, live or LiveOptions())
         check(run)
     now_there = make_plan(transport, plan.wanted, verb=plan.verb, loaded=plan.cfg_present)
@@ -68,13 +74,13 @@ def apply(
         before_files(run)
     if not plan.files_are_done:
         with writing(run) if run is not None else nullcontext():
-            _apply_files(transport, plan, say)
+            _apply_files(transport, plan, say, given_up)
     if run is not None:
         after_files(run)
 
 
-def _apply_files(transport: Transport, plan: Plan, say: Say) -> None:
-    work = _begin(transport, plan, say)
+def _apply_files(transport: Transport, plan: Plan, say: Say, given_up: Callable[[], bool]) -> None:
+    work = replace(_begin(transport, plan, say), given_up=given_up)
     if plan.interrupted:
         _clean(work)
     if not plan.repair and not plan.is_stale and all(c.action == "same" for c in plan.changes):
@@ -215,7 +221,9 @@ def _prepare(work: Work) -> Journal:
         if not plan.repair:
             back_up(work, number)
         for path, data in staged.items():
+            go_on(work)
             write(work, path, data)
+        go_on(work)
     except TransportFault as fault:
         if not plan.repair and fault.kind not in ("lost", "garbled"):
             _undo_preparation(work, journal)

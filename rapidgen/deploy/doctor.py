@@ -22,6 +22,7 @@ from rapidgen.deploy.transports.registry import Target
 from rapidgen.deploy.transports.transport import Transport, TransportFault
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.system import CfgText
+from rapidgen.wire.rws.bodies import Generation
 
 Verdict = Literal["ok", "warn", "fail", "unknown"]
 
@@ -160,8 +161,8 @@ def _contents(
         yield Check(area, "fail", first.message, first.help)
         return
     yield Check("HOME", "ok", "its files can be read; whether it can be written is not tried")
-    if plan.live is not None:
-        yield from _live(plan, plan.live)
+    if plan.live is not None and transport.services is not None:
+        yield from _live(plan, plan.live, transport.services.generation)
     if plan.interrupted:
         yield Check("deployment", "warn", plan.interrupted, "`rapidgen deploy` or `rollback`")
     elif plan.had is None:
@@ -184,7 +185,7 @@ def _contents(
     yield _space(transport, wanted)
 
 
-def _live(plan: Plan, live: LivePlan) -> Iterator[Check]:
+def _live(plan: Plan, live: LivePlan, generation: Generation) -> Iterator[Check]:
     """What only web services tell."""
     yield Check("controller", "ok", f"{live.shown}, id {live.id}")
     if live.mode != "AUTO":
@@ -196,9 +197,17 @@ def _live(plan: Plan, live: LivePlan) -> Iterator[Check]:
     for module in live.clash:
         mend = "unload it, or `rapidgen deploy --overwrite`, which saves it first"
         yield Check("memory", "fail", f"{module.shown} is loaded, and {module.why}", mend)
+    lacking = live.lacking(generation, restart=True)
+    if lacking:
+        mend = "RobotStudio, User Authorization: give it to this user, or log in as another"
+        yield Check("grants", "warn", f"the user lacks {', '.join(lacking)}", mend)
     if plan.is_pending:
         mend = "`rapidgen deploy --restart`, or menu > Restart"
         yield Check("restart", "warn", "everything is loaded: a restart is pending", mend)
+    elif live.orphans:
+        what = f"{', '.join(live.orphans)} was taken out of cfg: a restart is pending"
+        mend = "`rapidgen uninstall --restart`, or menu > Restart"
+        yield Check("restart", "warn", what, mend)
 
 
 def _clashes(transport: Transport, plan: Plan, wanted: DriverSet) -> Iterator[Check]:

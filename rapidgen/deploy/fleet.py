@@ -3,7 +3,7 @@
 import contextlib
 import threading
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import ThreadPoolExecutor, wait
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal, TypeVar
@@ -15,7 +15,7 @@ from rapidgen.diagnostics import DiagnosticError, refusal
 
 T = TypeVar("T")
 
-Word = Literal["done", "same", "failed", "not begun"]
+Word = Literal["done", "same", "failed", "given up", "not begun"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,17 +45,39 @@ def parse_targets(urls: Iterable[str]) -> tuple[Target, ...]:
     return tuple(found)
 
 
+class GivingUp:
+    """Ctrl-C while work is under way: no other is begun, and `say` hears of it, each time."""
+
+    def __init__(self, say: Callable[[str], None] = lambda _: None) -> None:
+        self._event = threading.Event()
+        self._say = say
+
+    def __bool__(self) -> bool:
+        return self._event.is_set()
+
+    def begin(self) -> None:
+        """Somebody has given up."""
+        self._event.set()
+        self._say("Ctrl-C: what is being switched is switched first, nothing else is begun")
+
+
 def on_all(
-    targets: Sequence[Target], work: Callable[[Target], T], *, parallel: int
+    targets: Sequence[Target],
+    work: Callable[[Target], T],
+    *,
+    parallel: int,
+    giving_up: GivingUp | None = None,
 ) -> list[T | DiagnosticError | None]:
     """`work` on each target, `parallel` at a time; None for those that were not begun.
 
-    After the first DiagnosticError no further target is begun; those under way end.
+    After the first DiagnosticError no further target is begun; those under way end. So it is with
+    Ctrl-C, which is raised then, where nobody is `giving_up`.
     """
     stop = threading.Event()
+    given_up = GivingUp() if giving_up is None else giving_up
 
     def guarded(target: Target) -> T | DiagnosticError | None:
-        if stop.is_set():
+        if stop.is_set() or given_up:
             return None
         try:
             return work(target)
@@ -64,7 +86,15 @@ def on_all(
             return fault
 
     with ThreadPoolExecutor(max_workers=max(1, min(parallel, len(targets)))) as pool:
-        return list(pool.map(guarded, targets))
+        futures = [pool.submit(guarded, target) for target in targets]
+        while not all(future.done() for future in futures):
+            try:
+                wait(futures)
+            except KeyboardInterrupt:
+                given_up.begin()
+    if given_up and giving_up is None:
+        raise KeyboardInterrupt
+    return [future.result() for future in futures]
 
 
 @contextlib.contextmanager

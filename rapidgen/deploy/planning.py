@@ -48,8 +48,9 @@ def make_plan(
         state = replace(state, manifest=mended(transport, layout.home, wanted))
     base = _base(transport, layout.home, state)
     had = base.had
-    if wanted is None and had is None and not base.interrupted:
-        raise refused("RG529", f"{transport.shown}: no deployment of rapidgen lies there")
+    nothing = wanted is None and had is None and not base.interrupted
+    if nothing and transport.services is None:
+        raise _nothing_there(transport)
     if wanted is not None and had is not None and had.name != wanted.name:
         raise refused(
             "RG524",
@@ -72,6 +73,8 @@ def make_plan(
         references = keyed((*old_cfg, *(wanted.cfg if wanted else ())))
         view = look(services, references, _tasks(wanted, old), symbols)
         texts = view.texts
+        if nothing and not view.orphans:
+            raise _nothing_there(transport)
         _check_release(view, wanted, transport.shown)
     _check_robotware(texts, wanted, transport.shown)
     wanted_cfg = wanted.cfg if wanted else ()
@@ -122,7 +125,7 @@ def make_plan(
             find_clashes(services, view, wanted, old),
             saved(transport, layout.home, view) if wanted is None else (),
         )  # fmt: skip
-        steps = live_steps(live, verb, transport.shown)
+        steps = live_steps(live, verb, transport.shown, services.generation)
     else:
         steps = steps_of(
             [(c.path, c.tasks) for c in modules if c.after is not None],
@@ -182,6 +185,10 @@ def make_plan(
         copies(transport, layout.home) if damaged else len(base.origin),
         live,
     )
+
+
+def _nothing_there(transport: Transport) -> DiagnosticError:
+    return refused("RG529", f"{transport.shown}: no deployment of rapidgen lies there")
 
 
 def find_layout(transport: Transport) -> Layout:

@@ -3,7 +3,7 @@
 import json
 import sys
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from rapidgen._json import items, members
@@ -11,7 +11,7 @@ from rapidgen._writing import write_whole
 from rapidgen.config import from_manifest
 from rapidgen.deploy.apply import apply, conflicts_of, moved_on
 from rapidgen.deploy.driverset import DriverSet, digest, from_files, from_folder
-from rapidgen.deploy.fleet import TargetOutcome, connected, on_all
+from rapidgen.deploy.fleet import GivingUp, TargetOutcome, Word, connected, on_all
 from rapidgen.deploy.keep import backup_set
 from rapidgen.deploy.live.carry import LiveOptions, another
 from rapidgen.deploy.live.proof import Hello, ReadBack
@@ -48,6 +48,8 @@ class FleetJob:
     """s for what only people do at a controller."""
     hello: Hello | None = None
     """Which build serves a state port; looked at after a restart."""
+    giving_up: GivingUp = field(default_factory=GivingUp)
+    """Ctrl-C while plans are carried out."""
 
     def loaded(self) -> tuple[CfgText, ...]:
         """What that backup says is loaded. Raises DiagnosticError RG536, RG701, RG702."""
@@ -114,8 +116,12 @@ def _check_data(wanted: DriverSet, backup: Path) -> None:
 
 
 def apply_all(job: FleetJob, plans: Sequence[Plan], say: Say) -> list[TargetOutcome]:
-    """Carry the plans out; a controller that has changed since refuses (RG522)."""
+    """Carry the plans out; a controller that has changed since refuses (RG522).
+
+    Ctrl-C begins nothing more and is raised by nobody: see the outcomes, and `giving_up`.
+    """
     by_target = dict(zip(job.targets, plans, strict=True))
+    giving_up = job.giving_up
 
     def work(target: Target) -> TargetOutcome:
         plan = by_target[target]
@@ -129,6 +135,7 @@ def apply_all(job: FleetJob, plans: Sequence[Plan], say: Say) -> list[TargetOutc
                 overwrite=job.overwrite,
                 live=LiveOptions(job.restart, job.wait, ReadBack(job.hello, target.host)),
                 say=lambda line: say(prefix + line),
+                given_up=lambda: bool(giving_up),
             )
         count = sum(1 for c in plan.changes if c.action != "same")
         pending = plan.live is not None and plan.live.restart and not job.restart
@@ -137,13 +144,14 @@ def apply_all(job: FleetJob, plans: Sequence[Plan], say: Say) -> list[TargetOutc
 
     outcomes = []
     for target, result in zip(
-        job.targets, on_all(job.targets, work, parallel=job.parallel), strict=True
+        job.targets,
+        on_all(job.targets, work, parallel=job.parallel, giving_up=giving_up),
+        strict=True,
     ):
         if isinstance(result, DiagnosticError):
             first = result.diagnostics[0]
-            outcomes.append(
-                TargetOutcome(target, "failed", f"{first.code}: {first.message}", result)
-            )
+            word: Word = "given up" if first.code == "RG545" else "failed"
+            outcomes.append(TargetOutcome(target, word, f"{first.code}: {first.message}", result))
         else:
             outcomes.append(result or TargetOutcome(target, "not begun"))
     return outcomes

@@ -1,14 +1,15 @@
 """A plan and a fleet's table as text."""
 
+import difflib
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from itertools import groupby
 
-from rapidgen._json import Json
 from rapidgen.deploy.cfg import CfgChange
+from rapidgen.deploy.changed import changed_keys
 from rapidgen.deploy.fleet import TargetOutcome
 from rapidgen.deploy.live.plan import BY_SERVICES
-from rapidgen.deploy.plan import FileChange, Plan
+from rapidgen.deploy.plan import FileChange, Plan, lines_of
 
 _SIGNS = {
     "add": "+",
@@ -27,8 +28,6 @@ _SAID = {
     "remove": "were deployed by rapidgen, no longer belong there",
     "restore": "what was there before the first deployment comes back",
 }
-# Of a configuration more than this is another one.
-_KEYS = 8
 
 
 def plan_text(plan: Plan) -> str:
@@ -59,6 +58,9 @@ def plan_text(plan: Plan) -> str:
         out += _cfg_lines(plan, domain)
     if plan.is_pending:
         out.append("  * everything is loaded, and counts after a restart: restart pending")
+    elif plan.live is not None and plan.live.orphans:
+        names = ", ".join(plan.live.orphans)
+        out.append(f"  * cfg no longer has {names}, there until a restart: restart pending")
     for step in plan.steps:
         stop = " (stops motion)" if step.stops_motion else ""
         if step.who == BY_SERVICES:
@@ -72,6 +74,38 @@ def plan_text(plan: Plan) -> str:
     out += [f"  ? {line}" for line in plan.unseen]
     out.append(_summary(plan))
     return "\n".join(out) + "\n"
+
+
+def plans_text(plans: Sequence[Plan], *, diff: bool = False) -> str:
+    """All plans: what is the same for several controllers once, then one line a controller."""
+    alike: dict[tuple[str, str], list[Plan]] = {}
+    for plan in plans:
+        body = plan_text(plan).partition("\n")[2] + (diff_text(plan) if diff else "")
+        alike.setdefault((f"{plan.name} {plan.build_id}", body), []).append(plan)
+    out = []
+    for (_, body), (first, *more) in alike.items():
+        head = plan_text(first).partition("\n")[0]
+        if more:
+            head += f" and {len(more)} more controller{'s' * (len(more) > 1)}, alike"
+        out.append(f"{head}\n{body}")
+    if len(plans) > 1:
+        width = max(len(plan.target) for plan in plans)
+        rows = (f"  {p.target:<{width}}  {_summary(p).removeprefix('Plan: ')}\n" for p in plans)
+        out.append(f"{len(plans)} controllers:\n{''.join(rows)}")
+    return "\n".join(out)
+
+
+def diff_text(plan: Plan) -> str:
+    """Unified diffs of all files that are texts, those that come and go, too."""
+    out: list[str] = []
+    for change in plan.changes:
+        if change.action == "same" or _is_new_id(plan, change):
+            continue
+        before, after = lines_of(change.before), lines_of(change.after)
+        here = change.shown if change.before is not None else "/dev/null"
+        there = change.shown if change.after is not None else "/dev/null"
+        out += difflib.unified_diff(before, after, here, there, lineterm="")
+    return "".join(f"{line}\n" for line in out)
 
 
 def table(outcomes: Sequence[TargetOutcome]) -> str:
@@ -89,21 +123,9 @@ def _changed_keys(plan: Plan) -> list[str]:
     """What differs between the configuration of the last deployment and this one."""
     if plan.had is None or plan.wanted is None:
         return []
-    old = dict(_leaves(plan.had.generated.get("configuration")))
-    new = dict(_leaves(plan.wanted.generated.get("configuration")))
-    keys = [key for key in {**old, **new} if old.get(key) != new.get(key)] if old else []
-    lines = [f"  ~ {key}: {old.get(key, 'none')} -> {new.get(key, 'none')}" for key in keys[:_KEYS]]
-    return lines + ([f"  ~ and {len(keys) - _KEYS} more keys"] if len(keys) > _KEYS else [])
-
-
-def _leaves(value: Json, path: str = "") -> Iterator[tuple[str, str]]:
-    """Each value of a configuration by its path: groups.0.joints.2.upper."""
-    if isinstance(value, dict | list):
-        inner = value.items() if isinstance(value, dict) else enumerate(value)
-        for key, part in inner:
-            yield from _leaves(part, f"{path}.{key}" if path else str(key))
-    elif value is not None:
-        yield path, str(value)
+    old = plan.had.generated.get("configuration")
+    new = plan.wanted.generated.get("configuration")
+    return [f"  ~ {line}" for line in changed_keys(old, new)] if old else []
 
 
 def _file_lines(plan: Plan) -> list[str]:
@@ -118,9 +140,12 @@ def _file_lines(plan: Plan) -> list[str]:
             return folder, _SAID[change.action]
         return (folder, "nothing but the build's id") if _is_new_id(plan, change) else ("", "")
 
+    together: dict[tuple[str, str], list[FileChange]] = {}
+    for change in plan.changes:
+        folder, said = alike(change)
+        together.setdefault((folder, said) if said else (change.path, ""), []).append(change)
     out = []
-    for (folder, said), group in groupby(plan.changes, alike):
-        changes = list(group)
+    for (folder, said), changes in together.items():
         sign = _SIGNS[changes[0].action]
         if said and len(changes) > 1:
             size = sum(len(c.after or b"") for c in changes)
@@ -168,8 +193,10 @@ def _cfg_lines(plan: Plan, domain: str) -> list[str]:
 
 
 def _told_together(change: CfgChange) -> str:
-    """What instances of one line have in common: new ones their section, others nothing."""
-    return change.key.partition(" ")[0] if change.action == "add" else change.key
+    """What instances of one line have in common: new ones and those that go their section,
+    others nothing."""
+    alone = change.action not in ("add", "remove") or change.note
+    return change.key if alone else f"{change.action} {change.key.partition(' ')[0]}"
 
 
 def _first(names: Sequence[str]) -> str:

@@ -67,14 +67,14 @@ def steps_of(
         for name in names:
             tasks.setdefault(name, []).append(path.rpartition("/")[2])
     for restart in ("Restart", "Reset RAPID"):
-        readers = [
-            f"{name} ({kind}) reads {', '.join(files)}"
-            for name, files in tasks.items()
-            if (kind := types.get(name, "NORMAL"))
-            and (kind == "STATIC") == (restart == "Reset RAPID")
-        ]
-        if readers:
-            what = f"{restart} (menu > {restart}): {'; '.join(readers)}"
+        kinds: dict[str, list[str]] = {}
+        for name, files in tasks.items():
+            kind = types.get(name, "NORMAL")
+            if (kind == "STATIC") == (restart == "Reset RAPID"):
+                kinds.setdefault(kind, []).append(f"{name} {_files(files)}")
+        if kinds:
+            read = "; ".join(f"{', '.join(names)} ({kind})" for kind, names in kinds.items())
+            what = f"{restart} (menu > {restart}), so that tasks read again: {read}"
             steps.append(ManualStep("pendant", what, stops_motion=True))
     changed = gone or any(c.action not in ("same", "use") for c in cfg)
     if changed and not any(step.stops_motion for step in steps):
@@ -85,6 +85,11 @@ def steps_of(
         start = "program pointer to main, motors on and start: a person at the robot"
         steps.append(ManualStep("pendant", start))
     return tuple(steps)
+
+
+def _files(names: Sequence[str]) -> str:
+    """One by its name, more by their number: the plan tells which files change."""
+    return names[0] if len(names) == 1 else f"{len(names)} files"
 
 
 def steps_beside(neighbour: Neighbour) -> tuple[ManualStep, ...]:
@@ -133,12 +138,17 @@ def _delete(cfg: Sequence[CfgChange]) -> list[ManualStep]:
 
 
 def _by_file(names: Sequence[str]) -> list[str]:
-    """`FILE TASK` of many tasks as one `FILE in TASK, TASK`."""
+    """`FILE TASK` of many as `FILE, FILE in TASK, TASK`: files of the same tasks together, their
+    folder once."""
     files: dict[str, list[str]] = {}
     for name in names:
         file, _, task = name.partition(" ")
         files.setdefault(file, []).append(task)
-    return [f"{file} in {', '.join(tasks)}" for file, tasks in files.items()]
+    alike: dict[tuple[str, str], list[str]] = {}
+    for path, tasks in files.items():
+        folder, _, file = path.rpartition("/")
+        alike.setdefault((folder, ", ".join(tasks)), []).append(file)
+    return [f"{folder}/ {', '.join(own)} in {tasks}" for (folder, tasks), own in alike.items()]
 
 
 def _load(cfg: Sequence[CfgChange], wanted: Sequence[CfgText]) -> list[ManualStep]:

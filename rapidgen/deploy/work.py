@@ -24,6 +24,8 @@ class Work:
     say: Say
     made: set[str] = field(default_factory=set)
     """Folders that are known to be there."""
+    given_up: Callable[[], bool] = lambda: False
+    """Whether somebody wants it ended; asked only while that leaves everything as it was."""
 
     @property
     def home(self) -> str:
@@ -135,6 +137,17 @@ def _forget(transport: Transport, folder: str, members: tuple[str, ...]) -> None
             transport.delete(f"{folder}/{name}")
     except TransportFault:
         return
+
+
+def go_on(work: Work) -> None:
+    """Raises TransportFault RG545 when somebody has given up."""
+    if work.given_up():
+        raise TransportFault(
+            "denied",
+            f"{work.plan.target}: given up before anything was switched, all is as it was",
+            code="RG545",
+            help="run the same command again",
+        )
 
 
 def differs(path: str) -> TransportFault:

@@ -11,6 +11,7 @@ from rapidgen.config.model import (
     Joint,
     KeptAxis,
     Load,
+    OwnRoutine,
     Payload,
     Placement,
     RobotConfig,
@@ -135,7 +136,11 @@ def group_context(config: RobotConfig, group: GroupConfig, build_id: str) -> dic
         "exposed": exposed,
         "marks": any(signal["is_set"] for signal in exposed),
         "routines": _routines(group),
+        "data": _data(group),
+        "data_reply": messages.DATA.reply(ReplyCode.SUCCESS).length,
         "most_arguments": MOST_ARGUMENTS,
+        "most_targets": _most(group, "robtarget"),
+        "most_places": _most(group, "jointtarget"),
         "result_reply": messages.RESULT.reply(ReplyCode.SUCCESS).length,
         "most_marks": MOST_SIGNALS,
         "heartbeat_reply": messages.HEARTBEAT.reply(ReplyCode.SUCCESS).length,
@@ -197,25 +202,73 @@ def _exposed(config: RobotConfig) -> list[dict[str, object]]:
     ]
 
 
+_FORMS = {
+    # Of a parameter's type: what stands for it in RAPID, and who reads it.
+    "num": ("numbers{{{}}}", "take_num"),
+    "bool": ("yes_{}", "take_bool"),
+    "string": ("texts{{{}}}", "take_text"),
+    "robtarget": ("targets{{{}}}", "take_target"),
+    "jointtarget": ("places{{{}}}", "take_place"),
+}
+
+
 def _routines(group: GroupConfig) -> list[dict[str, object]]:
-    """The customer's procedures, by number."""
-    forms = {"num": "numbers{{{}}}", "string": "texts{{{}}}", "bool": "yes_{}"}
+    """The customer's procedures and functions, by number."""
+    return [_routine(routine, n) for n, routine in enumerate(group.routines, 1)]
+
+
+def _routine(routine: OwnRoutine, n: int) -> dict[str, object]:
+    module, _, procedure = routine.call.rpartition(":")
+    result = len(routine.parameters) + 1
+    answers = [k for k, p in enumerate(routine.parameters, 1) if p.inout and p.type == "bool"] + [
+        result
+    ] * (routine.returns == "bool")
+    return {
+        "n": n,
+        "name": routine.name,
+        "call": routine.call,
+        "module": module,
+        "procedure": procedure,
+        "returns": routine.returns,
+        "result": _FORMS[routine.returns][0].format(result) if routine.returns else "",
+        "answers": answers,
+        "parameters": [
+            {
+                "n": k,
+                "type": parameter.type,
+                "place": _place(routine, k),
+                "reader": _FORMS[parameter.type][1],
+                "argument": _FORMS[parameter.type][0].format(_place(routine, k)),
+            }
+            for k, parameter in enumerate(routine.parameters, 1)
+        ],
+    }
+
+
+def _place(routine: OwnRoutine, k: int) -> int:
+    """Where the value of a parameter is kept: a target among those of its kind."""
+    kind = routine.parameters[k - 1].type
+    if kind in ("robtarget", "jointtarget"):
+        return sum(parameter.type == kind for parameter in routine.parameters[:k])
+    return k
+
+
+def _most(group: GroupConfig, kind: str) -> int:
+    """Parameters of a kind that one routine has, at most."""
+    counts = (sum(p.type == kind for p in routine.parameters) for routine in group.routines)
+    return max(counts, default=0)
+
+
+def _data(group: GroupConfig) -> list[dict[str, object]]:
+    """The customer's data, by number; a name without its module, as GetDataVal wants it."""
     return [
         {
             "n": n,
-            "name": routine.name,
-            "call": routine.call,
-            "parameters": [
-                {
-                    "n": k,
-                    "type": parameter.type,
-                    "inout": parameter.inout,
-                    "argument": forms[parameter.type].format(k),
-                }
-                for k, parameter in enumerate(routine.parameters, 1)
-            ],
+            "name": datum.name.partition(":")[2],
+            "type": datum.type,
+            "is_set": datum.access == "write",
         }
-        for n, routine in enumerate(group.routines, 1)
+        for n, datum in enumerate(group.data)
     ]
 
 

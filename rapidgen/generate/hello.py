@@ -65,7 +65,7 @@ def hello_reply(config: RobotConfig, group: GroupConfig, build_id: str) -> dict[
     forms = {
         Wire.INT32: "PackRawBytes {}, data, {} \\IntX:=DINT",
         Wire.FLOAT32: "PackRawBytes {}, data, {} \\Float4",
-        Wire.CHAR: "pack_text {}, data, {}",
+        Wire.CHAR: "ROS_pack_text {}, data, {}",
     }
     items = []
     offset = spec.PREFIX_BYTES + spec.HEADER_BYTES + 1

@@ -21,6 +21,7 @@ from rapidgen.system.model import TaskType
 COMMON, LIMITS, EVENTS = "ROS_common", "ROS_limits", "ROS_events"
 MESSAGES, SOCKET, STREAM = "ROS_messages", "ROS_socket", "ROS_stream"
 INSTRUCTIONS, PROGRAMS, EXECUTION = "ROS_instructions", "ROS_programs", "ROS_execution"
+DATA = "ROS_data"
 
 OF_FULL = (STREAM, INSTRUCTIONS, PROGRAMS, EXECUTION)
 """What the profile `basic` does not have."""
@@ -55,7 +56,7 @@ ROLES = (
         ),
     ),
     TaskRole("supervisor", "T_ROS_SUP", (COMMON, "ROS_supervisor")),
-    TaskRole("control", "T_ROS_CONTROL", (COMMON, LIMITS, MESSAGES, SOCKET, "ROS_control")),
+    TaskRole("control", "T_ROS_CONTROL", (COMMON, LIMITS, MESSAGES, SOCKET, DATA, "ROS_control")),
     TaskRole("state", "T_ROS_STATE", (COMMON, LIMITS, MESSAGES, SOCKET, "ROS_stateServer")),
 )
 SYSTEM_MODULES = (COMMON, EVENTS, INSTRUCTIONS, LIMITS, MESSAGES, SOCKET)
@@ -64,6 +65,8 @@ SYSTEM_MODULES = (COMMON, EVENTS, INSTRUCTIONS, LIMITS, MESSAGES, SOCKET)
 def roles(config: RobotConfig, group: GroupConfig) -> tuple[TaskRole, ...]:
     """The tasks of a group, with the modules that its profile has."""
     left_out = () if config.profile == "full" else OF_FULL
+    if not group.data:
+        left_out = (*left_out, DATA)
     return tuple(
         replace(role, modules=tuple(m for m in role.modules if m not in left_out))
         for role in ROLES

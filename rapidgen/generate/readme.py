@@ -113,6 +113,7 @@ def _group(config: RobotConfig, n: int) -> dict[str, object]:
             }
             for joint in group.joints
         ],
+        "data": [{"name": d.name, "type": d.type, "access": d.access} for d in group.data],
         "kept": [
             {"n": axis.axis[-1], "at": literal(math.degrees(axis.value)) if axis.must_stand else ""}
             for axis in group.kept

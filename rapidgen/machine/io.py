@@ -174,6 +174,11 @@ class IOSystem:
         """Called with the action when it falls."""
         self.on_awaited: Callable[[Awaited], None] | None = None
         """Called with what somebody begins to wait for."""
+        self._units = {spec.device.casefold() for spec in system.signals} - {""}
+        self.disabled: set[str] = set()
+        """Units that programs have switched off, folded."""
+        self.any_unit = False
+        """Whether every unit that a program names is there: in a guessed cell."""
         self._states: dict[str, dict[str, float]] = {}
         self._outputs = [*self._system_outputs(system)]
         self._actions: dict[int, list[tuple[str, str]]] = {}
@@ -190,6 +195,10 @@ class IOSystem:
         self._settle(system.cross)
 
     # -- reading and finding ----------------------------------------------------------------
+
+    def is_unit(self, name: str) -> bool:
+        """Whether a signal is on the unit of that name."""
+        return self.any_unit or name.casefold() in self._units
 
     def get(self, name: str) -> Signal | None:
         """The signal of that name, or None."""

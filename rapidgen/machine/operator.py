@@ -51,6 +51,8 @@ class Question:
     text: str
     choices: tuple[str, ...]
     check: Callable[[str], object]
+    proposed: str = ""
+    """What the program would like to be answered: a default, an initial value."""
     answer: object = None
     answered: bool = False
     refused: str = ""
@@ -119,9 +121,11 @@ class Operator:
         text: str,
         choices: Iterable[str],
         check: Callable[[str], object],
+        proposed: str = "",
     ) -> Question:
         """Put a dialog on the screen; `withdraw` it in the end."""
-        question = Question(next(self._numbers), task, dialog, text, tuple(choices), check)
+        number = next(self._numbers)
+        question = Question(number, task, dialog, text, tuple(choices), check, proposed)
         self.questions.append(question)
         for line in text.split("\n"):
             self.show(line)

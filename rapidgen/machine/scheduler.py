@@ -14,6 +14,7 @@ compiled code needs one subtraction and one test for clock, preemption, traps an
 import heapq
 import os
 import random
+import select
 import selectors
 import time
 from collections import deque
@@ -25,7 +26,7 @@ import greenlet
 
 ClockKind: TypeAlias = Literal["virtual", "real"]
 Schedule: TypeAlias = Literal["round-robin", "random"]
-AdvanceEnd: TypeAlias = Literal["time", "stop", "idle"]
+AdvanceEnd: TypeAlias = Literal["time", "stop", "idle", "paused"]
 
 MS = 1_000_000
 S = 1_000_000_000
@@ -128,6 +129,7 @@ class Scheduler:
         self._stop: Callable[[], bool] | None = None
         self._stopping = False
         self._hub: greenlet.greenlet | None = None
+        self._paused = False
         self._posted: deque[Callable[[], None]] = deque()
         self._selector: selectors.BaseSelector | None = None
         self._pipe: tuple[int, int] | None = None
@@ -162,9 +164,34 @@ class Scheduler:
         """Call `function` after a delay."""
         return self.at(self.now + max(0, delay_ns), function)
 
+    @property
+    def paused(self) -> bool:
+        """Whether no time passes until `resume()`, whoever asks for it."""
+        return self._paused
+
+    def pause(self, process: Runnable | None = None) -> None:
+        """Let no time pass from now on, for anybody; what is posted is still carried out.
+
+        `process` is the one that asks, between two of its statements: it goes on at `resume()`.
+        """
+        self._paused = True
+        if process is not None:
+            self._front = process
+            self.suspend(process)
+
+    def resume(self) -> None:
+        """Time may pass again, from where it was paused."""
+        if self._paused:
+            self._paused = False
+            self.rebase()
+            self._wake_up()
+
     def post(self, function: Callable[[], None]) -> None:
         """Run `function` on the scheduler's thread. The only method for other threads."""
         self._posted.append(function)
+        self._wake_up()
+
+    def _wake_up(self) -> None:
         if self._pipe is not None:
             os.write(self._pipe[1], b"\0")
 
@@ -222,7 +249,8 @@ class Scheduler:
         """Let time pass.
 
         Returns "time" when `until` is reached, "stop" when `stop()` said so after something
-        happened, "idle" when nothing is ready and nothing is ahead (virtual clock only).
+        happened, "idle" when nothing is ready and nothing is ahead, "paused" while it is paused
+        (both on the virtual clock only).
         """
         self._hub = greenlet.getcurrent()
         self._until, self._stop, self._stopping = until, stop, False
@@ -233,6 +261,8 @@ class Scheduler:
                 self._run_posted()
             if self._stopping or (stop is not None and stop()):
                 return "stop"
+            if self._paused:
+                return "paused"
             if until is not None and self._now >= until:
                 return "time"
             if self._front is not None or self.ready:
@@ -254,10 +284,14 @@ class Scheduler:
         _ = self.selector
         while True:
             if self._posted:
-                self._come_up(self._wall())
+                if not self._paused:
+                    self._come_up(self._wall())
                 self._run_posted()
             if self._stopping or (stop is not None and stop()):
                 return "stop"
+            if self._paused:
+                self._wait_paused()
+                continue
             if until is not None and self._now >= until:
                 return "time"
             busy = self._front is not None or bool(self.ready)
@@ -278,6 +312,13 @@ class Scheduler:
                 self._serve(0.0)
             if not busy:
                 self._fire(max(target, self._now))
+
+    def _wait_paused(self) -> None:
+        """Until something is posted: the sockets of the operating system wait meanwhile."""
+        assert self._pipe is not None
+        if not self._posted:
+            select.select([self._pipe[0]], [], [])
+            self._drain(selectors.EVENT_READ)
 
     def _wall(self) -> int:
         start, wall = self._origin
@@ -419,6 +460,7 @@ class Scheduler:
         until, stop = self._until, self._stop
         if (
             self._stopping
+            or self._paused
             or (until is not None and end >= until)
             or (over and (self.clock == "real" or (stop is not None and stop())))
         ):

@@ -6,12 +6,13 @@ the formulas afterwards, at any period.
 
 import csv
 from bisect import bisect_right
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rapidgen.axes import frames
+from rapidgen.axes.kinematics import Posture
 from rapidgen.machine.scheduler import S, Scheduler
 from rapidgen.motion.group import MotionGroup
 from rapidgen.motion.motion import Motion
@@ -116,6 +117,23 @@ class Recorder:
             self._end = self._scheduler.now
             self._group.observers.remove(self._moved)
             self._group.listeners.remove(self._heard)
+
+    def postures(self, times: Sequence[int]) -> list[tuple[Posture, Posture]]:
+        """Commanded and actual axes (rad, m) at times (ns) that are not forgotten."""
+        lag = round(self._group.settings.servo_lag * S)
+        found = []
+        for time in times:
+            commanded = self._at(time).posture(time)
+            late = max(self._start, time - lag)
+            found.append((commanded, self._at(late).posture(late) if lag else commanded))
+        return found
+
+    def forget(self, before: int) -> None:
+        """Nobody asks for earlier times any more."""
+        lag = round(self._group.settings.servo_lag * S)
+        index = bisect_right(self._motions, before - lag, key=_since) - 1
+        del self._motions[: max(0, index)]
+        self._moves.clear()
 
     def recording(self, period: float = PERIOD) -> Recording:
         """Samples every `period` s from the start until now or the end."""

@@ -5,13 +5,11 @@ that was wrong in both would prove itself. Little endian; rad, m and s.
 """
 
 import struct
-from collections.abc import Sequence
 from enum import IntEnum, IntFlag
 from itertools import islice
 from typing import NamedTuple, TypeAlias
 
 from rapidgen.proving.model import Broken
-from rapidgen.proving.track import Point
 from rapidgen.wire.simple_message import spec
 
 PROTOCOL_VERSION = 3
@@ -23,7 +21,7 @@ INDEX_WRAP = 2**23
 
 PING, JOINT_POSITION, JOINT_TRAJ_PT, STATUS, JOINT_FEEDBACK = 1, 10, 11, 13, 15
 HELLO, PROGRESS, POINTS, STOPPED, PAUSE, SPEED, HEARTBEAT, SIGNAL, EVENT = range(1300, 1309)
-PROGRAM, RESULT = 1309, 1310
+PROGRAM, RESULT, DATA = range(1309, 1312)
 POINT_BYTES, STATE_BYTES = 68, 60 + 44
 """Bytes of a JOINT_TRAJ_PT, and of what every state client gets: JOINT and STATUS."""
 
@@ -151,6 +149,7 @@ class RawReason(IntEnum):
     MOTORS_OFF = 21
     EMERGENCY_STOP = 22
     BUILD_MISMATCH = 24
+    MOVING = 25
     IDLE = 27
     NOT_SERVING = 28
     NO_INSTRUCTION = 29
@@ -161,6 +160,7 @@ class RawReason(IntEnum):
     NO_FRAME = 34
     NO_ROUTINE = 35
     IS_PROGRAM = 36
+    NO_DATUM = 37
     STOPPED = 40
     SUPERSEDED = 41
     CLIENT_LOST = 42
@@ -172,6 +172,7 @@ class RawReason(IntEnum):
     INTERNAL = 49
     WAITED = 50
     ROUTINE = 51
+    OVERTIME = 52
 
 
 def text_of(reason: RawReason) -> str:
@@ -319,6 +320,23 @@ class RawSignal(NamedTuple):
     value: float
 
 
+class RawDatum(NamedTuple):
+    """DATA: read, or with `write` 1 write."""
+
+    datum: int
+    write: int
+    value: float
+    text: str
+
+
+class RawDatumReply(NamedTuple):
+    """Reply to DATA: the value as it was read, after any writing."""
+
+    datum: int
+    value: float
+    text: str
+
+
 class RawEvent(NamedTuple):
     """EVENT of the controller's log."""
 
@@ -326,6 +344,8 @@ class RawEvent(NamedTuple):
     number: int
     type: int
     title: str
+    first: str
+    second: str
 
 
 class RawPointsAccepted(NamedTuple):
@@ -372,9 +392,9 @@ class RawSignalReply(NamedTuple):
 
 
 class RawResult(NamedTuple):
-    """RESULT of the routine that a program called last."""
+    """RESULT of the routine that a program called last, with the text of a parameter."""
 
-    trajectory: int
+    parameter: int
 
 
 class RawResultReply(NamedTuple):
@@ -383,6 +403,7 @@ class RawResultReply(NamedTuple):
     trajectory: int
     error: int
     values: tuple[float, ...]
+    text: str
 
 
 class RawAccepted(NamedTuple):
@@ -409,10 +430,22 @@ class RawFailure(NamedTuple):
 
 _Told: TypeAlias = RawJointPosition | RawStatus | RawJointFeedback | RawProgress | RawStopped
 _Asked: TypeAlias = (
-    RawTrajectoryPoint | RawHello | RawPause | RawSpeed | RawHeartbeat | RawSignal | RawResult
+    RawTrajectoryPoint
+    | RawHello
+    | RawPause
+    | RawSpeed
+    | RawHeartbeat
+    | RawSignal
+    | RawResult
+    | RawDatum
 )
 _Done: TypeAlias = (
-    RawHelloReply | RawHeartbeatReply | RawSignalReply | RawPointsAccepted | RawResultReply
+    RawHelloReply
+    | RawHeartbeatReply
+    | RawSignalReply
+    | RawPointsAccepted
+    | RawResultReply
+    | RawDatumReply
 )
 _Refused: TypeAlias = RawHelloRefusal | RawPointsRefused | RawNotDone | RawRefused | RawFailure
 RawContent: TypeAlias = (
@@ -436,7 +469,7 @@ _LAYOUTS: tuple[tuple[int, int, type[RawContent], str], ...] = (
     (PROGRAM, 1, RawPointsAccepted, "i i i i i i i"),
     (PROGRAM, 2, RawPointsRefused, "i i i i i i"),
     (RESULT, 0, RawResult, "i"),
-    (RESULT, 1, RawResultReply, "i i 8f"),
+    (RESULT, 1, RawResultReply, "i i 8f 80s"),
     (STOPPED, 0, RawStopped, "i i i 10f"),
     (PAUSE, 0, RawPause, "i"),
     (PAUSE, 2, RawNotDone, "i"),
@@ -448,7 +481,10 @@ _LAYOUTS: tuple[tuple[int, int, type[RawContent], str], ...] = (
     (SIGNAL, 0, RawSignal, "i i f"),
     (SIGNAL, 1, RawSignalReply, "i f"),
     (SIGNAL, 2, RawNotDone, "i"),
-    (EVENT, 0, RawEvent, "i i i 80s"),
+    (EVENT, 0, RawEvent, "i i i 80s 80s 80s"),
+    (DATA, 0, RawDatum, "i i f 80s"),
+    (DATA, 1, RawDatumReply, "i f 80s"),
+    (DATA, 2, RawNotDone, "i"),
 )
 _ASKED = {kind: (number, layout) for number, code, kind, layout in _LAYOUTS if code == 0}
 _KNOWN = {
@@ -499,7 +535,8 @@ def encode(content: RawContent, comm: RawComm = RawComm.TOPIC) -> bytes:
     number, layout = _ASKED[type(content)]
     flat: list[object] = []
     for value in content:
-        flat.extend(value if isinstance(value, tuple) else (value,))
+        plain = value.encode("latin-1") if isinstance(value, str) else value
+        flat.extend(plain if isinstance(plain, tuple) else (plain,))
     return framed(number, struct.pack("<" + layout, *flat), comm)
 
 
@@ -521,47 +558,3 @@ def decode(frame: RawFrame) -> RawContent:
         else:
             fields.append(next(values) if count == 1 else tuple(islice(values, count)))
     return kind._make(fields)
-
-
-def batch_points(joint_count: int) -> int:
-    """Points that fit into one POINTS: 35 for six axes."""
-    return (LONGEST - 12 - 20) // (4 * (1 + joint_count))
-
-
-def points_frame(
-    stream: int, first: int, points: Sequence[Point], flags: int = 0, comm: int = RawComm.REQUEST
-) -> bytes:
-    """A batch of a stream."""
-    words = [word for point in points for word in words_of(point)]
-    return words_frame(stream, first % INDEX_WRAP, len(points), words, flags, comm)
-
-
-def words_of(point: Point) -> list[int]:
-    """The words of a point: s, rad and m in millionths."""
-    joints, duration = point
-    return millionths((duration, *joints))
-
-
-def millionths(values: Sequence[float]) -> list[int]:
-    """Words for s, rad, m and numbers without a unit."""
-    numbers = [round(value * 1e6) for value in values]
-    if not all(abs(number) < 2**31 for number in numbers):
-        raise ValueError(f"{values} does not fit into a batch")
-    return numbers
-
-
-def words_frame(
-    stream: int,
-    first: int,
-    count: int,
-    words: Sequence[int],
-    flags: int = 0,
-    comm: int = RawComm.REQUEST,
-    number: int = POINTS,
-) -> bytes:
-    """A batch of any words, that says to have `count` points; its checksum is right."""
-    whole = [stream, flags, first, count, *words]
-    checksum = 0
-    for word in whole:
-        checksum = (2 * checksum + word + 2**31) % (2**31 - 19)
-    return framed(number, struct.pack(f"<{len(whole) + 1}i", *whole, checksum), comm)

@@ -62,6 +62,8 @@ class Proof:
     elapsed: float = 0.0
     broken_off: bool = False
     """Whether somebody ended the run before it had seen everything."""
+    left: int = 0
+    """Pieces of work that were not begun, for a budget or after a failure."""
     lines: dict[str, dict[int, int]] = field(default_factory=dict)
     """Lines of RAPID by file, and how often the cases reached them; empty: not the whole suite."""
 

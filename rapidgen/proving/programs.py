@@ -12,6 +12,7 @@ from rapidgen.controller.cell import in_its_cell
 from rapidgen.generate import build, make_system
 from rapidgen.motion.moves import Carrier
 from rapidgen.proving import messages
+from rapidgen.proving.batches import millionths, words_frame
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import RawLink
 from rapidgen.proving.messages import (
@@ -20,8 +21,6 @@ from rapidgen.proving.messages import (
     RawModal,
     RawReason,
     RawStreamFlag,
-    millionths,
-    words_frame,
 )
 from rapidgen.proving.model import Broken
 from rapidgen.proving.track import Position

@@ -34,6 +34,7 @@ def as_json(report: Proof) -> dict[str, Json]:
         "build_id": report.build_id,
         "passed": report.passed,
         "broken_off": report.broken_off,
+        "left": report.left,
         "elapsed": round(report.elapsed, 3),
         "lines": {"reached": reached, "of": of},
         "settings": {name: list(texts) for name, texts in report.rows.items()},

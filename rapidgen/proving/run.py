@@ -1,9 +1,12 @@
-"""The whole suite for one robot: every case under every setting, on several processes."""
+"""The whole suite for one robot: every case under every setting, and schedules, as a campaign."""
 
 import time
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
 from typing import TextIO
+
+from pydantic import TypeAdapter
 
 from rapidgen.config.model import RobotConfig
 from rapidgen.controller.cell import in_its_cell
@@ -11,36 +14,60 @@ from rapidgen.generate import build, make_system
 from rapidgen.proving.behaviour import Behaviour
 from rapidgen.proving.bench import FAILURES, Bench, add_lines
 from rapidgen.proving.blame import blamed
+from rapidgen.proving.campaign import Campaign, Limits, Progress, Workload
 from rapidgen.proving.explore import Explored, explore
+from rapidgen.proving.identity import identity
 from rapidgen.proving.model import Proof, Verdict
 from rapidgen.proving.report import series
+from rapidgen.proving.results import Results
 from rapidgen.proving.settings import Setting, assumed, rows, settings
 from rapidgen.proving.suite import CASES
-from rapidgen.proving.workers import each, in_a_fork
+from rapidgen.proving.workers import Local, Workers, each, in_a_fork
 from rapidgen.system.model import System
 
 EXPLAINED = 20
 """Cases of which the smallest pair is looked for; of a driver that breaks more they tell enough."""
+VERDICTS = TypeAdapter(Verdict)
+EXPLORED = TypeAdapter(Explored)
 
 
 @dataclass(frozen=True, slots=True)
-class _Job:
+class Attempt:
+    """A case under a setting, which assumes some things."""
+
     case: int
     name: str
+    assumes: tuple[str, ...]
     setting: Setting
+
+    @property
+    def key(self) -> str:
+        """The same for the same case under the same setting."""
+        return f"{CASES[self.case].name} [{self.name}] {','.join(self.assumes)}"
 
 
 @dataclass(frozen=True, slots=True)
-class _Broken:
+class Suspects:
     """A case, and what was assumed where it broke, by setting."""
 
     case: int
     rows: Mapping[str, Sequence[str]]
 
 
-# What a worker needs, inherited by fork: the configuration and its generated system.
-_shared: tuple[RobotConfig, System] | None = None
-_ready: "dict[str, Starter]" = {}
+@dataclass(frozen=True, slots=True)
+class Subject:
+    """What every worker has: a configuration and its generated system."""
+
+    config: RobotConfig
+    system: System
+    booted: "dict[str, Starter]" = field(default_factory=dict)
+    """The controller that a worker keeps, by what its setting assumes."""
+
+    @classmethod
+    def of(cls, config: RobotConfig) -> "Subject":
+        """The driver of a configuration, in its cell. Raises DiagnosticError."""
+        system = make_system(config, build(config), open_words=True)
+        return cls(config, in_its_cell(system, config))
 
 
 def prove(
@@ -52,90 +79,130 @@ def prove(
     cases: bool = True,
     strength: int = 2,
     assuming: Sequence[str] = (),
-    progress: Callable[[str, int, int], None] | None = None,
+    progress: Progress | None = None,
+    limits: Limits | None = None,
+    results: Path | None = None,
+    resume: bool = False,
 ) -> Proof:
     """Run the suite (`cases`, or `only` those named) and, without `only`, the exploration.
 
     The answers to any `strength` open questions meet in some setting (0: the default alone);
     `assuming`: in that one only. `progress(what, done, total)` is called for every piece of work.
-    A KeyboardInterrupt ends the run; the report has what it had seen, and says so.
+    Results are kept in a file, in which `resume` finds those that are known already.
+    A KeyboardInterrupt ends the run; the report has what it had seen, and says so. Raises
+    DiagnosticError RG805, WorkersLost.
     """
-    global _shared  # noqa: PLW0603 - workers inherit it by fork
-    output = build(config)
-    system = in_its_cell(make_system(config, output, open_words=True), config)
-    _shared = (config, system)
+    driver = Subject.of(config)
     started = time.monotonic()
-    report = Proof(config.name, output.build_id)
+    report = Proof(config.name, driver.system.build_id)
     report.rows = {"as asked": tuple(assuming)} if assuming else rows(strength)
-    chosen = settings(config, report.rows)
-    work = [
-        _Job(number, name, setting)
-        for name, setting in chosen.items()
-        for number, case in enumerate(CASES)
-        if cases and not (config.commissioning and case.background)
-        if case.name in only or (not only and (setting.coverage or not case.once))
-    ]
-    explored: list[Explored] = []
-    try:
-        each(work, _attempt, jobs, "cases", progress, report.outcomes)
-        if not assuming:
-            report.outcomes = _explained(report, jobs, progress)
-        if not only and not assuming:
-            for outcome in report.outcomes:
-                add_lines(report.lines, outcome.lines)
-            each(list(range(seeds)), _explore, jobs, "schedules", progress, explored)
-    except KeyboardInterrupt:
-        report.broken_off = True
-    report.schedules = len(explored)
-    report.findings = [e.finding for e in explored if e.finding is not None]
+    attempts = _attempts(config, report.rows, only) if cases or only else []
+    with (
+        Results(results, f"{identity()} {report.build_id}", resume=resume) as kept,
+        Local(driver, jobs) as workers,
+    ):
+        campaign = Campaign(workers, kept, limits or Limits(), progress)
+        try:
+            report.outcomes.extend(campaign.run(_suite(attempts)))
+            if not assuming:
+                report.outcomes = _explained(report, workers, progress)
+            if not only and not assuming:
+                for outcome in report.outcomes:
+                    add_lines(report.lines, outcome.lines)
+                for explored in campaign.run(_schedules(seeds)):
+                    report.schedules += 1
+                    if explored.finding is not None:
+                        report.findings.append(explored.finding)
+        except KeyboardInterrupt:
+            report.broken_off = True
+    report.left = campaign.left
     report.elapsed = time.monotonic() - started
-    for starter in _ready.values():
-        starter.close()
-    _ready.clear()
     return report
 
 
-def _explained(
-    report: Proof, jobs: int | None, progress: Callable[[str, int, int], None] | None
-) -> list[Verdict]:
+def _attempts(
+    config: RobotConfig, rows: Mapping[str, tuple[str, ...]], only: Sequence[str]
+) -> list[Attempt]:
+    """Setting by setting, so that a worker seldom boots."""
+    return [
+        Attempt(number, name, rows.get(name, ()), setting)
+        for name, setting in settings(config, dict(rows)).items()
+        for number, case in enumerate(CASES)
+        if not (config.commissioning and case.background)
+        if case.name in only or (not only and (setting.coverage or not case.once))
+    ]
+
+
+def _suite(attempts: Sequence[Attempt]) -> Workload[Attempt, Verdict]:
+    return Workload(
+        "cases",
+        len(attempts),
+        attempt,
+        attempts.__getitem__,
+        lambda item: item.key,
+        VERDICTS,
+        lambda verdict: not verdict.passed,
+    )
+
+
+def _schedules(seeds: int) -> Workload[int, Explored]:
+    return Workload(
+        "schedules",
+        seeds,
+        schedule,
+        lambda number: number,
+        lambda item: f"schedule {item}",
+        EXPLORED,
+        lambda explored: explored.finding is not None,
+    )
+
+
+def _explained(report: Proof, workers: Workers, progress: Progress | None) -> list[Verdict]:
     """The outcomes; those that broke under a hostile setting alone name what is to blame."""
     broken = [verdict for verdict in report.outcomes if not verdict.passed]
     anyhow = {verdict.case for verdict in broken if not report.rows.get(verdict.setting)}
     work = [
-        _Broken(number, {v.setting: report.rows[v.setting] for v in broken if v.case == case.name})
+        Suspects(number, {v.setting: report.rows[v.setting] for v in broken if v.case == case.name})
         for number, case in enumerate(CASES)
         if case.name in {verdict.case for verdict in broken} - anyhow
     ][:EXPLAINED]
-    found = each(work, _blame, jobs, "smallest pairs", progress)
-    blame = {
-        (CASES[one.case].name, setting): texts
-        for one, by_setting in zip(work, found, strict=True)
-        for setting, texts in by_setting.items()
-    }
+    found = each(workers, work, explain)
+    blame: dict[tuple[str, str], tuple[str, ...]] = {}
+    for done, (one, by_setting) in enumerate(zip(work, found, strict=True), 1):
+        blame |= {(CASES[one.case].name, name): texts for name, texts in by_setting.items()}
+        if progress is not None:
+            progress("smallest pairs", done, len(work))
     return [replace(v, blamed=blame.get((v.case, v.setting), ())) for v in report.outcomes]
 
 
-def _blame(broken: _Broken) -> dict[str, tuple[str, ...]]:
-    assert _shared is not None
-    config, system = _shared
+# -- pieces of work -----------------------------------------------------------------------------
+
+
+def explain(driver: Subject, broken: Suspects) -> dict[str, tuple[str, ...]]:
+    """By setting, the smallest part of what it assumes that breaks a case."""
 
     def breaks(texts: Sequence[str]) -> bool:
-        with Bench(config, system, assumed(texts)) as bench:
+        with Bench(driver.config, driver.system, assumed(texts)) as bench:
             return not _verdict(CASES[broken.case], bench).passed
 
     # A controller leaves things behind in its process.
     return blamed(broken.rows, lambda texts: in_a_fork(lambda: breaks(texts)))
 
 
-def _attempt(job: _Job) -> Verdict:
-    assert _shared is not None
+def attempt(driver: Subject, job: Attempt) -> Verdict:
+    """A case under a setting."""
     # Jobs come setting by setting, so one controller is kept.
-    if job.name not in _ready:
-        for starter in _ready.values():
+    if job.name not in driver.booted:
+        for starter in driver.booted.values():
             starter.close()
-        _ready.clear()
-        _ready[job.name] = Starter(*_shared, job.setting)
-    return replace(_ready[job.name].attempt(CASES[job.case]), setting=job.name)
+        driver.booted.clear()
+        driver.booted[job.name] = Starter(driver.config, driver.system, job.setting)
+    return replace(driver.booted[job.name].attempt(CASES[job.case]), setting=job.name)
+
+
+def schedule(driver: Subject, seed: int) -> Explored:
+    """One schedule."""
+    return explore(driver.config, driver.system, seed)
 
 
 class Starter:
@@ -178,13 +245,7 @@ def _verdict(case: Behaviour, bench: Bench) -> Verdict:
     )
 
 
-def _explore(seed: int) -> Explored:
-    assert _shared is not None
-    config, system = _shared
-    return explore(config, system, seed)
-
-
 def replay(config: RobotConfig, seed: int, trace: TextIO | None = None) -> Explored:
     """One schedule again, exactly; every statement of RAPID goes to `trace`."""
-    system = in_its_cell(make_system(config, build(config), open_words=True), config)
-    return explore(config, system, seed, trace=trace)
+    driver = Subject.of(config)
+    return explore(driver.config, driver.system, seed, trace=trace)

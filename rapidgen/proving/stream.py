@@ -3,9 +3,10 @@
 from collections.abc import Sequence
 
 from rapidgen.proving import messages
+from rapidgen.proving.batches import batch_points, points_frame
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import RawLink
-from rapidgen.proving.messages import POINTS, RawReason, RawStreamFlag, batch_points, points_frame
+from rapidgen.proving.messages import POINTS, RawReason, RawStreamFlag
 from rapidgen.proving.model import Broken
 from rapidgen.proving.track import Point
 

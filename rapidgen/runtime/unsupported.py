@@ -17,8 +17,8 @@ _GROUPS: Final[tuple[tuple[str, str], ...]] = (
     ),
     ("the servo loops are not simulated", "TuneServo TuneReset"),
     (
-        "there are no I/O units: every signal is a virtual one",
-        "IOEnable IODisable IOUnitState IOBusStart IOBusState PackDNHeader",
+        "there are no I/O buses: every signal is a virtual one",
+        "IOBusStart IOBusState PackDNHeader",
     ),
     (
         "path correction is not simulated",

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from rapidgen.system.cfg import Attribute, CfgText, Instance, Section, parse_cfg, write_cfg
     from rapidgen.system.compose import eio_cfg, sys_cfg
     from rapidgen.system.folder import expand_lines, is_generated, read_folder, read_manifest
-    from rapidgen.system.loose import read_files
+    from rapidgen.system.loose import read_files, task_folders
     from rapidgen.system.model import (
         CrossConnection,
         EventRoutine,
@@ -32,7 +32,7 @@ _FILES = {
         "cfg": "Attribute CfgText Instance Section parse_cfg write_cfg",
         "folder": "expand_lines is_generated read_folder read_manifest",
         "compose": "eio_cfg sys_cfg",
-        "loose": "read_files",
+        "loose": "read_files task_folders",
         "model": "CrossConnection EventRoutine MechanicalUnitGroup ModuleFile SignalSpec System "
         "SystemInput SystemOutput TaskSpec",
     }.items()
@@ -64,6 +64,7 @@ __all__ = [
     "read_manifest",
     "read_system",
     "sys_cfg",
+    "task_folders",
     "write_cfg",
 ]
 

@@ -41,8 +41,12 @@ def expand(path: Path) -> list[Path]:
     Raises RG704 (nothing there) and RG709 (no modules in it).
     """
     if path.is_dir():
-        programs = sorted(path.glob("*.pgf"))
-        found = expand(programs[0]) if len(programs) == 1 else list(module_files(path))
+        programs, found = sorted(path.glob("*.pgf")), list(module_files(path))
+        if len(programs) == 1:
+            # Tasks get their system modules from the configuration: a program names none.
+            named = expand(programs[0])
+            beside = (p for p in found if p.suffix.casefold() in (".sys", ".sysx"))
+            found = [*named, *(p for p in beside if p not in named)]
     elif path.suffix.casefold() == ".pgf":
         named = [name.decode("latin-1") for name in _PROGRAM.findall(read_limited(path))]
         home = path.parent

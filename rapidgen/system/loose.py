@@ -10,9 +10,24 @@ from rapidgen.system.cfg import CfgText, parse_cfg
 from rapidgen.system.interpret import tasks_of, with_cfg
 from rapidgen.system.loading import expand, load_module
 from rapidgen.system.model import System, TaskSpec
-from rapidgen.system.paths import read_limited
+from rapidgen.system.paths import module_files, read_limited
 
 _MOTION_TASK = re.compile(r"T_ROB(\d|_)", re.I)
+_TASK = re.compile(r"T_\w+", re.I)
+
+
+def task_folders(folder: Path) -> dict[str, list[Path]]:
+    """Folders with modules, at or below one that is named like a task: T_ROB_L beside T_ROB_R, as
+    programs of several tasks are published. None where the folder has modules of its own."""
+    if any(module_files(folder)):
+        return {}
+    found: dict[str, list[Path]] = {}
+    for task in sorted(path for path in folder.iterdir() if _TASK.fullmatch(path.name)):
+        below = [task, *(path for path in sorted(task.rglob("*")) if path.is_dir())]
+        holding = [path for path in below if any(module_files(path))]
+        if holding:
+            found[task.name] = holding
+    return found
 
 
 def read_files(

@@ -69,3 +69,11 @@ def test_thinning_drops_what_lies_on_the_way_only():
 def test_times_must_increase():
     with pytest.raises(ValueError, match="increase"):
         demand(np.array([0.0, 0.0]), np.zeros((2, 2)), SPEED, ACCELERATION)
+
+
+def test_no_segment_is_shorter_than_the_period():
+    random = np.random.default_rng(1)
+    for whole in [*random.uniform(0.1, 3, 200), *np.arange(1, 40) * 0.1]:
+        fresh, _ = resample(np.array([0, whole]), np.zeros((2, 1)), 0.1)
+        assert np.diff(fresh).min() >= 0.1 - 1e-6
+        assert np.diff(fresh).max() < 0.2

@@ -33,7 +33,7 @@ def test_a_guessed_cell_is_told(capsys, program):
     code, out, err = run(capsys, program, "--cell", "guess")
     assert (code, out) == (0, ["done"])
     assert "diGripped  signaldi   work.mod:4" in err
-    assert "what the program waited for: diGripped = 1, giPart = 4" in err
+    assert "because the program waited for it: diGripped = 1, giPart = 4" in err
 
 
 def test_where_the_robot_starts(capsys, tmp_path):
@@ -70,3 +70,19 @@ def test_what_is_out_of_reach_is_told_with_place_axis_and_robot(capsys, tmp_path
     assert (code, "irb120: the flange cannot be at [2000.0, 0.0, 300.0] mm" in err) == (1, True)
     code, _, err = run(capsys, path, "--entry", "behind")
     assert (code, "rax_1 would be at 180.0 deg, its range is -165 to 165" in err) == (1, True)
+
+
+@pytest.mark.parametrize(
+    ("statement", "words", "mend"),
+    [
+        ("SetDO do1, 1;", [], "`--cell guess` makes signals"),
+        ("MoveL p10, v100, fine, tool0;", ["--cell", "guess"], "`rapidgen schema --cell`"),
+        ("foo;", [], "load the module that declares it"),
+    ],
+)
+def test_a_name_that_nothing_declares_has_a_mend(tmp_path, capsys, statement, words, mend):
+    path = tmp_path / "a.mod"
+    path.write_text(f"MODULE a\nPROC main()\n{statement}\nENDPROC\nENDMODULE\n")
+    assert main(["run", str(path), *words]) == 1
+    told = capsys.readouterr().err
+    assert mend in told[told.index("error[RG407]") :]

@@ -1,6 +1,8 @@
 """The command line as a whole: help, versions, exit codes, commands typed wrong."""
 
 import inspect
+import json
+import logging
 import subprocess
 import sys
 
@@ -47,7 +49,6 @@ def test_start_up_imports_nothing_heavy():
         (["build"], "build --help"),
         (["build", "irb120", "--speeed"], "--speeed"),
         (["explain", "RG9999"], "RG902"),
-        ([], "usage"),
     ],
 )
 def test_a_command_typed_wrong_is_told_what_to_do(words, told, capsys):
@@ -62,3 +63,45 @@ def test_version_and_explain_go_to_stdout(capsys):
     assert capsys.readouterr().out.startswith("rapidgen ")
     assert main(["explain", "rg901"]) == 0
     assert capsys.readouterr().out.startswith("# RG901: ")
+
+
+def test_nothing_typed_is_asking_for_help(capsys):
+    assert main([]) == 0
+    shown = capsys.readouterr()
+    assert "Commands:" in shown.out
+    assert shown.err == ""
+
+
+@pytest.mark.parametrize(
+    ("words", "code", "exit_code"),
+    [
+        (["move", "irb120", "--json"], "RG901", 2),
+        (["status", "--json", "host:0"], "RG657", 2),
+        (["robots", "show", "irb121", "--json"], "RG009", 2),
+        (["test", "", "--json"], "RG901", 2),
+    ],
+)
+def test_an_error_is_json_where_json_was_asked_for(words, code, exit_code, capsys):
+    assert main(words) == exit_code
+    shown = capsys.readouterr()
+    assert [found["code"] for found in json.loads(shown.out)["errors"]] == [code]
+    assert shown.err == ""
+
+
+@pytest.mark.parametrize(
+    ("words", "levels"),
+    [
+        (["check", "irb120"], ["warning", "error"]),
+        (["-v", "check", "irb120"], ["info", "warning", "error"]),
+        (["check", "-v", "irb120", "-v"], ["debug", "info", "warning", "error"]),
+        (["check", "irb120", "-vv"], ["debug", "info", "warning", "error"]),
+        (["-q", "check", "irb120"], ["error"]),
+    ],
+)
+def test_how_much_is_said(words, levels, capsys):
+    assert main(words) == 0
+    log = logging.getLogger("rapidgen.client")
+    for level in ("debug", "info", "warning", "error"):
+        getattr(log, level)("this is %s", level)
+    told = [line.rpartition(" ")[2] for line in capsys.readouterr().err.splitlines()]
+    assert [word for word in told if word in ("debug", "info", "warning", "error")] == levels

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from driven import complaints, driven, wiggle
+from driven import BENT, complaints, driven, moved, wiggle
 
 from rapidgen.axes import frames
 from rapidgen.client import (
@@ -12,20 +12,12 @@ from rapidgen.client import (
     NotSupported,
     Program,
     RequestRefused,
-    RoutineFailed,
     Speed,
     Trigger,
     pulse,
 )
-from rapidgen.system.model import ModuleFile, SignalSpec
+from rapidgen.system.model import SignalSpec
 from rapidgen.wire.simple_message.spec import Reason, TrajectoryState
-
-BENT = [0.2, 0.1, 0.1, 0.3, 0.6, -0.2]
-
-
-def moved(pose, x=0.0, y=0.0, z=0.0):
-    (a, b, c), q = pose
-    return (a + x, b + y, c + z), q
 
 
 def square(robot, size=0.05, **options):
@@ -135,44 +127,6 @@ CELL = {
     ],
     "work_objects": [{"name": "table", "user_frame": {"position": [300, 0, 100]}}],
 }
-ROUTINES = {
-    "routines.weld": {
-        "call": "cell:weld",
-        "parameters": [
-            {"name": "seam", "type": "num", "mode": "inout"},
-            {"name": "dry", "type": "bool"},
-            {"name": "done", "type": "bool", "mode": "inout"},
-            {"name": "note", "type": "string"},
-        ],
-    },
-    "routines.go_home": {"call": "go_home"},
-    "routines.nobody": {"call": "cell:nobody"},
-    "routines.other": {"call": "cell:weld"},
-}
-CELL_MODULE = b"""MODULE cell
-    PERS string noted := "";
-    PERS bool undone := FALSE;
-    PROC weld(INOUT num seam, bool dry, INOUT bool done, string note)
-        noted := note;
-        IF seam < 0 RAISE ERR_ARGVALERR;
-        seam := seam * 2;
-        done := NOT dry;
-    ERROR
-        RAISE;
-    ENDPROC
-    PROC go_home()
-        VAR jointtarget home;
-        undone := FALSE;
-        home := CJointT();
-        home.robax.rax_1 := home.robax.rax_1 + 20;
-        MoveAbsJ home \\NoEOffs, v10, fine, tool0;
-        home.robax.rax_1 := home.robax.rax_1 - 20;
-        MoveAbsJ home \\NoEOffs, v10, fine, tool0;
-    UNDO
-        undone := TRUE;
-    ENDPROC
-ENDMODULE
-"""
 WIRED = (
     SignalSpec("valve", "DO"),
     SignalSpec("part", "DI"),
@@ -318,62 +272,6 @@ def test_what_cannot_be_is_told_and_nothing_is_sent(program):
         with pytest.raises(InvalidProgram):
             robot.run(program)
         assert robot.state.trajectory in (None, TrajectoryState.NONE)
-
-
-def with_routines():
-    return driven(overrides=ROUTINES, modules=[ModuleFile("cell", "cell.mod", CELL_MODULE)])
-
-
-def test_a_routine_is_called_and_tells_its_results():
-    with with_routines() as (robot, controller):
-        assert robot.call("weld", 3.5, False, False, "seam 7, \u00e9") == (7.0, True)
-        assert controller.task("T_ROB1")["cell:noted"] == "seam 7, \u00e9"
-        assert robot.call("weld", -0.0, True, True, "x" * 80) == (0.0, False)
-        program = Program().move_joints(BENT).call("weld", 1e30, True, False, "")
-        program.move_joints([0.0] * 6)
-        assert robot.run(program).result().points == 3
-
-
-def test_what_a_routine_raises_comes_back():
-    with with_routines() as (robot, controller):
-        with pytest.raises(RoutineFailed) as told:
-            robot.call("weld", -1.0, False, False, "")
-        assert told.value.number > 0
-        program = Program().call("weld", -1.0, False, False, "").move_joints(BENT)
-        with pytest.raises(MotionFailed) as failed:
-            robot.run(program).result()
-        assert (failed.value.reason, failed.value.reached) == (Reason.ROUTINE, 0)
-        for name, *given in (("nobody",), ("other",)):
-            with pytest.raises(MotionFailed) as failed:
-                robot.call(name, *given)
-            assert failed.value.reason is Reason.NO_ROUTINE
-        assert controller.task("T_ROB1").state == "running"
-        assert robot.call("weld", 2.0, False, False, "") == (4.0, True)
-
-
-def test_a_stop_leaves_a_routine_wherever_it_is():
-    with with_routines() as (robot, controller):
-        execution = robot.run(Program().call("go_home").move_joints(BENT))
-        robot.sleep(3)
-        assert robot.state.is_moving
-        robot.stop()
-        with pytest.raises(MotionStopped) as told:
-            execution.result()
-        assert told.value.reached == 0
-        assert controller.task("T_ROB1")["cell:undone"] is True
-        here = robot.state.joints
-        robot.sleep(2)
-        assert robot.state.joints == pytest.approx(here, abs=1e-6)
-        assert robot.run(Program().move_joints(BENT)).result().deviation < 1e-4
-
-
-@pytest.mark.parametrize(
-    "given",
-    [(1.0, True, True), (1.0, 1, True, ""), ("1", True, True, ""), (1.0, True, True, "x" * 81)],
-)
-def test_arguments_that_do_not_fit_are_told(given):
-    with with_routines() as (robot, _), pytest.raises(InvalidProgram):
-        robot.call("weld", *given)
 
 
 def test_a_jog_is_small_and_stands_soon_after_a_lost_client():

@@ -43,7 +43,9 @@ def test_move(controller, points, tmp_path, capsys):
     words = ["move", "irb120", str(points), "--to", controller.address, "--yes"]
     assert main([*words, "--record", str(executed)]) == 0
     shown = capsys.readouterr()
-    assert re.fullmatch(r"done: 2 points in \d\.\d\d s, 0\.0000 \(rad, m\).*\n", shown.out)
+    done, at = shown.out.splitlines()
+    assert re.fullmatch(r"done: 2 points in \d\.\d\d s, 0\.0000 \(rad, m\).*", done)
+    assert at.startswith("at joint_1 11.46 deg, joint_2 5.73 deg")
     assert "plain simple_message" in " ".join(shown.err.split())
     recorded = Trajectory.from_csv(executed)
     assert recorded.names == tuple(JOINTS)
@@ -115,7 +117,7 @@ def test_faults_of_the_file_have_places(tmp_path, capsys):
 def test_stop(controller, capsys):
     assert main(["stop", "irb120", "--to", controller.address]) == 0
     assert len(controller.stops) == 1
-    assert capsys.readouterr().out.startswith("rob1: stopped at joint_1 0.0000")
+    assert capsys.readouterr().out.startswith("rob1: stopped at joint_1 0.00 deg")
 
 
 def test_stop_of_an_address_alone(controller):

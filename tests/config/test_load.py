@@ -341,6 +341,23 @@ def test_an_axis_of_length_0_turns_nothing(tmp_path):
     assert places(faults(tmp_path, text)) == [("RG014", 3, 20), ("RG014", 3, 46)]
 
 
+def test_data_have_one_name_each_and_need_the_control_port(tmp_path):
+    text = (
+        "model: irb120\n"
+        "ports: {control: 0}\n"
+        "data:\n"
+        '  "cell:count": {type: num}\n'
+        '  "other:COUNT": {type: bool}\n'
+    )
+    found = places(faults(tmp_path, text))
+    assert [(code, line) for code, line, _ in found] == [("RG014", 3), ("RG014", 5)]
+    basic = "model: irb120\nprofile: basic\ndata: {'cell:count': {type: num}}\n"
+    assert [p[0] for p in places(faults(tmp_path, basic))] == ["RG014"]
+    for name in ("count", "cell:", "cell:a b"):
+        wrong = f"model: irb120\ndata: {{'{name}': {{type: num}}}}\n"
+        assert places(faults(tmp_path, wrong)), name
+
+
 def test_a_positioner_is_an_external_unit_that_an_external_axis_moves(tmp_path):
     text = (
         "model: irb120_track\n"

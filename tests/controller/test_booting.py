@@ -87,8 +87,8 @@ def test_a_guessed_cell_has_what_the_program_names(program):
         "partHere": "signaldi",
         "tGrip": "tooldata",
         "wTable": "wobjdata",
+        "clock9": "clock",
     }
-    assert [(one.name, one.type) for one in found.guessed.unknown] == [("clock9", "clock")]
     assert found.guessed.named[0].span.line == 3
     (table,) = found.guessed.cell.work_objects
     x, y, z = table.user_frame.position
@@ -214,3 +214,85 @@ def test_a_faulty_value_is_no_missing_one_too(tmp_path):
     found = fault.value.diagnostics
     assert [(d.code, d.span.line) for d in found] == [("RG006", 2), ("RG006", 4)]
     assert "begin with a letter" in found[1].help
+
+
+def test_dialogs_of_a_guessed_cell_get_their_default_and_then_each_choice_in_turn(tmp_path):
+    path = tmp_path / "asks.mod"
+    path.write_text(
+        "MODULE asks\n PERS num key := 0;\n PERS num sum := 0;\n VAR num n;\n PROC main()\n"
+        '  WHILE key <> 3 DO\n   TPReadFK key, "Where?", "left", "", "right", "", "";\n'
+        "   sum := 10 * sum + key;\n  ENDWHILE\n"
+        '  TPReadNum n, "How many?";\n  sum := 10 * sum + n;\n'
+        r'  sum := 10 * sum + UINumEntry(\Header:="N"\InitValue:=7\MinValue:=5\MaxValue:=9);'
+        "\n"
+        r'  IF UIMessageBox(\Message:="On?"\Buttons:=btnYesNo\DefaultBtn:=resNo) = resNo THEN'
+        "\n   sum := 10 * sum + 8;\n  ENDIF\n ENDPROC\nENDMODULE\n"
+    )
+    with VirtualController.from_files([path], cell="guess", cycle="once") as controller:
+        assert controller.run(max_time=60) == "finished"
+        assert controller.task("T_ROB1")["asks:sum"] == 13178
+        assert controller.answered == [
+            ("TPReadFK 'Where?'", "left"),
+            ("TPReadFK 'Where?'", "right"),
+            ("TPReadNum 'How many?'", "1"),
+            ("UINumEntry 'N'", "7"),
+            ("UIMessageBox 'On?'", "No"),
+        ]
+
+
+def test_a_script_of_answers_is_all_that_is_answered(tmp_path):
+    path = tmp_path / "asks.mod"
+    path.write_text(
+        'MODULE asks\n VAR num n;\n PROC main()\n  TPReadNum n, "A";\n ENDPROC\nENDMODULE\n'
+    )
+    with VirtualController.from_files([path], cell="guess", cycle="once", answers=[]) as controller:
+        assert controller.run(max_time=60) == "deadlock"
+        assert controller.answered == []
+
+
+def test_plain_data_that_nobody_declares_are_what_their_use_says(tmp_path):
+    path = tmp_path / "names.mod"
+    path.write_text(
+        'MODULE names\n CONST string named := "sig_a";\n VAR signaldo alias1;\n'
+        " VAR robtarget seen;\n PROC main()\n  AliasIO named, alias1;\n  Set alias1;\n"
+        "  DeactUnit M7;\n  MoveJ pHome, v25, z5, tool0;\n  MoveL pHome, vSlow, zMine, tool0;\n"
+        '  IF bReady OR nMode > 3 THEN\n   TPWrite stText + "x";\n  ENDIF\n'
+        "  WHILE nCount < nMax DO\n   nCount := nCount + 1;\n  ENDWHILE\n"
+        '  FOR i FROM 1 TO nParts DO\n   TPWrite "part";\n  ENDFOR\n  x{3} := unheard;\n'
+        " ENDPROC\nENDMODULE\n"
+    )
+    found = load_target([path], Wishes(cell="guess", robot="irb1600"))
+    assert found.guessed is not None
+    assert {one.name: one.type for one in found.guessed.named} == {
+        "sig_a": "signaldo",
+        "M7": "mecunit",
+        "pHome": "robtarget",
+        "v25": "speeddata",
+        "vSlow": "speeddata",
+        "zMine": "zonedata",
+        "bReady": "bool",
+        "nMode": "num",
+        "stText": "string",
+        "nCount": "num",
+        "nMax": "num",
+        "nParts": "num",
+    }
+    assert [one.name for one in found.guessed.unknown] == ["unheard"]
+    with VirtualController.boot(found, cycle="once") as controller:
+        start = controller.positions()
+        controller.run(max_time=20)
+        assert controller.signals["sig_a"] == 1
+        assert controller.positions() == pytest.approx(start, abs=1e-5), "a target is where it is"
+        assert controller.task("T_ROB1")["cell_data:v25"].v_tcp == 25
+        assert controller.task("T_ROB1")["cell_data:vSlow"].v_tcp == 100
+
+
+def test_a_folder_with_a_folder_for_each_task_is_those_tasks(tmp_path):
+    text = "MODULE m\n PROC main()\n  {} doMet, 1;\n ENDPROC\nENDMODULE\n"
+    for task, said in (("T_ROB_L", "SetDO"), ("T_ROB_R", "WaitDO")):
+        (tmp_path / task).mkdir()
+        (tmp_path / task / "m.mod").write_text(text.format(said))
+    found = load_target([tmp_path], Wishes(cell="guess", robot="irb14000"))
+    assert [group.task for group in found.groups] == ["T_ROB_L", "T_ROB_R"]
+    with VirtualController.boot(found, cycle="once") as controller:
+        assert controller.run(max_time=20) == "finished"

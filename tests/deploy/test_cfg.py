@@ -86,7 +86,7 @@ def test_without_syspar_loading_is_a_step_at_the_pendant(kit, home):
     assert any(
         s.startswith("load HOME:/rapidgen_deploy/SYS.cfg (9 instances to add") for s in steps
     )
-    assert any("T_ROB1 (NORMAL) reads ROS_common.sys, ROS_motion.mod" in s for s in steps)
+    assert any("read again: T_ROB1 2 files (NORMAL); T_ROS" in s for s in steps)
     assert [s.stops_motion for s in plan.steps if "Restart" in s.what] == [True]
     again = kit.deploy(transport, kit.driver(NEW, signals=("signalOther",)))
     steps = [s.what for s in again.steps]

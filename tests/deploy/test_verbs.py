@@ -2,6 +2,8 @@
 
 import json
 import re
+import signal
+import threading
 
 import pytest
 import typer
@@ -12,7 +14,10 @@ from rapidgen.cli.plan import plan
 from rapidgen.cli.rollback import rollback
 from rapidgen.cli.uninstall import uninstall
 from rapidgen.deploy import parse_target
+from rapidgen.deploy.driverset import NEW as STAGED
+from rapidgen.deploy.fleet import GivingUp
 from rapidgen.deploy.secrets import Credentials, Secret, find_password, redact
+from rapidgen.deploy.transports.folder import FolderTransport
 from rapidgen.diagnostics import DiagnosticError, render
 from rapidgen.faces import serve_ftp, serve_sftp
 from tests.generate.cell_backup import write_backup
@@ -85,9 +90,86 @@ def test_a_plan_is_short_and_tells_what_was_configured_otherwise(run, home):
     assert run("deploy", "irb120", *url, "--yes")[0] == 0
     out = run("plan", "irb120", *url, "--set", "state.rate=20")[1]
     assert len(out.splitlines()) <= 25
-    assert "  ~ state_period: 0.1 -> 0.05\n" in out
+    assert "  ~ state.rate: 10 → 20\n" in out
     assert "  ~ HOME:/rapidgen/ROS_stateServer.mod   +3 -3\n" in out
     assert "files, nothing but the build's id\n" in out
+
+
+def test_keys_are_told_as_people_write_them(run, home):
+    url = ("--to", f"dir://{home}")
+    assert run("deploy", "irb120", *url, "--yes")[0] == 0
+    changed = ("joints.joint_2.upper=90", "trajectory.start_tolerance=0.3", "ports.motion=12000")
+    out = run("plan", "irb120", *url, *(word for key in changed for word in ("--set", key)))[1]
+    told = [line for line in out.splitlines() if "→" in line]
+    assert told == [
+        "  ~ joints.joint_2.upper: 110 → 90",
+        "  ~ ports.motion: 11000 → 12000",
+        "  ~ trajectory.start_tolerance: 0.5 → 0.3",
+    ]
+
+
+def test_lines_of_files_are_shown_where_more_than_the_builds_id_differs(run, home):
+    url = ("--to", f"dir://{home}")
+    assert run("deploy", "irb120", *url, "--yes")[0] == 0
+    out = run("plan", "irb120", *url, "--set", "state.rate=20", "--diff")[1]
+    files = re.findall(r"^\+\+\+ (.*)$", out, re.MULTILINE)
+    assert files == ["HOME:/rapidgen/ROS_messages.sys", "HOME:/rapidgen/ROS_stateServer.mod"]
+    assert len(re.findall(r"^[-+] ", out, re.MULTILINE)) >= 2
+
+
+def test_a_fleet_is_told_once_and_summed_up(run, tmp_path):
+    homes = [tmp_path / f"c{n}" for n in range(6)]
+    for home in homes:
+        home.mkdir()
+    assert run("deploy", "irb120", "--to", f"dir://{homes[0]}", "--yes")[0] == 0
+    urls = [word for home in homes for word in ("--to", f"dir://{home}")]
+    out = run("plan", "irb120", *urls)[1]
+    assert len(out.splitlines()) <= 40
+    assert f"dir://{homes[1]} and 4 more controllers, alike\n" in out
+    assert out.count("  + SYS: CAB_TASKS ") == 1
+    summary, first, second = out.splitlines()[-7:-4]
+    assert summary == "6 controllers:"
+    assert (first.split()[1:], second.split()[1:]) == (
+        ["nothing", "to", "do."],
+        ["18", "to", "add,", "0", "to", "change,", "0", "to", "remove."],
+    )
+
+
+def test_a_plan_is_json_where_that_was_asked_for(run, home):
+    told = json.loads(run("plan", "irb120", "--to", f"dir://{home}", "--json")[1])
+    assert [plan["target"] for plan in told] == [f"dir://{home}"]
+    assert {file["action"] for file in told[0]["files"]} == {"add"}
+
+
+def test_ctrl_c_ends_before_files_are_switched_and_tells_what_stands(
+    run, built, kit, tmp_path, monkeypatch
+):
+    """The first controller is done, the second as it was, the third not begun."""
+    homes = [tmp_path / f"c{n}" for n in range(3)]
+    for home in homes:
+        home.mkdir()
+    heard, whole, begin = threading.Event(), FolderTransport.write, GivingUp.begin
+
+    def write(self, path, data):
+        whole(self, path, data)
+        if path.endswith(STAGED) and self._root == homes[1] and not heard.is_set():
+            signal.pthread_kill(threading.main_thread().ident, signal.SIGINT)
+            assert heard.wait(60)
+
+    def told(self):
+        begin(self)
+        heard.set()
+
+    monkeypatch.setattr(FolderTransport, "write", write)
+    monkeypatch.setattr(GivingUp, "begin", told)
+    urls = [word for home in homes for word in ("--to", f"dir://{home}")]
+    code, out, err = run("deploy", built(OLD), *urls, "--yes", "--parallel", "1")
+    assert code == 130
+    assert kit.verdict(homes[0], kit.driver(OLD)) == "set 0"
+    assert [list(home.iterdir()) for home in homes[1:]] == [[], []]
+    words = [line.split()[1:3] for line in out.splitlines()]
+    assert words == [["done", "6"], ["given", "up"], ["not", "begun"]]
+    assert "Ctrl-C: what is being switched is switched first" in err
 
 
 def test_nobody_there_to_answer(run, built, home, monkeypatch):

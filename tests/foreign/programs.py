@@ -9,7 +9,7 @@ from rapidgen.controller.guessing import guess
 from rapidgen.controller.surroundings import furnish
 from rapidgen.rapid import parse
 from rapidgen.rapid.syntax import nodes as n
-from rapidgen.system import is_backup, read_files, read_system
+from rapidgen.system import is_backup, read_files, read_system, task_folders
 from rapidgen.system.model import System
 
 _MAIN = re.compile(rb"^[^!\"\n]*\bPROC\s+main\s*\(", re.I | re.M)
@@ -20,15 +20,23 @@ _SUFFIXES = {".mod", ".modx", ".sys", ".sysx", ".prg"}
 
 @dataclass(frozen=True)
 class Program:
-    """A backup's folder, or a module with main and the modules without one beside and below."""
+    """A backup's folder, one with a folder for each task, or a module with main and the modules
+    without one beside and below."""
 
     name: str
     files: tuple[Path, ...]
 
+    @property
+    def is_backup(self) -> bool:
+        """Whether it brings its own robot."""
+        return self.files[0].is_dir() and is_backup(self.files[0])
+
     def read(self) -> System:
         """DiagnosticError when it cannot be read."""
-        if self.files[0].is_dir():
+        if self.is_backup:
             return read_system(self.files[0])
+        if self.files[0].is_dir():
+            return read_files(task_folders(self.files[0]), name=self.name)
         return read_files(self.files, name=self.name)
 
 
@@ -51,7 +59,13 @@ def programs(folder: Path) -> Iterator[Program]:
         and _MODULE.search(path.read_bytes())
     ]
     mains = [path for path in modules if _MAIN.search(path.read_bytes())]
+    tasks = {p.parent.parent for p in mains if p.parent.name.upper().startswith("T_")}
+    together = {p for p in tasks if len(task_folders(p)) > 1}
+    for several in sorted(together):
+        yield Program(str(several.relative_to(folder)), (several,))
     for main in mains:
+        if main.parent.parent in together:
+            continue
         beside = [p for p in modules if p not in mains and _beside(p, main.parent)]
         yield Program(str(main.relative_to(folder)), (main, *_needed(main, beside)))
 

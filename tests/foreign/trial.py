@@ -3,11 +3,11 @@
     python -m tests.foreign.trial FOLDER [ROBOT]     (or: make foreign FOREIGN=FOLDER)
 
 Nothing of a program is changed. It is what `rapidgen run PROGRAM --cell guess` does, on the robot
-with which it gets furthest: signals and tools that no module declares exist, an input that the
-program waits for answers, and nobody else does. A backup moves its own robot. For each program it
-says how it ended (whole; waits for a partner: socket, file, dialog; goes round and round; stops
-with an error; does not load), what of its lines was reached, and why not further. The last lines
-are the sums.
+with which it gets furthest: what no module declares is made up, an input that the program waits for
+and a dialog answer, and nobody else does. A backup moves its own robot. For each program it says
+how it ended (whole; waits for a partner: socket, file; stops behind a partner: a dialog was
+answered before; goes round and round; stops with an error; does not load), what of its lines was
+reached, and why not further. The last lines are the sums.
 """
 
 import re
@@ -36,7 +36,8 @@ _PARTNER = re.compile(r"Socket|bytes from|waits for an answer|message|ERR_SOCK|E
 _TIME = 300.0
 _STATEMENTS = 2_000_000
 _LITTLE = 0.6
-GOOD = ("whole", "waits for a partner", "goes round")
+GOOD = ("whole", "waits for a partner", "stops behind a partner", "goes round")
+"""A program that was answered and then stops has come to its first partner."""
 
 
 @dataclass(frozen=True)
@@ -93,13 +94,16 @@ def cycles(program: Program, robot: str, cycle: Cycle) -> Outcome:
             notes.append(
                 "in no module: " + ", ".join(f"{u.type} {u.name}" for u in guessed.unknown[:5])
             )
-        end = _end(ended, faults, waits)
+        asked = any(isinstance(answer, str) for _, answer in controller.answered)
+        end = _end(ended, faults, waits, asked=asked)
         return Outcome(end, sum(1 for hits in lines if hits), len(lines), tuple(notes))
 
 
-def _end(ended: str, faults: Sequence[str], waits: Sequence[str]) -> str:
+def _end(ended: str, faults: Sequence[str], waits: Sequence[str], *, asked: bool) -> str:
+    if faults and not all(map(_PARTNER.search, faults)):
+        return "stops behind a partner" if asked else "stops"
     if faults:
-        return "waits for a partner" if all(map(_PARTNER.search, faults)) else "stops"
+        return "waits for a partner"
     if ended == "finished":
         return "whole"
     if any(_PARTNER.search(where) for where in waits):
@@ -122,7 +126,7 @@ def main(folder: Path, robots: Sequence[str]) -> None:
     ends: Counter[str] = Counter()
     shares: list[float] = []
     for program in programs(folder):
-        backup = program.files[0].is_dir()
+        backup = program.is_backup
         robot, outcome = best(program, ("",) if backup else robots)
         ends[("backups: " if backup else "mains: ") + outcome.end.split(" (")[0]] += 1
         if not backup:

@@ -22,6 +22,8 @@ RAISING = {
     # Signals whose unit is gone, names that the controller does not have.
     *("doutput", "dinput", "goutput", "ginput", "aoutput", "ainput", "setdo", "setgo", "setao"),
     *("aliasio", "readcfgdata"),
+    # Data that the robot's program does not have.
+    *("getdataval", "setdataval"),
     # Events that cannot be read any more.
     *("gettrapdata", "readerrdata"),
 }
@@ -62,7 +64,16 @@ def test_text_is_packed_in_a_way_that_robotware_7_has_for_sure():
         assert any(b"\\ASCII" in f.data for f in files if f.kind == "module") == wanted
 
 
-@pytest.mark.parametrize("overrides", [[], ["signals.valve={kind: DO, access: write}"]])
+CELL = [
+    "signals.valve={kind: DO, access: write}",
+    "data.cell:count={type: num, access: write}",
+    "data.cell:ready={type: bool}",
+    "data.cell:recipe={type: string}",
+    "routines.weld={call: weld, parameters: [{name: a, type: num}, {name: b, type: string}]}",
+]
+
+
+@pytest.mark.parametrize("overrides", [[], CELL])
 def test_no_error_ends_a_task(overrides):
     modules = [
         parse(file.data, path=file.path)

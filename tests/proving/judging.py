@@ -18,7 +18,7 @@ from rapidgen.proving.behaviour import Behaviour
 from rapidgen.proving.bench import FAILURES, Bench, with_module
 from rapidgen.proving.run import Starter
 from rapidgen.proving.settings import Setting
-from rapidgen.proving.workers import each, in_a_fork
+from rapidgen.proving.workers import Local, each, in_a_fork
 from rapidgen.rapid import parse
 from rapidgen.runtime.errors import FatalError
 
@@ -31,10 +31,6 @@ STUMBLES = (ArithmeticError, AssertionError, AttributeError, LookupError, TypeEr
 """What a case may raise that expected an answer of another shape: it notices, without words."""
 NEAR = 12
 """Lines: what a case has noticed this near to a mutant counts more than what it has elsewhere."""
-
-
-# What the runs without a mutation need, inherited by fork.
-_baseline: tuple[Starter, Sequence[Behaviour]] | None = None
 
 
 class _Hung(Exception):
@@ -66,13 +62,12 @@ class Judge:
         jobs: int = 1,
     ) -> None:
         """Run all cases once. Raises ValueError when one does not hold without a mutation."""
-        global _baseline
         chosen = setting if setting is not None else Setting()
         self._noticed: list[tuple[str, int, str]] = []
         self._cases = {case.name: case for case in cases}
         starter = Starter(config, system, replace(chosen, coverage=True))
-        _baseline = (starter, cases)
-        outcomes = each(range(len(cases)), _as_it_is, jobs)
+        with Local((starter, cases), jobs) as workers:
+            outcomes = list(each(workers, range(len(cases)), _as_it_is))
         starter.close()
         for outcome in outcomes:
             if not outcome.passed:
@@ -166,9 +161,8 @@ def _worth(reached: Mapping[str, set[tuple[str, int]]]) -> dict[str, dict[str, f
     return found
 
 
-def _as_it_is(number: int):
-    assert _baseline is not None
-    starter, cases = _baseline
+def _as_it_is(context: tuple[Starter, Sequence[Behaviour]], number: int):
+    starter, cases = context
     # Plots and the log are of no use here.
     return replace(starter.attempt(cases[number]), series=(), log=())
 

@@ -4,6 +4,7 @@ import random
 
 import pytest
 
+from rapidgen.proving import batches
 from rapidgen.proving import messages as own
 from rapidgen.proving.link import STOP, point_frame
 from rapidgen.wire import simple_message as wire
@@ -60,7 +61,7 @@ def test_numbers_are_those_of_the_specification(name):
 def test_texts_and_sizes_are():
     assert own.text_of(own.RawReason.CAPACITY) == spec.Reason.CAPACITY.text
     for joints in range(1, 11):
-        assert own.batch_points(joints) == known.batch_points(joints)
+        assert batches.batch_points(joints) == known.batch_points(joints)
     assert (own.MAX_JOINTS, own.INDEX_WRAP, own.PROTOCOL_VERSION, own.LONGEST) == (
         spec.MAX_JOINTS,
         spec.INDEX_WRAP,
@@ -84,6 +85,6 @@ def test_a_batch_is_that_of_the_client(joints):
     (theirs,) = bulk.encode_points(
         7, 3, [d for _, d in points], [p for p, _ in points], flags=spec.StreamFlag.BEGIN
     )
-    assert own.points_frame(7, 3, points, own.RawStreamFlag.BEGIN) == theirs
+    assert batches.points_frame(7, 3, points, own.RawStreamFlag.BEGIN) == theirs
     with pytest.raises(ValueError, match="does not fit"):
-        own.points_frame(7, 0, [((2200.0,) * joints, 1.0)])
+        batches.points_frame(7, 0, [((2200.0,) * joints, 1.0)])

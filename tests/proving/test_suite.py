@@ -157,7 +157,7 @@ def test_a_run_that_is_broken_off_reports_what_it_saw(jobs, monkeypatch, capsys)
         if done == 1:
             raise KeyboardInterrupt
 
-    monkeypatch.setattr("rapidgen.cli.test._Progress._step", interrupted)
+    monkeypatch.setattr("rapidgen.cli.progress.Bars._step", interrupted)
     words = ["--case", "hello", "--case", "single-point", "--quick", "--jobs", jobs, "--json"]
     assert main(["test", "irb120", *words]) == 130
     told = json.loads(capsys.readouterr().out)

@@ -26,6 +26,20 @@ SIGNALS = [
     "signals.flow={kind: AO, access: write}",
     "signals.weight={kind: AI}",
 ]
+DATA = [
+    "data.cell:count={type: num, access: write}",
+    "data.cell:limit={type: num}",
+    "data.cell:ready={type: bool, access: write}",
+    "data.cell:recipe={type: string, access: write}",
+    "data.cell:title={type: string}",
+]
+ROUTINES = [
+    "routines.weld={call: 'cell:weld', parameters: [{name: seam, type: num, mode: inout}, "
+    "{name: dry, type: bool}, {name: good, type: bool, mode: inout}, "
+    "{name: note, type: string, mode: inout}]}",
+    "routines.long={call: 'cell:wait_long'}",
+    "routines.absent={call: 'nocell:weld'}",
+]
 VARIANTS = {
     "no control port": (["ports.control=0"], "hello starves progress-ended again-after-stop"),
     "slowed down": (["trajectory.too_fast=slow_down"], "slowed-down each-value each-duration"),
@@ -37,6 +51,8 @@ VARIANTS = {
     "1 Hz": (["state.rate=1"], "short-movements first-of-all"),
     "0.5 Hz": (["state.rate=0.5"], "there-and-back hello-in-pieces"),
     "signals": (SIGNALS, "signals hello control-stop"),
+    "data": (DATA, "own-data hello control-stop"),
+    "routines": (ROUTINES, "routine-absent routine-results routine-alone program-waits"),
     "some clients": (["network.allowed_clients=[10.0.0.9]"], "strangers single-point"),
     "impatient": (["network.receive_timeout=3"], "stalls half-header"),
     "small ring": (

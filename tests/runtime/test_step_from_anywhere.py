@@ -63,3 +63,29 @@ def test_a_running_program_is_to_be_stopped_first(controller):
     controller.run_for(0.1)
     with pytest.raises(CannotStep, match="stop it first"):
         controller.task("T_ROB1").step()
+
+
+LOOP = """MODULE m
+  PERS num n := 0;
+  PROC main()
+    FOR i FROM 1 TO 20000 DO
+      n := i;
+    ENDFOR
+    n := -1;
+  ENDPROC
+ENDMODULE
+"""
+
+
+def test_in_the_pass_of_a_loop_after_a_stop_between_statements(tmp_path):
+    """A FOR that is stopped between two passes goes on with the next one."""
+    path = tmp_path / "m.mod"
+    path.write_text(LOOP)
+    with VirtualController.from_files([path]) as controller:
+        controller.run_for(0.1)
+        before = controller.task("T_ROB1")["m:n"]
+        assert before > 100
+        controller.stop_program()
+        controller.run_for(0.1)
+        stepped(controller, 2)
+        assert before <= controller.task("T_ROB1")["m:n"] <= before + 3

@@ -411,3 +411,11 @@ def test_two_files_of_one_module_in_a_task(backup):
     assert "'HOME:/old/shared.sys'" in note.message
     assert "[mem]" in note.message
     assert [m.name for m in system.tasks[0].modules] == ["user", "Work", "Shared"]
+
+
+def test_a_folder_with_a_program_has_the_system_modules_beside_it(tmp_path):
+    put(tmp_path / "work.pgf", "<?xml version='1.0'?><Program><Module>work.mod</Module></Program>")
+    for name in ("work.mod", "old.mod", "lib.sys"):
+        put(tmp_path / name, f"MODULE {name[:-4]}\nENDMODULE\n")
+    (task,) = read_files([tmp_path]).tasks
+    assert [module.name for module in task.modules] == ["work", "lib"]

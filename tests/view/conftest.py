@@ -29,7 +29,9 @@ def absent(what):
     pytest.skip(f"this machine has no {what}")
 
 
-@pytest.fixture(scope="session")
+# Of a module, not of the session: while the driver runs, no other test of this process can have an
+# event loop.
+@pytest.fixture(scope="module")
 def browser():
     path = shutil.which("chromium")
     if path is None:

@@ -15,6 +15,7 @@ from rapidgen.config.model import (
     ExposedSignal,
     GroupConfig,
     Joint,
+    OwnDatum,
     OwnRoutine,
     RobotConfig,
     TrajectoryPolicy,
@@ -42,6 +43,8 @@ class Group:
     """What the configuration exposes, in the order of their numbers."""
     routines: tuple[OwnRoutine, ...] = ()
     """Procedures that a program may call, in the order of their numbers."""
+    data: tuple[OwnDatum, ...] = ()
+    """PERS that clients may reach, in the order of their numbers."""
     geometry: GroupFrames | None = None
     """What poses mean; None where that is not known."""
 
@@ -54,6 +57,7 @@ class Group:
             config.trajectory,
             signals=tuple(config.signals),
             routines=group.routines,
+            data=group.data,
             geometry=GroupFrames.of(group),
         )
 

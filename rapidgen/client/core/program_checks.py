@@ -8,6 +8,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from math import ceil, isfinite, radians, sqrt
+from typing import cast
 
 from rapidgen.axes import frames
 from rapidgen.axes.frames import Pose
@@ -17,7 +18,8 @@ from rapidgen.axes.shapes import LARGEST_ARC, Arc, Line, arc_through
 from rapidgen.client.core.frames import Frames
 from rapidgen.client.core.group import Group
 from rapidgen.client.errors import InvalidProgram
-from rapidgen.client.program import Program, ProgramStep, Speed, Trigger, Zone
+from rapidgen.client.program import Argument, Program, ProgramStep, Speed, Trigger, Zone, pose_of
+from rapidgen.config.model import OwnParameter
 from rapidgen.diagnostics import Diagnostic, Severity, error, suggest
 from rapidgen.wire.simple_message import instructions
 from rapidgen.wire.simple_message.spec import FIXED_LIMIT, LONGEST_TEXT, Instruction
@@ -62,6 +64,8 @@ class _Walk:
         self.chosen = (0, 0)
         """Numbers of the tool and of the work object."""
         self.found: list[Diagnostic] = []
+        self.arguments: list[float | bool | str | tuple[float, ...]] = []
+        """Of the routine that is called, as they go onto the wire."""
 
     def say(
         self, code: str, message: str, mend: str = "", *, severity: Severity = Severity.ERROR
@@ -112,6 +116,7 @@ def check_program(
             _zone(walk, step.zone)
         before, walk.chosen = walk.chosen, _frames(walk, step)
         begin = walk.here
+        walk.arguments = []
         operands, duration = _MAKERS[step.kind](walk, step)
         marks = [_mark(walk, trigger) for trigger in step.triggers]
         seconds.append(duration)
@@ -119,7 +124,7 @@ def check_program(
             _stopped(walk, last, step, before != walk.chosen)
         if not _failed(walk):
             chosen = walk.chosen if walk.chosen != before else None
-            words.append(_words(step, last, operands, chosen, marks))
+            words.append(_words(step, last, operands, chosen, marks, walk.arguments))
             if not words[1:]:
                 words[0] = [*instructions.fixed(begin), *words[0]]
         last = step
@@ -138,6 +143,7 @@ def _words(
     operands: Sequence[float],
     chosen: tuple[int, int] | None,
     marks: Sequence[Sequence[float]],
+    arguments: Sequence[float | bool | str | tuple[float, ...]],
 ) -> list[int]:
     return instructions.instruction(
         step.kind,
@@ -146,7 +152,7 @@ def _words(
         zone=step.zone.words if last is None or last.zone != step.zone else None,
         frames=chosen,
         signals=marks,
-        arguments=step.arguments,
+        arguments=arguments,
     )
 
 
@@ -239,17 +245,60 @@ def _call(walk: _Walk, step: ProgramStep) -> tuple[Sequence[float], float]:
     if len(wanted) != len(step.arguments):
         given = f"{len(step.arguments)} of {len(wanted)} parameters"
         walk.say("RG670", f"routine '{step.routine}' is called with {given}")
-    for parameter, value in zip(wanted, step.arguments, strict=False):
-        if not _fits(parameter.type, value):
-            walk.say(
-                "RG670",
-                f"{parameter.name} of '{step.routine}' is a {parameter.type}, not {value!r}",
-                "a finite number, True or False, or a text of at most 80 characters",
-            )
-    return (number,), 0.0
+    walk.arguments = [
+        _of_routine(walk, step, parameter, value)
+        for parameter, value in zip(wanted, step.arguments, strict=False)
+    ]
+    return (number, _seconds(walk, step)), 0.0
 
 
-def _fits(kind: str, value: float | bool | str) -> bool:
+def _of_routine(
+    walk: _Walk, step: ProgramStep, parameter: OwnParameter, value: Argument
+) -> float | bool | str | tuple[float, ...]:
+    """An argument as it goes onto the wire: of a target its operands."""
+    joints = _joints_of(walk, value) if parameter.type == "jointtarget" else None
+    if joints is not None:
+        _within(walk, joints)
+        return joints
+    if parameter.type == "robtarget" and isinstance(value, Sequence) and len(value) == 2:
+        return _reached(walk, parameter, value)
+    if not isinstance(value, float | int | str) or not fits(parameter.type, value):
+        walk.say(
+            "RG670",
+            f"{parameter.name} of '{step.routine}' is a {parameter.type}, not {value!r}",
+            "a finite number, True or False, a text of at most 80 characters, a pose, or joints",
+        )
+        return 0.0
+    return value
+
+
+def _joints_of(walk: _Walk, value: Argument) -> Posture | None:
+    """Axis values of what are joints of this robot."""
+    if isinstance(value, Sequence) and len(value) == len(walk.group.names):
+        joints = [v for v in value if isinstance(v, float | int) and isfinite(v)]
+        return walk.group.map.to_controller(joints) if len(joints) == len(value) else None
+    return None
+
+
+def _reached(walk: _Walk, parameter: OwnParameter, value: Argument) -> tuple[float, ...] | float:
+    """A pose with the joints that reach it, nearest to where the robot is."""
+    try:
+        pose = _unit(walk, pose_of(cast("Pose", value)))
+    except InvalidProgram as error:
+        walk.say("RG670", f"{parameter.name}: {error}")
+        return 0.0
+    robot = walk.frames
+    if pose is None or robot is None:
+        return 0.0
+    found = robot.postures(pose, walk.here)
+    if not found:
+        walk.say("RG671", f"{parameter.name} is not reached; {robot.why_not(pose, walk.here)}")
+        return 0.0
+    return _operands(pose, found[0])
+
+
+def fits(kind: str, value: float | bool | str) -> bool:
+    """Whether a value is one of a RAPID type: num, bool or string."""
     if kind == "string":
         return (
             isinstance(value, str)
@@ -259,7 +308,7 @@ def _fits(kind: str, value: float | bool | str) -> bool:
         )
     if kind == "bool":
         return isinstance(value, bool)
-    if isinstance(value, bool | str):
+    if kind != "num" or isinstance(value, bool | str):
         return False
     return abs(value) <= _LARGEST
 

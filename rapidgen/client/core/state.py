@@ -118,6 +118,8 @@ class Event:
     title: str
     number: int
     """Events since the connection was made."""
+    texts: tuple[str, ...] = ()
+    """The first ones below the title, two at most: of an error in a program its place."""
 
     def __str__(self) -> str:
         return f"{self.code} {self.title}" if self.code else self.title

@@ -286,6 +286,7 @@ def _event(content: messages.EventReport, now: float, number: int) -> Event:
         type=EventType(content.type) if known else EventType.ERROR,
         title=content.title,
         number=number,
+        texts=tuple(text for text in (content.first, content.second) if text),
     )
 
 

@@ -1,5 +1,15 @@
 """What the client does step by step: generators over `effects`, carried out by others."""
 
-from rapidgen.client.flows import connect, control, download, job, motion, program, state, stop
+from rapidgen.client.flows import (
+    connect,
+    control,
+    data,
+    download,
+    job,
+    motion,
+    program,
+    state,
+    stop,
+)
 
-__all__ = ["connect", "control", "download", "job", "motion", "program", "state", "stop"]
+__all__ = ["connect", "control", "data", "download", "job", "motion", "program", "state", "stop"]

@@ -13,19 +13,19 @@ from rapidgen.wire.simple_message.spec import Feature, Port
 
 def pause(core: Core) -> Flow[None]:
     """Hold what moves on its path. Raises NotSupported, RequestRefused, RobotTimeout."""
-    yield from _ask(core, messages.PauseRequest(1), "pause")
+    yield from ask(core, messages.PauseRequest(1), "pause")
 
 
 def resume(core: Core) -> Flow[None]:
     """Go on behind a pause. Raises as `pause`."""
-    yield from _ask(core, messages.PauseRequest(0), "go on")
+    yield from ask(core, messages.PauseRequest(0), "go on")
 
 
 def set_speed(core: Core, percent: float) -> Flow[None]:
     """Go at 1 to 100 % of the programmed speed, until the next motion. Raises as `pause`."""
     if not 1 <= percent <= 100:
         raise ValueError(f"percent must be 1 to 100, not {percent}")
-    yield from _ask(core, messages.SpeedRequest(percent), f"go at {percent:g} %")
+    yield from ask(core, messages.SpeedRequest(percent), f"go at {percent:g} %")
     core.override = percent / 100
 
 
@@ -43,7 +43,7 @@ def _signal(core: Core, which: str | int, value: float | None) -> Flow[float]:
     index = _index(core, which, writes=value is not None)
     asked = messages.SignalRequest(index, int(value is not None), value or 0.0)
     what = "read" if value is None else "write"
-    reply = yield from _ask(core, asked, f"{what} signal {which}")
+    reply = yield from ask(core, asked, f"{what} signal {which}")
     if not isinstance(reply, messages.SignalReply) or reply.signal != index:
         raise RequestRefused.because(
             "RG625", f"signal {which} was answered with {reply}", **core.evidence()
@@ -72,7 +72,7 @@ def _index(core: Core, which: str | int, *, writes: bool) -> int:
     return which
 
 
-def _ask(core: Core, content: Content, what: str) -> Flow[Content]:
+def ask(core: Core, content: Content, what: str) -> Flow[Content]:
     """A request over the control port and its reply."""
     yield from alive(core)
     control = core.ports[Port.CONTROL]

@@ -7,6 +7,7 @@ from rapidgen.client.core.checks import Way
 from rapidgen.client.core.job import Job
 from rapidgen.client.core.motion import Result
 from rapidgen.client.core.robot import Core
+from rapidgen.client.core.state import Event
 from rapidgen.client.errors import (
     InvalidProgram,
     MotionFailed,
@@ -15,21 +16,27 @@ from rapidgen.client.errors import (
     RoutineFailed,
     fault,
 )
+from rapidgen.client.flows.data import Datum
 from rapidgen.client.flows.effects import Flow, Send, Wait
 from rapidgen.client.flows.job import result, taken
 from rapidgen.client.flows.motion import ready, until
 from rapidgen.client.flows.stop import stop
-from rapidgen.client.program import SLOW, Program, SpeedLike
+from rapidgen.client.program import SLOW, Argument, Program, SpeedLike
+from rapidgen.config.model import OwnRoutine
 from rapidgen.diagnostics import suggest
 from rapidgen.wire.simple_message import encode, messages
-from rapidgen.wire.simple_message.spec import Comm, Port, Reason
+from rapidgen.wire.simple_message.spec import Comm, EventType, Port, Reason
 
-_STEP = {"revolute": 0.2, "prismatic": 0.1}
+LONGEST_JOG = {"revolute": 0.2, "prismatic": 0.1}
 """rad and m of one jog."""
 _DEAD_MAN = 0.2
 """s without a word of the client after which a jogged robot is stopped."""
 _LOOK = 0.01
 """s between two looks whether a routine has ended."""
+_GRACE = 2.0
+"""s beyond its time-out in which the controller has to say that it has left a routine."""
+_TOLD = 1.0
+"""s in which an event of the controller comes."""
 _ANY = 1e6
 """s that a routine without a time-out may take."""
 
@@ -76,7 +83,9 @@ def jog(core: Core, /, *, speed: SpeedLike = SLOW, **by: float) -> Flow[Result]:
     assert state is not None
     target = dict(zip(group.names, state.joints, strict=True))
     for name, step in by.items():
-        most = _STEP.get(group.joints[group.names.index(name)].kind if name in target else "", 0.0)
+        most = LONGEST_JOG.get(
+            group.joints[group.names.index(name)].kind if name in target else "", 0.0
+        )
         if not abs(step) <= most:
             raise InvalidProgram.because(
                 "RG670",
@@ -97,19 +106,22 @@ def _go(core: Core, program: Program, timeout: float | None) -> Flow[Result]:
 
 
 def call(
-    core: Core, routine: str, *arguments: float | bool | str, timeout: float | None = None
-) -> Flow[tuple[float | bool, ...]]:
+    core: Core, routine: str, *arguments: Argument, timeout: float | None = None
+) -> Flow[tuple[Datum, ...]]:
     """Call a procedure of the controller's program and wait for its end: what it left in its
-    parameters that are `inout`, in their order.
+    parameters that are `inout`, in their order, and then a function's value.
 
-    Without a time-out it may take as long as it likes; when it does not end in time it is left by a
-    STOP, and its state is unknown. Raises RoutineFailed with the number of the error that it has
-    raised, otherwise as `run`.
+    Without a time-out it may take as long as it likes; when it does not end in time the controller
+    leaves it, and its state is unknown (MotionFailed, OVERTIME). Raises RoutineFailed with number
+    and name of the error that it has raised, or when the error stopped the program of the robot;
+    otherwise as `run`.
     """
-    job = yield from run(core, Program().call(routine, *arguments), None)
+    limit = 0.0 if timeout is None else timeout
+    job = yield from run(core, Program().call(routine, *arguments, timeout=limit), None)
     motion = job.motion
     assert motion is not None
-    motion.longest = _ANY if timeout is None else timeout
+    since = core.clock()
+    motion.longest = _ANY if timeout is None else timeout + _GRACE
     deadline = core.clock() + motion.longest
     told = yield from _told(core)
     while told.trajectory != motion.number and core.clock() < deadline:
@@ -122,27 +134,71 @@ def call(
     try:
         yield from result(job, max(0.0, deadline - core.clock()))
     except MotionFailed as failed:
+        if failed.reason is Reason.PROGRAM_STOPPED:
+            yield from _why_it_stopped(core, routine, since, failed)
         if failed.reason is not Reason.ROUTINE:
             raise
         told = yield from _told(core)
+        called = f" ({told.text})" if told.text else ""
         raise RoutineFailed(
-            fault("RG675", f"routine '{routine}' has raised error {told.error}"),
+            fault("RG675", f"routine '{routine}' has raised error {told.error}{called}"),
             number=told.error,
+            name=told.text,
             **core.evidence(),
         ) from failed
     except RobotTimeout:
         yield from stop(core)
         raise
     (own,) = (r for r in core.known_group.routines if r.name == routine)
-    values = zip(own.parameters, told.values, strict=False)
-    return tuple(v == 1 if p.type == "bool" else v for p, v in values if p.inout)
+    return (yield from _results(core, own, told))
 
 
-def _told(core: Core) -> Flow[messages.ResultReply]:
+def _why_it_stopped(core: Core, routine: str, since: float, failed: MotionFailed) -> Flow[None]:
+    """Raise RoutineFailed with the event of the error that has stopped the program of the robot,
+    where the driver tells one."""
+
+    def told() -> Event | None:
+        errors = (
+            e for e in core.state_port.events if e.time >= since and e.type is EventType.ERROR
+        )
+        return next(errors, None)
+
+    yield Wait(lambda: told() is not None, _TOLD)
+    event = told()
+    if event is not None:
+        raise RoutineFailed(
+            fault(
+                "RG675",
+                f"routine '{routine}' has stopped the program of the robot: "
+                + ", ".join((str(event), *event.texts)),
+                "mend the routine, then PP to Main and Start",
+            ),
+            number=0,
+            event=event,
+            **core.evidence(),
+        ) from failed
+
+
+def _results(core: Core, own: OwnRoutine, told: messages.ResultReply) -> Flow[tuple[Datum, ...]]:
+    """What a routine left, by the types of its parameters; each text is asked for by itself."""
+    left = [(n, p.type) for n, p in enumerate(own.parameters, 1) if p.inout]
+    if own.returns:
+        left.append((len(own.parameters) + 1, own.returns))
+    found: list[Datum] = []
+    for number, kind in left:
+        if kind == "string":
+            found.append((yield from _told(core, number)).text)
+        else:
+            value = told.values[number - 1]
+            found.append(value == 1 if kind == "bool" else value)
+    return tuple(found)
+
+
+def _told(core: Core, parameter: int = 0) -> Flow[messages.ResultReply]:
     """What the driver says of the newest call that has ended."""
     port = core.ports[Port.MOTION]
     pending = port.request(messages.RESULT.number)
-    asked = encode(messages.ResultRequest(0), Comm.REQUEST)
+    asked = encode(messages.ResultRequest(parameter), Comm.REQUEST)
     yield Send(Port.MOTION, asked, core.timeouts.send)
     yield Wait(lambda: pending.reply is not None or not port.is_open, core.timeouts.reply)
     if not isinstance(pending.reply, messages.ResultReply):

@@ -13,7 +13,7 @@ from websockets.asyncio.client import ClientConnection
 from websockets.asyncio.client import connect as connect_socket
 from websockets.exceptions import ConnectionClosed, WebSocketException
 
-from rapidgen.client.errors import RobotTimeout
+from rapidgen.client.errors import ConnectionLost, RobotTimeout
 from rapidgen.client.rws.core import Pace, RwsCore
 from rapidgen.client.rws.effects import (
     Effect,
@@ -27,6 +27,7 @@ from rapidgen.client.rws.effects import (
     Settle,
     resume,
 )
+from rapidgen.client.rws.errors import Busy
 from rapidgen.client.rws.flows import connecting, holding, subscribing
 from rapidgen.client.rws.model import ResourceEvent
 from rapidgen.client.rws.surface import PATIENCE, ControllerSurface
@@ -196,12 +197,23 @@ class AsyncSubscription:
         try:
             message = await self._socket.recv()
         except (ConnectionClosed, ConnectionError):
-            await self._open(subscribing.again(self._core, self._topics, PATIENCE))
+            await self._again()
             return
         data = message.encode() if isinstance(message, str) else message
         self._waiting.extend(
             await self._carrier.run(subscribing.events_of(self._core, self._topics, data))
         )
+
+    async def _again(self) -> None:
+        """Open it once more, as often as the controller takes to stay."""
+        until = time.monotonic() + PATIENCE
+        while True:
+            try:
+                return await self._open(subscribing.again(self._core, self._topics, PATIENCE))
+            except (ConnectionLost, Busy):
+                if time.monotonic() >= until:
+                    raise
+                await self._carrier.run(subscribing.unsubscribe(self._core, self._group))
 
     async def close(self) -> None:
         """Be told no more."""

@@ -60,8 +60,8 @@ class RwsCore:
     robotware: str = ""
     system: str = ""
     """Name of the system that was found."""
-    held: set[str] = field(default_factory=set)
-    """Domains of mastership that this session has."""
+    held: dict[str, int] = field(default_factory=dict)
+    """Domains of mastership that this session has, and how often each was taken."""
     requests: int = 0
     clock: Callable[[], float] = time.monotonic
     """s; what waits measures by it."""

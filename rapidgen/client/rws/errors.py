@@ -10,7 +10,7 @@ _MENDS = {
     "E_RESOURCE_HELD": "somebody else holds it: wait for them, or end their session",
     "E_WRITE_ACCESS_TAKEN": "another control station writes: wait until it lets go",
     "E_UAS_REJECT": "this user lacks the grant: give it in RobotStudio, or log in as another",
-    "E_MODE_REJECT": "switch the controller to automatic mode at the pendant",
+    "E_MODE_REJECT": "switch the controller to automatic mode at the pendant, or `ask_rmmp()`",
     "E_SYSFAIL_REJECT": "the controller is in system failure: read its log, mend, restart it",
     "E_EXEC_STATE": "stop RAPID in all tasks first, background tasks too",
     "E_NO_PP": "set the program pointer to main, and look at the build errors",
@@ -27,11 +27,18 @@ _REJECTED = (
 
 
 class RwsError(RobotError):
-    """The controller refused: `status` of HTTP, `symbol` of ABB (empty: it gave none)."""
+    """The controller refused: `status` of HTTP, `symbol` of ABB (empty: it gave none).
 
-    def __init__(self, status: int, what: str, refused: Fault | None) -> None:
+    `grants` are what the request takes, by UAS name.
+    """
+
+    def __init__(
+        self, status: int, what: str, refused: Fault | None, grants: tuple[str, ...] = ()
+    ) -> None:
         symbol = name_of(refused.code) if refused is not None else ""
         words = f"{symbol}: {refused.message}" if refused is not None else f"HTTP status {status}"
+        if symbol == "E_UAS_REJECT" and grants:
+            words += f" (it takes {' and '.join(grants)})"
         mend = _MENDS.get(symbol) or (_REJECTED if symbol == "E_REJECT" else "")
         super().__init__(fault("RG650", f"{what} was refused ({status}): {words}", mend))
         self.status = status

@@ -14,7 +14,7 @@ from websockets.exceptions import ConnectionClosed, WebSocketException
 from websockets.sync.client import ClientConnection
 from websockets.sync.client import connect as connect_socket
 
-from rapidgen.client.errors import RobotTimeout
+from rapidgen.client.errors import ConnectionLost, RobotTimeout
 from rapidgen.client.rws.core import Pace, RwsCore
 from rapidgen.client.rws.effects import (
     Effect,
@@ -28,6 +28,7 @@ from rapidgen.client.rws.effects import (
     Settle,
     resume,
 )
+from rapidgen.client.rws.errors import Busy
 from rapidgen.client.rws.flows import connecting, holding, subscribing
 from rapidgen.client.rws.model import ResourceEvent
 from rapidgen.client.rws.surface import PATIENCE, ControllerSurface
@@ -144,11 +145,17 @@ class Blocking:
         """A websocket of this session, closed with the stack. Pings are off: RWS 2.0 cuts off a
         client that sends."""
         assert self._client is not None
+        options = socket_options(self._core, self._client.cookies)
+        if options["ssl"] is not None:
+            # One thread reads here while another writes. The tickets that TLS 1.3 sends after its
+            # handshake take a read in the middle of which a write is lost, and then everything
+            # waits for ever: once in a thousand.
+            options["ssl"].maximum_version = ssl.TLSVersion.TLSv1_2
         try:
             return stack.enter_context(
                 connect_socket(
                     self._base.replace("http", "ws", 1) + path,
-                    **socket_options(self._core, self._client.cookies),
+                    **options,
                     open_timeout=self._timeout,
                 )
             )
@@ -196,13 +203,24 @@ class Subscription:
             except TimeoutError as error:
                 raise RobotTimeout.because("RG602", f"no event within {timeout:g} s") from error
             except (ConnectionClosed, OSError):
-                self._open(subscribing.again(self._core, self._topics, PATIENCE))
+                self._again()
                 continue
             data = message.encode() if isinstance(message, str) else message
             self._waiting.extend(
                 self._carrier.run(subscribing.events_of(self._core, self._topics, data))
             )
         return self._waiting.popleft()
+
+    def _again(self) -> None:
+        """Open it once more, as often as the controller takes to stay."""
+        until = time.monotonic() + PATIENCE
+        while True:
+            try:
+                return self._open(subscribing.again(self._core, self._topics, PATIENCE))
+            except (ConnectionLost, Busy):
+                if time.monotonic() >= until:
+                    raise
+                self._carrier.run(subscribing.unsubscribe(self._core, self._group))
 
     def close(self) -> None:
         """Be told no more."""

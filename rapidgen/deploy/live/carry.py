@@ -11,7 +11,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
 
-from rapidgen.client.errors import RobotError
+from rapidgen.client.errors import NotReady, NotSupported, RobotError
 from rapidgen.client.rws import Controller, RwsError
 from rapidgen.deploy.live.memory import forget_saved, rearrange
 from rapidgen.deploy.live.plan import LivePlan
@@ -19,13 +19,16 @@ from rapidgen.deploy.live.proof import ReadBack, prove, way_back
 from rapidgen.deploy.live.view import Row
 from rapidgen.deploy.plan import Plan
 from rapidgen.deploy.transports.transport import TransportFault, refused
-from rapidgen.deploy.work import Work
+from rapidgen.deploy.work import Work, go_on
 from rapidgen.diagnostics import DiagnosticError, error
 from rapidgen.system import CfgText, write_cfg
 from rapidgen.wire.rws.bodies import Generation
 
 _LOOK = 1.0
 """s between two looks whether a person has done it."""
+_PROMPT = 10.0
+"""s that a question of RMMP stands on the pendant [RWS manual]."""
+_MANUAL = ("MANR", "MANF")
 _SCRATCH = "TEMP/rapidgen_{}.cfg"
 
 
@@ -70,6 +73,13 @@ def check(run: Live) -> None:
         raise another(run.plan, live.id)
     if live.is_empty:
         return
+    lacking = live.lacking(run.services.generation, restart=run.options.restart)
+    if lacking:
+        raise refused(
+            "RG542",
+            f"the user lacks {', '.join(lacking)} at {target}",
+            "give it in RobotStudio, or log in as another; nothing was changed",
+        )
     _await(run)
     if run.plan.wanted is None and live.touches_memory and not run.rearranges:
         others = sorted(set(live.started) - set(live.owned))
@@ -82,23 +92,45 @@ def check(run: Live) -> None:
 
 def _await(run: Live) -> None:
     """Wait for what only people do. Raises DiagnosticError RG542 when the time is over."""
-    left, told = run.options.wait, ""
-    while (missing := _missing(run)) is not None:
+    left, told, refusal = run.options.wait, "", ""
+    granted = False
+    while (missing := _missing(run, granted=granted)) is not None:
         what, mend = missing
+        if not (granted or refusal) and run.services.panel().mode in _MANUAL:
+            granted, refusal = _ask_pendant(run)
+            continue
         if left <= 0:
-            raise refused("RG542", what, f"{mend}, then run this again (--wait S waits)")
+            raise refused(
+                "RG542", f"{what}{refusal}", f"{mend}, then run this again (--wait S waits)"
+            )
         if what != told:
             run.work.say(f"waiting for a person: {what}; {mend}")
             told = what
+        go_on(run.work)
         run.options.pause(_LOOK)
         left -= _LOOK
 
 
-def _missing(run: Live) -> tuple[str, str] | None:
+def _ask_pendant(run: Live) -> tuple[bool, str]:
+    """Ask by RMMP; whether it was granted, or why not."""
+    wait = max(run.options.wait, _PROMPT)
+    if run.services.generation is not Generation.EIGHT:
+        run.work.say(
+            f"{run.plan.target} is in manual mode: its pendant asks now whether rapidgen may "
+            f"write. Press Grant there within {wait:g} s"
+        )
+    try:
+        run.services.ask_rmmp("modify", wait=wait)
+    except (NotReady, NotSupported, RwsError) as cause:
+        return False, f" ({cause.diagnostics[0].message})"
+    return True, ""
+
+
+def _missing(run: Live, *, granted: bool) -> tuple[str, str] | None:
     """What is in the way, and what a person does about it."""
     target = run.plan.target
     mode = run.services.panel().mode
-    if mode != "AUTO":
+    if mode != "AUTO" and not (granted and mode in _MANUAL):
         what = f"{target} is in mode {mode or '?'}, which lets nobody write from afar"
         return what, "switch it to automatic at the pendant and acknowledge"
     stops = (run.options.restart and run.live.restart) or run.rearranges

@@ -18,7 +18,12 @@ from rapidgen.deploy.neighbour import MODULE
 from rapidgen.deploy.steps import ManualStep
 from rapidgen.deploy.tasks import MAIN
 from rapidgen.system import CfgText, Instance, Section, write_cfg
+from rapidgen.wire.rws import operations as ops
+from rapidgen.wire.rws.bodies import Generation
+from rapidgen.wire.rws.grants import missing
 
+_GRANTED = ", or Grant when it asks whether rapidgen may write"
+_OR_GRANT = {Generation.ONE: _GRANTED, Generation.TWO: _GRANTED}
 BY_SERVICES = "web services"
 """Who does the steps that no person has to do."""
 
@@ -84,6 +89,10 @@ class LivePlan:
     """NORMAL tasks whose `main` is ours, with its module."""
     running: bool = False
     mode: str = ""
+    orphans: tuple[str, ...] = ()
+    """Background tasks without cfg, which a restart ends."""
+    grants: frozenset[str] = frozenset()
+    """What the user may do; none where the controller does not tell."""
 
     @property
     def touches_cfg(self) -> bool:
@@ -96,6 +105,21 @@ class LivePlan:
     @property
     def is_empty(self) -> bool:
         return not (self.touches_cfg or self.touches_memory or self.restart)
+
+    def lacking(self, generation: Generation, *, restart: bool) -> tuple[str, ...]:
+        """Grants that the user has not, and that this takes."""
+        if not self.grants or any("FULL_ACCESS" in grant for grant in self.grants):
+            return ()
+        wanted = [ops.READ_FILE, ops.WRITE_FILE, ops.BACKUP]
+        if self.touches_cfg:
+            wanted += [ops.CFG_DELETE, ops.CFG_SET, ops.CFG_LOAD]
+        if self.touches_memory:
+            wanted += [ops.LOAD_MODULE, ops.POINTER_TO_ROUTINE, ops.SAVE_MODULE]
+            wanted += [ops.STOP] if self.started else []
+        if self.restart and restart:
+            wanted += [ops.RESTART, *([ops.POINTER_TO_ROUTINE] if self.mains else [])]
+        found = (g for one in wanted for g in missing(one, generation, self.grants))
+        return tuple(dict.fromkeys(found))
 
     @property
     def fingerprint(self) -> Members:
@@ -163,7 +187,7 @@ def make_live_plan(
         unload,
         replace,
         restore,
-        bool(delete or again or change or needful or stale),
+        bool(delete or again or change or needful or stale or view.orphans),
         dict(symbols),
         tuple(t.name for t in background),
         tuple(t.name for t in background if t.name.casefold() in known),
@@ -171,6 +195,8 @@ def make_live_plan(
         _mains(view, wanted),
         view.running,
         view.mode,
+        view.orphans,
+        view.grants,
     )
 
 
@@ -204,7 +230,9 @@ def find_clashes(
     return tuple(InMemory(real[m.task.casefold()], m.module, why=m.why) for m in found)
 
 
-def live_steps(live: LivePlan, verb: str, host: str) -> tuple[ManualStep, ...]:
+def live_steps(
+    live: LivePlan, verb: str, host: str, generation: Generation
+) -> tuple[ManualStep, ...]:
     """What the plan says of it: by web services, and by people."""
     by = BY_SERVICES
     gone = Counter(row.domain for row in (*live.delete, *live.again))
@@ -230,7 +258,11 @@ def live_steps(live: LivePlan, verb: str, host: str) -> tuple[ManualStep, ...]:
     if live.is_empty:
         return tuple(steps)
     if live.mode != "AUTO":
-        steps.append(ManualStep("pendant", f"automatic mode (it is {live.mode or 'unknown'})"))
+        what = f"automatic mode (it is {live.mode or 'unknown'})"
+        steps.append(ManualStep("pendant", f"{what}{_OR_GRANT.get(generation, '')}"))
+    lacking = live.lacking(generation, restart=True)
+    if lacking:
+        steps.append(ManualStep("you", f"give the user {', '.join(lacking)} in RobotStudio"))
     if live.running:
         what = f"stop the program: `rapidgen halt {host}`"
         steps.append(ManualStep("you", what, stops_motion=True))

@@ -59,6 +59,15 @@ class LiveView:
     """Modules in the memory of the tasks that were asked for, by lower-case name of the task."""
     builds: Mapping[str, str]
     """BUILD_ID in the memory of those tasks; empty where there is none."""
+    grants: frozenset[str] = frozenset()
+    """What the user may do, by UAS name; none where the controller does not tell."""
+
+    @property
+    def orphans(self) -> tuple[str, ...]:
+        """Background tasks that cfg no longer has: they are there until a restart."""
+        rows = {r.title.casefold() for r in self.rows if r.section == "CAB_TASKS"}
+        background = (t.name for t in self.tasks if t.kind != "normal")
+        return tuple(n for n in background if rows and n.casefold() not in rows)
 
     @property
     def texts(self) -> tuple[CfgText, ...]:
@@ -107,6 +116,7 @@ def look(
             t.casefold(): build_in(services, t, symbols.get(t, ())[: None if t in normal else 1])
             for t in mine
         },
+        services.grants(),
     )
 
 

@@ -19,7 +19,9 @@ from rapidgen.faces.rws.watching import watched
 from rapidgen.wire.rws import login as logging_in
 from rapidgen.wire.rws.bodies import Body, Fault, Generation, Syntax, Unreadable
 from rapidgen.wire.rws.forms import FORM, read_form, split_target
+from rapidgen.wire.rws.grants import missing
 from rapidgen.wire.rws.media import CONTENT_TYPES, FILE_TYPES, WRITERS, plain, wanted
+from rapidgen.wire.rws.operations import RwsOperation
 
 SESSION, CONNECTION = "-http-session-", "ABBCX"
 """Cookies: of the session, and of the TCP connection."""
@@ -153,6 +155,7 @@ class Desk:
             if found.allowed:
                 raise Denied(405, "E_INVALIDARG", f"{got.method} {path}")
             raise Denied(404, "E_UNRESOLVED_URL", path)
+        self._check_grants(found.operation, session)
         form = got.method == "POST" or path.startswith("/subscription")
         asked = RwsRequest(
             self.generation, session, path, suffix, found.names, query,
@@ -160,6 +163,12 @@ class Desk:
             plain(got.headers.get("content-type", "")), got.headers.get("host", ""),
         )  # fmt: skip
         return found.handler(self.office, asked) or Served()
+
+    def _check_grants(self, operation: RwsOperation | None, session: Session) -> None:
+        granted = self.office.login.granted(session.user)
+        lacking = missing(operation, self.generation, granted) if operation else ()
+        if lacking:
+            raise Denied(403, "E_UAS_REJECT", f"user lacks the grant {lacking[0]}", -757)
 
     def _check_type(self, got: Received, files: bool) -> None:
         """406 for a request without the type that RWS 2.0 wants, 415 for a file of another."""

@@ -8,6 +8,7 @@ from collections.abc import Callable
 from typing import Literal
 
 from rapidgen.faces.rws.asking import Denied, RwsRequest
+from rapidgen.faces.rws.rmmp import ManualPrivilege, Privilege
 from rapidgen.faces.rws.sessions import Session
 from rapidgen.wire.rws.bodies import Generation
 
@@ -18,11 +19,17 @@ class Masters:
     """Mastership of one face."""
 
     def __init__(
-        self, generation: Generation, mode: Callable[[], str], *, strict: bool = True
+        self,
+        generation: Generation,
+        mode: Callable[[], str],
+        manual: ManualPrivilege,
+        *,
+        strict: bool = True,
     ) -> None:
-        """`mode` tells the controller's operating mode."""
+        """`mode` tells the controller's operating mode, `manual` who may write in manual mode."""
         self._generation = generation
         self._mode = mode
+        self.manual = manual
         self._strict = strict
         self.holders: dict[str, Session] = {}
         self.stations: dict[str, str] = {}
@@ -62,9 +69,12 @@ class Masters:
         if domain not in self.domains:
             raise Denied(404, "E_UNRESOLVED_URL", f"no domain {domain}")
 
-    def need(self, asked: RwsRequest, domain: Domain) -> None:
-        """What this request does takes mastership. Denied: the session does not have it."""
-        self.need_mode()
+    def need(self, asked: RwsRequest, domain: Domain, *, by_itself: bool = False) -> None:
+        """What this request does takes mastership. Denied: the session does not have it.
+
+        `by_itself`: the controller takes it for the request, where nobody else has it.
+        """
+        self.need_mode(asked.session)
         if self._generation is Generation.EIGHT:
             if not asked.session.station or asked.session.station != self.station:
                 raise Denied(403, "E_NO_WRITE_ACCESS", "session does not have SPoC", -20_107)
@@ -75,7 +85,8 @@ class Masters:
             return
         if holder is not None:
             raise Denied(403, "E_RESOURCE_HELD", f"mastership of {name} is held", -1)
-        if asked.query.get("mastership") != "implicit" and self._strict:
+        implicit = by_itself or asked.query.get("mastership") == "implicit"
+        if not implicit and self._strict:
             raise Denied(403, "E_MASTER_REJECT", f"mastership of {name} is missing", -4_501)
 
     @property
@@ -83,10 +94,11 @@ class Masters:
         """Whether some session holds what RAPID needs for itself: a start waits for that."""
         return self._generation is Generation.TWO and "edit" in self.holders
 
-    def need_mode(self) -> None:
-        """Who is remote writes in automatic mode only. (RMMP is asked, and nobody grants it.)"""
-        if self._mode() != "auto" and self._strict:
-            raise Denied(403, "E_MODE_REJECT", "not in automatic mode", -4_502)
+    def need_mode(self, session: Session, privilege: Privilege = "modify") -> None:
+        """Who is remote writes in automatic mode, or in manual mode where that was granted."""
+        if self._mode() == "auto" or not self._strict or self.manual.has(session, privilege):
+            return
+        raise Denied(403, "E_MODE_REJECT", "neither automatic mode nor RMMP", -4_502)
 
     def need_start(self, asked: RwsRequest) -> None:
         """A start: on RobotWare 8 with write access, and motion allowed [real 8.1.0]."""

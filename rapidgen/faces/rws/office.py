@@ -8,11 +8,13 @@ from rapidgen.controller.cabinet import Cabinet
 from rapidgen.controller.controller import VirtualController
 from rapidgen.faces.rws.asking import Denied, Served
 from rapidgen.faces.rws.mastership import Masters
+from rapidgen.faces.rws.rmmp import ManualPrivilege
 from rapidgen.faces.rws.sessions import Session
 from rapidgen.faces.rws.subscriptions import Groups
 from rapidgen.machine.files import DiskFault
 from rapidgen.wire.rws.bodies import Generation
 from rapidgen.wire.rws.codes import CODES, OK
+from rapidgen.wire.rws.grants import GRANTS
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,6 +23,10 @@ class Accounts:
 
     users: dict[str, str]
     denied: frozenset[str] = frozenset()
+
+    def granted(self, user: str) -> frozenset[str]:
+        """What a user may do, by UAS names."""
+        return frozenset(GRANTS) - (self.denied if user == "Default User" else frozenset())
 
 
 class Office:
@@ -48,7 +54,8 @@ class Office:
         return self.cabinet.controller
 
     def _new_masters(self) -> Masters:
-        return Masters(self.generation, lambda: self.controller.mode, strict=self.strict)
+        manual = ManualPrivilege(lambda: self.controller, lambda: self.cabinet.now)
+        return Masters(self.generation, lambda: self.controller.mode, manual, strict=self.strict)
 
     def restarted(self) -> None:
         """Nothing is held and nothing is under way any more."""

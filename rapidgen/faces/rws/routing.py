@@ -32,21 +32,23 @@ class _Row:
     pattern: re.Pattern[str]
     route: Route
     handler: Handler
+    operation: RwsOperation
 
 
 @dataclass(frozen=True, slots=True)
 class Lookup:
-    """What a path leads to: a handler, or the methods that there would be."""
+    """What a path leads to: a handler and its operation, or the methods that there would be."""
 
     handler: Handler | None
     names: Mapping[str, str]
     allowed: tuple[str, ...] = ()
+    operation: RwsOperation | None = None
 
 
 @cache
 def _rows(generation: Generation) -> tuple[_Row, ...]:
-    routes = [(operation.route(generation), handler) for operation, handler in _TABLE]
-    rows = [_Row(r.pattern, r, handler) for r, handler in routes if r is not None]
+    routes = [(operation.route(generation), operation, handler) for operation, handler in _TABLE]
+    rows = [_Row(r.pattern, r, handler, operation) for r, operation, handler in routes if r]
     # What names more of its path goes first: `/ctrl/identity` before `/ctrl/{variable}`.
     return tuple(sorted(rows, key=lambda row: (row.route.path.count("{"), "*" in row.route.path)))
 
@@ -59,6 +61,6 @@ def find(generation: Generation, method: str, path: str, action: str) -> Lookup:
         if match is None:
             continue
         if row.route.method == method and row.route.action == action:
-            return Lookup(row.handler, match.groupdict())
+            return Lookup(row.handler, match.groupdict(), operation=row.operation)
         allowed.append(row.route.method)
     return Lookup(None, {}, tuple(dict.fromkeys(allowed)))

@@ -213,7 +213,7 @@ class _Server:
             for task in both:
                 task.cancel()
             await asyncio.gather(*both, return_exceptions=True)
-            self._desk.office.cabinet.post(lambda: self._desk.groups.leave(number))
+            self._desk.office.cabinet.post(lambda: self._desk.groups.leave(number, send))
         await socket.close(code=codes[0] if codes else WSCloseCode.GOING_AWAY)
         return socket
 

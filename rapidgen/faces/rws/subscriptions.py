@@ -155,10 +155,10 @@ class Groups:
             self._tell(group, item)
         group.waiting.clear()
 
-    def leave(self, number: str) -> None:
-        """Nobody listens to a group any more; RWS 2.0 has no second time."""
+    def leave(self, number: str, send: Send) -> None:
+        """`send` hears no more of a group; RWS 2.0 has no second time."""
         group = self._groups.get(int(number))
-        if group is None:
+        if group is None or group.send is not send:
             return
         group.send, group.hang_up = None, lambda: None
         if self._generation is not Generation.ONE:

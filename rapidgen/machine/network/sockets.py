@@ -1,10 +1,18 @@
 """Sockets as a program holds them, and the controller's table of those that are in use."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from enum import IntEnum
 from types import MappingProxyType
+from typing import Literal
 
-from rapidgen.machine.network.interface import Endpoint, Network, NetworkFault, NetworkReason
+from rapidgen.machine.network.interface import (
+    Endpoint,
+    Network,
+    NetworkFault,
+    NetworkReason,
+    SocketAddress,
+)
 
 MAX_SOCKETS = 32
 """Sockets of one controller at a time (switch `sockets_limited`)."""
@@ -31,6 +39,21 @@ class SocketDevice:
         self.udp = False
 
 
+SocketChange = Literal["open", "in", "out", "close"]
+"""A connection begins or ends, or bytes of one were taken by the program or given by it."""
+
+
+@dataclass(frozen=True, slots=True)
+class SocketNews:
+    """What one socket of a program did."""
+
+    change: SocketChange
+    task: str
+    local: SocketAddress
+    peer: SocketAddress | None
+    data: bytes = b""
+
+
 class SocketTable:
     """Which sockets of a network are in use, and by which task."""
 
@@ -38,6 +61,8 @@ class SocketTable:
         self._network = network
         self._limited = limited
         self._owners: dict[SocketDevice, str] = {}
+        self.listeners: list[Callable[[SocketNews], None]] = []
+        """Are told what connections do, at the moment when the program notices it."""
 
     @property
     def full(self) -> bool:
@@ -61,11 +86,34 @@ class SocketTable:
 
     def release(self, device: SocketDevice, *, abort: bool = False) -> None:
         """Close a socket; harmless when it is closed."""
+        if device.status is SocketStatus.CONNECTED:
+            self.tell("close", device)
         self._owners.pop(device, None)
         device.status = SocketStatus.CLOSED
         endpoint, device.endpoint = device.endpoint, None
         if endpoint is not None:
             self._network.close(endpoint, abort=abort)
+
+    def tell(
+        self,
+        change: SocketChange,
+        device: SocketDevice,
+        data: bytes = b"",
+        peer: SocketAddress | None = None,
+    ) -> None:
+        """Let listeners know what a socket did; `peer` of a datagram."""
+        at, task = device.endpoint, self._owners.get(device, "")
+        if at is not None:
+            for listener in self.listeners:
+                listener(SocketNews(change, task, at.local, peer or at.peer, data))
+
+    def connections(self) -> list[SocketNews]:
+        """Connections that are open, as the news of their beginning."""
+        return [
+            SocketNews("open", task, device.endpoint.local, device.endpoint.peer)
+            for device, task in self._owners.items()
+            if device.status is SocketStatus.CONNECTED and device.endpoint is not None
+        ]
 
     def close_task(self, task: str) -> None:
         """Close every socket that a task has created or accepted (PP to main, restart)."""

@@ -3,7 +3,7 @@
 import random
 import struct
 
-from rapidgen.proving import messages
+from rapidgen.proving import batches, messages
 from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.messages import RawComm, RawReason, RawTrajectoryState
@@ -41,7 +41,7 @@ def _as_topics(bench: Bench) -> None:
     points = way(bench, 20)
     for first, flags in ((0, BEGIN), (20, NONE), (50, NONE)):
         own = [(p, 0.12) for p, _ in points] if first != 20 else points[-1:] * 2
-        link.send(messages.points_frame(7, first, own, flags, RawComm.TOPIC))
+        link.send(batches.points_frame(7, first, own, flags, RawComm.TOPIC))
     bench.wait_until_at(points[-1][0], 20)
     bench.run(1 + 2 * bench.config.state_period)
     if link.read():
@@ -96,7 +96,7 @@ def _shapes(bench: Bench) -> None:
     points = way(bench, 10)
     for comm in (0, 3, 7):
         link = bench.motion()
-        link.send(messages.points_frame(7, 0, points, BEGIN, comm))
+        link.send(batches.points_frame(7, 0, points, BEGIN, comm))
         link.wait_until_lost(5, f"comm_type {comm} drops the client")
     link = bench.motion()
     for size in (0, 8, 16):
@@ -105,21 +105,19 @@ def _shapes(bench: Bench) -> None:
         if not isinstance(told, messages.RawPointsRefused | messages.RawFailure):
             raise Broken(f"a batch of {size} bytes is answered by {told}")
     for number, first in enumerate((1, messages.INDEX_WRAP - 1), 2):
-        link.send(messages.points_frame(number, first, points, BEGIN))
+        link.send(batches.points_frame(number, first, points, BEGIN))
         stream = Streamer(bench, link, number=number)
         stream.reply()
         told = stream.refused(RawReason.SEQUENCE_GAP, f"a beginning at point {first}")
         if (told.accepted, told.point) != (0, 0):
             raise Broken(f"a beginning at point {first}: the reply is {told}")
     bench.stays(1, "no stream has begun")
-    words = [word for point in points[5:] for word in messages.words_of(point)]
-    exchanged = bytearray(messages.points_frame(7, 5, points[5:]))
+    words = [word for point in points[5:] for word in batches.words_of(point)]
+    exchanged = bytearray(batches.points_frame(7, 5, points[5:]))
     exchanged[32:40] = exchanged[36:40] + exchanged[32:36]
-    data = messages.points_frame(7, 5, points[5:])[16:]
+    data = batches.points_frame(7, 5, points[5:])[16:]
     wrong = [(bytes(exchanged), RawReason.CHECKSUM)]
-    wrong += [
-        (messages.words_frame(7, 5, c, words), RawReason.FRAMING) for c in (4, 6, 0, -(2**31))
-    ]
+    wrong += [(batches.words_frame(7, 5, c, words), RawReason.FRAMING) for c in (4, 6, 0, -(2**31))]
     wrong += [
         (messages.framed(messages.POINTS, data[:more]), RawReason.FRAMING) for more in (-8, -4)
     ]
@@ -128,7 +126,7 @@ def _shapes(bench: Bench) -> None:
     ]
     for value in (2**24 + 1, 2**31 - 1, -(2**31)):
         for place in (32, 36, len(data) + 12):
-            spoilt = bytearray(messages.points_frame(7, 5, points[5:]))
+            spoilt = bytearray(batches.points_frame(7, 5, points[5:]))
             struct.pack_into("<i", spoilt, place, value)
             wrong.append((bytes(spoilt), RawReason.CHECKSUM))
     for bad, reason in wrong:

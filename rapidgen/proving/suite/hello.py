@@ -6,7 +6,7 @@ from itertools import pairwise
 from rapidgen import __version__
 from rapidgen.client.core.group import Group
 from rapidgen.generate.hello import features
-from rapidgen.proving import messages
+from rapidgen.proving import batches, messages
 from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import HELLO, Bench
 from rapidgen.proving.instructions import fails
@@ -50,7 +50,7 @@ def _hello_tells_all(bench: Bench) -> None:
         "control_port": bench.group.ports.control,
         "ring": policy.ring - 1 if bench.streams else 0,
         "preload": _float32(policy.preload if bench.streams else 0.0),
-        "batch": messages.batch_points(len(joints)) if bench.streams else 0,
+        "batch": batches.batch_points(len(joints)) if bench.streams else 0,
         "signals": len(bench.config.signals) if bench.group.ports.control else 0,
     }
     for name, value in wanted.items():

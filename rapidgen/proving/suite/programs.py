@@ -4,6 +4,7 @@ import random
 from dataclasses import replace
 
 from rapidgen.proving import messages
+from rapidgen.proving.batches import millionths, words_frame
 from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import RawLink
@@ -12,8 +13,6 @@ from rapidgen.proving.messages import (
     RawInstruction,
     RawReason,
     RawTrajectoryState,
-    millionths,
-    words_frame,
 )
 from rapidgen.proving.model import Broken
 from rapidgen.proving.programs import (

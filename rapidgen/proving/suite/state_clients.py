@@ -4,6 +4,7 @@ import struct
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import pairwise
+from typing import TypeAlias
 
 from rapidgen.generate.context import WRAP
 from rapidgen.machine.log import EventType
@@ -225,39 +226,45 @@ def _is_motion(bench: Bench, told: Sequence[tuple[float, messages.RawJointFeedba
         raise Broken("no JOINT_FEEDBACK shows the motion")
 
 
-def _write(bench: Bench, number: int, title: str, kind: EventType = EventType.WARNING) -> None:
+_Event: TypeAlias = tuple[int, int, int, str, str, str]
+"""Domain, number, type, title and the texts below it."""
+
+
+def _write(
+    bench: Bench, number: int, title: str, kind: EventType = EventType.WARNING, *texts: str
+) -> None:
     """An event of the state server's task: of others it may not be told on every controller."""
     task = bench.task("ROS_stateServer")
-    bench.controller.log.write(10_000 * (number % 9 + 1) + number, kind, title, task=task)
+    code = 10_000 * (number % 9 + 1) + number
+    bench.controller.log.write(code, kind, title, *texts, task=task)
 
 
-def _are_told(link: RawLink, since: float, wanted: Sequence[tuple[int, int, int, str]]) -> None:
+def _are_told(link: RawLink, since: float, wanted: Sequence[_Event]) -> None:
     """Broken unless just these events were told, in order, no more than ten a second."""
     found = link.told(messages.RawEvent, since)
-    told = [(e.domain, e.number, e.type, e.title.rstrip("\0 ")) for _, e in found]
+    told = [(e.domain, e.number, e.type, e.title.rstrip(), e.first, e.second) for _, e in found]
     if told != list(wanted):
         raise Broken(f"wanted are events {wanted}, EVENT told {told}")
     if any(b - a < 0.08 for (a, _), (b, _) in pairwise(found)):
         raise Broken(f"events come at {[when for when, _ in found]}")
 
 
-def _burst(
-    bench: Bench, link: RawLink, count: int
-) -> tuple[float, list[tuple[int, int, int, str]]]:
+def _burst(bench: Bench, link: RawLink, count: int) -> tuple[float, list[_Event]]:
     """Write an event, and `count` others just when it is told; what is then to be told."""
     since, kinds = bench.now, tuple(EventType)
     before = len(link.told(messages.RawEvent))
     _write(bench, 100, "First")
     bench.until(lambda: len(link.told(messages.RawEvent)) > before, 1, "an event is told")
-    wanted = [(2, 100, 2, "First")]
+    wanted: list[_Event] = [(2, 100, 2, "First", "", "")]
     for number in range(count):
         # A title has room for 80 characters; one may be empty.
         title = "" if number == 7 else f"Größe {number} " + number % 5 * "of a long row "
-        _write(bench, number, title * (1 + 9 * (number == 9)), kinds[number % 3])
+        below = ("", f"cell/weld/{number}", "x" * 80)[number % 3], "y" * 80 * (number % 2)
+        _write(bench, number, title * (1 + 9 * (number == 9)), kinds[number % 3], *below)
         text = (title * (1 + 9 * (number == 9)))[:80].rstrip()
-        wanted.append((number % 9 + 1, number, number % 3 + 1, text))
+        wanted.append((number % 9 + 1, number, number % 3 + 1, text, *below))
     if count > _WAITING:
-        wanted[_WAITING + 1 :] = [(0, count - _WAITING, 2, "Events that were not told")]
+        wanted[_WAITING + 1 :] = [(0, count - _WAITING, 2, "Events that were not told", "", "")]
     return since, wanted
 
 

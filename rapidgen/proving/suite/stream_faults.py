@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 from rapidgen.generate.context import WRAP
-from rapidgen.proving import messages
+from rapidgen.proving import batches, messages
 from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.instructions import fails
@@ -329,7 +329,7 @@ def _room(bench: Bench) -> None:
     """Just as many points as the reply says that there is room for, over the counters' end."""
     streams, ring = _Streams(bench), bench.config.trajectory.ring
     _count_from(bench, WRAP - 7)
-    here, most = bench.position, messages.batch_points(len(bench.position))
+    here, most = bench.position, batches.batch_points(len(bench.position))
     there = bench.wave(2, size=0.01)[1][0]
     goal: list[Point] = [(there if n % 2 else here, 9.0) for n in range(ring + 20)]
     streams.begin(goal[:3], FLUSH)

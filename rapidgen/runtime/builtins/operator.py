@@ -116,13 +116,14 @@ def _ask(
     given: Arguments,
     check: Callable[[str], object],
     choices: Mapping[str, float] = MappingProxyType({}),
+    proposed: str = "",
 ) -> Value:
     """The answer to a dialog; None when it was broken off and \\BreakFlag tells."""
     operator, active, flag = task.controller.operator, given["UIActiveSignal"], given["BreakFlag"]
     if not operator.present:
         _break_off(flag, "ERR_TP_NO_CLIENT")
         return None
-    question = operator.ask(task.name, dialog, text, choices, check)
+    question = operator.ask(task.name, dialog, text, choices, check, proposed)
     if active is not None:
         task.controller.io.set(active.signal, 1)
     try:
@@ -151,9 +152,15 @@ def _break_off(flag: Ref | None, name: str) -> None:
 
 
 def _choose(
-    task: Task, dialog: str, text: str, given: Arguments, choices: Mapping[str, float]
+    task: Task,
+    dialog: str,
+    text: str,
+    given: Arguments,
+    choices: Mapping[str, float],
+    default: float | None = None,
 ) -> Value:
-    return _ask(task, dialog, text, given, _one_of(choices), choices)
+    proposed = next((text for text, number in choices.items() if number == default), "")
+    return _ask(task, dialog, text, given, _one_of(choices), choices, proposed)
 
 
 def _one_of(choices: Mapping[str, float]) -> Callable[[str], float]:
@@ -235,7 +242,8 @@ def ui_msg_box(task: Task, dialog: str, given: Arguments) -> None:
 def ui_message_box(task: Task, dialog: str, given: Arguments) -> float:
     """Show a box with buttons; which one was pressed."""
     choices = _buttons(given["Buttons"], given["BtnArray"])
-    return _else(_choose(task, dialog, _text(given), given, choices), given["DefaultBtn"])
+    default = given["DefaultBtn"]
+    return _else(_choose(task, dialog, _text(given), given, choices, default), default)
 
 
 def _else(value: Value, default: float | None) -> float:
@@ -258,14 +266,17 @@ def ui_num_entry(task: Task, dialog: str, given: Arguments) -> float:
     if too_low or (initial is not None and high is not None and initial > high):
         raise RapidError("ERR_UI_INITVALUE")
     check = _a_number(low, high, integer=integer)
-    return _else(_ask(task, dialog, _text(given), given, check), initial)
+    proposed = next((f"{value:.15g}" for value in (initial, low) if value is not None), "")
+    answer = _ask(task, dialog, _text(given), given, check, proposed=proposed)
+    return _else(answer, initial)
 
 
 @by_name("UIAlphaEntry", cost="string")
 def ui_alpha_entry(task: Task, dialog: str, given: Arguments) -> str:
     """Ask for a text."""
-    value = _ask(task, dialog, _text(given), given, _a_text)
-    return value if isinstance(value, str) else given["InitString"] or ""
+    initial = given["InitString"] or ""
+    value = _ask(task, dialog, _text(given), given, _a_text, proposed=initial)
+    return value if isinstance(value, str) else initial
 
 
 @by_name("UIListView", cost="string")
@@ -273,11 +284,12 @@ def ui_list_view(task: Task, dialog: str, given: Arguments) -> float:
     """Ask for one of a list's items."""
     items, buttons, array = given["ListItems"], given["Buttons"], given["BtnArray"]
     choices = {item.text: float(i) for i, item in items.items() if item.text}
-    chosen = _else(_choose(task, dialog, _text(given), given, choices), 0)
+    default = given["DefaultIndex"]
+    chosen = _else(_choose(task, dialog, _text(given), given, choices, default), 0)
     if given["Result"] is not None:
         pressed = _buttons(buttons, array) if buttons is not None or array is not None else {}
         given["Result"].set(next(iter(pressed.values()), 0) if chosen else 0)
-    return chosen or _else(given["DefaultIndex"], 0)
+    return chosen or _else(default, 0)
 
 
 @by_name("UIMsgWrite", cost="string")

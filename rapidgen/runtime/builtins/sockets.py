@@ -171,6 +171,7 @@ def socket_accept(
     client.udp = False
     client.status = SocketStatus.CONNECTED
     table.add(client, task.name)
+    table.tell("open", client)
     if client_address is not None:
         peer = accepted[0].peer
         client_address.set(peer[0] if peer is not None else "")
@@ -205,6 +206,7 @@ def socket_connect(
         if not there:
             raise RapidError("ERR_SOCK_TIMEOUT")
         socket.status = SocketStatus.CONNECTED
+        task.controller.sockets.tell("open", socket)
     finally:
         if again and socket.status is SocketStatus.CREATED and socket.endpoint is not None:
             network.close(socket.endpoint, abort=True)
@@ -246,6 +248,8 @@ def socket_send(task: Task, socket: SocketDevice, *content: Value) -> None:
     def some_go() -> bool:
         nonlocal left
         taken = network.send(endpoint, left)
+        if taken:
+            task.controller.sockets.tell("out", socket, left[:taken])
         left = left[taken:]
         return taken > 0
 
@@ -318,6 +322,7 @@ def _wait_for_bytes(
         raise RapidError("ERR_SOCK_TIMEOUT")
     if not result and not socket.udp:
         raise _lost(task, socket, NetworkFault(NetworkReason.CLOSED, "the peer has closed"))
+    task.controller.sockets.tell("in", socket, result, endpoint.sender if socket.udp else None)
     return result
 
 
@@ -386,9 +391,11 @@ def socket_send_to(
     payload = _payload(*content)
     endpoint = _datagrams(task, socket)
     try:
-        task.controller.network.send(endpoint, payload, (address, _port(port)))
+        to = (address, _port(port))
+        task.controller.network.send(endpoint, payload, to)
     except NetworkFault as fault:
         raise _error(fault) from fault
+    task.controller.sockets.tell("out", socket, payload, to)
 
 
 @by_name("SocketReceiveFrom", cost="socket")

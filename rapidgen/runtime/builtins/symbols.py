@@ -56,6 +56,18 @@ def _data_ref(
     return data, reference
 
 
+def _reached(
+    task: Task, block: DataPosition | None, reference: object, task_name: str | None, name: str
+) -> tuple[Data, Ref | PersistentCell]:
+    """Data by name, of this task or of the one that is named: there only persistents are seen
+    [mem], anything else is ERR_SYM_ACCESS."""
+    owner = task_named(task, reference, task_name)
+    data, found = _data_ref(owner, block.module if block is not None else None, name)
+    if owner is not task and data.storage != "cell":
+        raise RapidError("ERR_SYM_ACCESS", f"{name} is no PERS of {owner.name}")
+    return data, found
+
+
 def _indices(name: str) -> tuple[str, tuple[int, ...]]:
     match = _ELEMENT.fullmatch(name.strip())
     if match is None:
@@ -81,9 +93,8 @@ def get_data_val(
 ) -> None:
     """The value of data whose name is a string; an element as `name{i}`."""
     target = target_of(argument)
-    owner = task_named(task, reference, task_name)
     plain, indices = _indices(name)
-    _, source = _data_ref(owner, block.module if block is not None else None, plain)
+    _, source = _reached(task, block, reference, task_name, plain)
     _check_type(source, len(indices), target)
     value = source.get()
     for index in indices:
@@ -102,9 +113,8 @@ def set_data_val(
 ) -> None:
     """Give data whose name is a string a value; constants are ERR_SYM_ACCESS."""
     value = target_of(argument)
-    owner = task_named(task, reference, task_name)
     plain, indices = _indices(name)
-    data, target = _data_ref(owner, block.module if block is not None else None, plain)
+    data, target = _reached(task, block, reference, task_name, plain)
     if data.readonly:
         raise RapidError("ERR_SYM_ACCESS", f"{name} is a constant")
     _check_type(target, len(indices), value)

@@ -56,6 +56,9 @@ class Compiled:
     roles: dict[str, CodeRole]
     """Of the functions inside the routine's, by name."""
 
+    traced: bool
+    """Whether it reports its statements; it takes no local for a whole number for good then."""
+
     @property
     def handled(self) -> bool:
         """Whether the routine has an ERROR clause."""

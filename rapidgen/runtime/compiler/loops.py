@@ -83,11 +83,18 @@ def _branch(emitter: Emitter, body: Sequence[n.Statement], looked: int) -> None:
     w = emitter.w
     if looked and emitter.options.accounting != "none":
         w.depth += 1
+        # A program that stops here has chosen already.
+        w.token = _first(body, w.token)
         w.cost(looked)
         if emitter.options.accounting == "statement":
             w.close()
         w.depth -= 1
     emitter.block_of(body)
+
+
+def _first(body: Sequence[n.Statement], otherwise: int) -> int:
+    """Token of the first statement of a list."""
+    return next((s.first for s in body if not isinstance(s, n.Label)), otherwise)
 
 
 def while_loop(emitter: Emitter, node: n.While) -> None:
@@ -158,7 +165,8 @@ def for_loop(emitter: Emitter, node: n.For) -> None:
     w.depth += 1
     whole = start.whole and (step is None or step.whole)
     with loop_bound(emitter.unit, node, whole=whole, limits=limits):
-        w.token = node.first
+        # A program that stops here is in the pass already.
+        w.token = _first(node.body, node.first)
         w.cost(emitter.options.statement)
         if emitter.options.accounting == "statement":
             w.close()

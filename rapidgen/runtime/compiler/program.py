@@ -57,27 +57,27 @@ class Program:
             self.space["DIV"], self.space["MOD"] = runtime.div_floor, runtime.mod_floor
         if dialect.negative_mod == "error":
             self.space["MOD"] = runtime.mod_strict
-        self._linker = Linker(shared, self.space)
-        self.names = self._linker.names
-        self.modules = self._linker.modules
-        self.faults = self._linker.faults
-        self.datum = self._linker.datum
-        self.routine = self._linker.routine
-        self.evaluate = self._linker.evaluate
-        self.global_ref = self._linker.global_ref
-        self.trace_points = self._linker.trace_points
+        self.linker = Linker(shared, self.space)
+        self.names = self.linker.names
+        self.modules = self.linker.modules
+        self.faults = self.linker.faults
+        self.datum = self.linker.datum
+        self.routine = self.linker.routine
+        self.evaluate = self.linker.evaluate
+        self.global_ref = self.linker.global_ref
+        self.trace_points = self.linker.trace_points
 
     # -- loading ---------------------------------------------------------------------------------
 
     def load(self, modules: Iterable[tuple[n.Module, ModuleFile]]) -> None:
         """Link modules; names of all are known before any value is evaluated."""
-        loaded = [self._linker.add(tree, file) for tree, file in modules]
-        self._linker.link(loaded)
+        loaded = [self.linker.add(tree, file) for tree, file in modules]
+        self.linker.link(loaded)
         self._reset_code()
 
     def unload(self, name: str) -> None:
         """Remove a module; code that called it is linked anew."""
-        self._linker.remove(name)
+        self.linker.remove(name)
         self._reset_code()
 
     def _reset_code(self) -> None:
@@ -118,13 +118,14 @@ class Program:
     def code_name(self, routine: Routine) -> str:
         """Python file name of a routine's code."""
         assert routine.module is not None
-        return f"<rapid {self.name} {routine.module.name} {routine.name}>"
+        # What is being executed when tracing begins goes on in its own code, which is known, too.
+        traced = " traced" if self.options.tracing else ""
+        return f"<rapid {self.name} {routine.module.name} {routine.name}{traced}>"
 
     def trace_from_now(self) -> None:
         """Compile with a report of every statement from now on."""
         if not self.options.tracing:
             self.options = replace(self.options, tracing=True, accounting="statement")
-            self.codes.clear()
             self._reset_code()
 
     # -- code ------------------------------------------------------------------------------------
@@ -142,7 +143,7 @@ class Program:
         if routine in self._linked and file in self.codes:
             linked: Callable[..., Value] = self.space[routine.code]
             return linked
-        compiler = RoutineCompiler(self._linker, routine, self.options, routine.code, file)
+        compiler = RoutineCompiler(self.linker, routine, self.options, routine.code, file)
         try:
             function = self._known(*compiler.link())
         except CannotCompile as fault:
@@ -167,13 +168,13 @@ class Program:
         """
         options = replace(self.options, tracing=False) if alone else self.options
         file = self.code_name(standing.routine)
-        linked = compile_rest(self._linker, standing, options, file, calls=calls, alone=alone)
+        linked = compile_rest(self.linker, standing, options, file, calls=calls, alone=alone)
         return self._known(*linked)
 
     def backward(self, routine: Routine) -> Callable[..., Value]:
         """The BACKWARD handler of a procedure as a function. CannotCompile."""
         file = self.code_name(routine)
-        return self._known(*compile_backward(self._linker, routine, self.options, file))
+        return self._known(*compile_backward(self.linker, routine, self.options, file))
 
     def value(self, module: LoadedModule | None, key: str) -> Value:
         """Current value of a datum, as seen from a module. KeyError: there is none."""

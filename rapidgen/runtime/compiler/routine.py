@@ -90,7 +90,15 @@ class RoutineCompiler:
                 f"statements are nested too deeply ({error.args[0]})", node
             ) from error
         compiled = Compiled(
-            self.file, unit.routine, unit.module, text, tokens, refunds, synced, emitter.roles
+            self.file,
+            unit.routine,
+            unit.module,
+            text,
+            tokens,
+            refunds,
+            synced,
+            emitter.roles,
+            unit.options.tracing,
         )
         return code, compiled
 

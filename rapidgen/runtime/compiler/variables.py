@@ -92,7 +92,8 @@ def _variable(
         data.storage = "box"
         w.emit(f"{data.code} = BOX({value!r}, {linker.keep(kind)}, (), {d.name!r})")
     else:
-        data.whole = key in whole.whole and kind.kind == "num"
+        # Where statements are reported, somebody may set it to anything.
+        data.whole = key in whole.whole and kind.kind == "num" and not unit.options.tracing
         if data.whole and key in whole.natural:
             data.range = (0, UNBOUNDED)
         w.emit(f"{data.code} = {value!r}")

@@ -1,7 +1,7 @@
 """Who is where: call stacks of tasks as places in RAPID."""
 
-from collections.abc import Iterator
-from types import FrameType, TracebackType
+from collections.abc import Iterator, Sequence
+from types import CodeType, FrameType, TracebackType
 
 from rapidgen.runtime.compiler.compiled import CodeRole, Codes
 from rapidgen.runtime.errors import Location
@@ -35,6 +35,16 @@ def location(codes: Codes, file: str, line: int) -> Location | None:
             break
         origin = (template, template_line + span.line - rapid_line)
     return Location(module.name, compiled.routine.name, span, origin)
+
+
+def between(codes: Codes, frame: FrameType | None, outside: Sequence[CodeType]) -> bool:
+    """Whether the innermost routine is between two statements: it calls one of `outside`."""
+    called: CodeType | None = None
+    for at in outwards(frame):
+        if at.f_code.co_filename in codes:
+            return any(called is code for code in outside)
+        called = at.f_code
+    return False
 
 
 def stack_of_error(codes: Codes, error: BaseException) -> tuple[Location, ...]:

@@ -109,6 +109,8 @@ class Errors:
         task.errno = error.number
         self.retry_number = retries
         self.skip_warning = False
+        for tell in task.controller.statements.errors:
+            tell(task.name, error)
         self.handler_level += 1
         try:
             way = handler()

@@ -187,6 +187,8 @@ class Run:
             self.interrupts.clear()
         task.controller.operation.task_failed(task, fatal)
         task.enter("error")
+        for tell in task.controller.statements.failures:
+            tell(task.name, fatal)
         if task.controller.dialect.fault_routines and not self.events.while_stopped:
             self.events.due.append("STOP")
             self._guarded(self._serve)

@@ -7,13 +7,14 @@ from typing import TypeAlias
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.compiler.program import Program
 from rapidgen.runtime.compiler.symbols import LoadedModule, Routine
+from rapidgen.runtime.errors import FatalError, RapidError
 
 Tracer: TypeAlias = Callable[[str, Routine, n.Statement], None]
 """Is told a task's name, its routine, and the statement."""
 
 
 @dataclass(slots=True)
-class Breakpoint:
+class WaitingAction:
     """An action that waits for a statement."""
 
     left: int
@@ -26,7 +27,11 @@ class Statements:
 
     def __init__(self) -> None:
         self.tracers: list[Tracer] = []
-        self.breakpoints: dict[tuple[str, str, int], list[Breakpoint]] = {}
+        self.errors: list[Callable[[str, RapidError], None]] = []
+        """Are told a task's name and the error before its handler is executed."""
+        self.failures: list[Callable[[str, FatalError], None]] = []
+        """Are told a task's name and the error that has stopped it."""
+        self.breakpoints: dict[tuple[str, str, int], list[WaitingAction]] = {}
 
     def before(
         self,
@@ -39,7 +44,7 @@ class Statements:
     ) -> None:
         """Let `action` be due when a statement of `task` is reached for the `count`-th time."""
         key = (task.lower(), module.lower(), line)
-        self.breakpoints.setdefault(key, []).append(Breakpoint(count, action))
+        self.breakpoints.setdefault(key, []).append(WaitingAction(count, action))
         for program in programs:
             if program.name.lower() == key[0]:
                 program.trace_from_now()

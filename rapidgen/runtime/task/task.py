@@ -7,6 +7,7 @@ event routines, and the run, which is what its greenlet executes.
 
 import sys
 from collections.abc import Callable, Iterable, Iterator
+from types import FrameType
 
 from rapidgen.diagnostics import Span
 from rapidgen.machine.process import Process
@@ -16,18 +17,18 @@ from rapidgen.runtime import unsupported
 from rapidgen.runtime.compiler.linking import Shared
 from rapidgen.runtime.compiler.program import Program
 from rapidgen.runtime.compiler.runtime import LateArgument
-from rapidgen.runtime.compiler.symbols import Data, LoadedModule, Routine
+from rapidgen.runtime.compiler.symbols import CannotCompile, Data, LoadedModule, Routine
 from rapidgen.runtime.cyclic import CyclicBools
 from rapidgen.runtime.errors import EndOfRun, EventStopped, FatalError, Location, PointerMoved
 from rapidgen.runtime.host import Host, TaskState
 from rapidgen.runtime.motion_faults import in_rapid
 from rapidgen.runtime.registry import COSTS
 from rapidgen.runtime.task import late_call
-from rapidgen.runtime.task.call_stack import location, stack_at
+from rapidgen.runtime.task.call_stack import between, location, outwards, stack_at
 from rapidgen.runtime.task.errors import Errors
 from rapidgen.runtime.task.event_routines import AT_RESTART, EventRoutines, StopEvent
 from rapidgen.runtime.task.interrupts import Interrupts
-from rapidgen.runtime.task.pointer import CannotStep, Pointer
+from rapidgen.runtime.task.pointer import CannotStep, Pointer, standing
 from rapidgen.runtime.task.process_errors import ProcessError
 from rapidgen.runtime.task.run import Run
 from rapidgen.runtime.task.stepping import Stepper
@@ -78,6 +79,8 @@ class Task(Process):
         self.cyclic = CyclicBools()
         self._order: BaseException | None = None
         self._holds = 0
+        self._renews = False
+        """What is being executed is to go on in code that reports its statements."""
 
         self.errors = errors = Errors(self)
         self.interrupts = Interrupts(self, errors)
@@ -340,6 +343,8 @@ class Task(Process):
             self.obey()
         while self.held:
             self._park()
+        if self._renews:
+            self._renew()
         interrupts = self.interrupts
         if interrupts.queue and not self.in_trap and not self.events.running:
             interrupts.serve()
@@ -373,6 +378,43 @@ class Task(Process):
         self.held = not self.events.while_stopped
         self._holds += 1
         self.kick()
+
+    def report_statements(self) -> str:
+        """Tell tracers of every statement from now on, also in routines that are being executed.
+
+        They go on in other code between two statements, which costs them that of one statement.
+        Why the innermost one cannot, until it is called again; "" when it does.
+        """
+        program = self.program
+        program.trace_from_now()
+        if self.pointer.place is not None or not self.pointer.begun:
+            return ""
+        if all(program.codes[f.f_code.co_filename].traced for f in self._frames()):
+            return ""
+        try:
+            for i, place in enumerate(reversed(self.pointer.stack())):
+                program.rest(place, calls=i > 0)
+        except (CannotStep, CannotCompile) as reason:
+            return str(reason)
+        self._renews = True
+        self.kick()
+        return ""
+
+    def _frames(self) -> Iterator[FrameType]:
+        codes = self.program.codes
+        yield from (f for f in outwards(self.frame) if f.f_code.co_filename in codes)
+
+    def _renew(self) -> None:
+        """Leave what is being executed, between two of its statements, for code that reports."""
+        codes, here = self.program.codes, sys._getframe(1)
+        if self.in_trap or self.events.running or not between(codes, here, _BEFORE):
+            self.kick()
+            return
+        self._renews = False
+        frames = [(frame, frame.f_lineno) for frame in outwards(here)]
+        self.pointer.place = standing(self.program, reversed(frames))
+        if self.pointer.place is not None:
+            raise PointerMoved
 
     def release(self) -> None:
         """Go on."""
@@ -508,3 +550,5 @@ def _never() -> bool:
 
 _BETWEEN = (Task.poll.__code__, Task.polls.__code__, Task.recharge.__code__)
 """What compiled code calls outside its statements."""
+_BEFORE = _BETWEEN[:2]
+"""What it calls before a statement."""

@@ -236,7 +236,7 @@ def _versions() -> str:
         ),
         (
             "3",
-            f"{_new(3)}, where HELLO tells PROGRAMS; reasons 28 to 35, 50 and 51",
+            f"{_new(3)}, where HELLO tells PROGRAMS; reasons 28 to 37, 50 to 52",
             "values and checksum of POINTS are int32, no number of eight bytes is left; refused as "
             "between 1 and 2",
         ),

@@ -24,8 +24,9 @@ OPERANDS: dict[Instruction, str] = {
     Instruction.WAIT: "seconds",
     Instruction.WAIT_SIGNAL: "number of the signal as of SIGNAL, its value, seconds at most",
     Instruction.SET: "number of the signal as of SIGNAL, its value",
-    Instruction.CALL: "number of the routine, from 0; of each parameter a num as float32, a bool "
-    "as 1 or 0, a string as its length and its characters, four in a word",
+    Instruction.CALL: "number of the routine, from 0, seconds at most (0: any); of each parameter "
+    "a num as float32, a bool as 1 or 0, a string as its length and its characters, four in a "
+    "word, a robtarget as position, orientation, joints, a jointtarget as joints",
 }
 """Of each instruction the operands: position x, y, z in m, orientation w, x, y, z, a word each of
 the group's joints in rad or m."""
@@ -56,10 +57,10 @@ def instruction(
     zone: Sequence[float] | None = None,
     frames: tuple[int, int] | None = None,
     signals: Sequence[Sequence[float]] = (),
-    arguments: Sequence[float | bool | str] = (),
+    arguments: Sequence[float | bool | str | tuple[float, ...]] = (),
 ) -> list[int]:
     """The words of one instruction; `speed` (4), `zone` (7) and `frames` where they change, of each
-    of `signals` four. `arguments` are those of a routine."""
+    of `signals` four. `arguments` are those of a routine, of a target its operands."""
     first = int(kind)
     values: list[float] = []
     if speed is not None:
@@ -77,8 +78,10 @@ def instruction(
     return [first, *fixed([*values, *operands]), *(w for a in arguments for w in _argument(a))]
 
 
-def _argument(value: float | bool | str) -> tuple[int, ...]:
+def _argument(value: float | bool | str | tuple[float, ...]) -> Sequence[int]:
     """The words of an argument. ValueError: it does not fit."""
+    if isinstance(value, tuple):
+        return fixed(value)
     if isinstance(value, bool):
         return (FIXED_SCALE * value,)
     if isinstance(value, str):

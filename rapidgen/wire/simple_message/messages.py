@@ -16,6 +16,7 @@ from rapidgen.wire.simple_message.declaration import (
     int32,
 )
 from rapidgen.wire.simple_message.spec import (
+    LONGEST_TEXT,
     MAX_JOINTS,
     MAX_LENGTH,
     MOST_ARGUMENTS,
@@ -394,6 +395,8 @@ class EventReport(NamedTuple):
     number: Annotated[int, int32("within the domain")]
     type: Annotated[int, int32("1 state change, 2 warning, 3 error")]
     title: Annotated[str, chars(80, "in the controller's language")]
+    first: Annotated[str, chars(80, "text below it: of an error its place, or its task")]
+    second: Annotated[str, chars(80, "the next one")]
 
 
 EVENT = MessageType("EVENT", 1308, EventReport, _CONTROLLER, (Port.STATE,), since=2)
@@ -436,7 +439,7 @@ class ResultRequest(NamedTuple):
     """What has come of the routine that a program called? The answer is that of the newest call
     that has ended."""
 
-    trajectory: Annotated[int, int32("not used")]
+    parameter: Annotated[int, int32("whose text is told, from 1; 0: no text")]
 
 
 class ResultReply(NamedTuple):
@@ -446,7 +449,14 @@ class ResultReply(NamedTuple):
     error: Annotated[int, int32("ERRNO of the error that it raised, 0: none")]
     values: Annotated[
         tuple[float, ...],
-        float32("1", "of its parameters num and bool (0, 1) in their order", MOST_ARGUMENTS),
+        float32(
+            "1",
+            "of its parameters num and bool (0, 1) in their order, then a function's value",
+            MOST_ARGUMENTS,
+        ),
+    ]
+    text: Annotated[
+        str, chars(LONGEST_TEXT, "of the parameter that was asked for; of an error its name")
     ]
 
 
@@ -458,6 +468,34 @@ RESULT = MessageType(
     (Port.MOTION,),
     since=3,
     replies=(Reply(ReplyCode.SUCCESS, ResultReply),),
+)
+
+
+class DataRequest(NamedTuple):
+    """Reads or writes one of the PERS of the robot's own program that the configuration lists."""
+
+    datum: Annotated[int, int32("of the group's configuration, from 0")]
+    write: Annotated[int, int32("1 write, 0 read")]
+    value: Annotated[float, float32("1", "of a num, or 0 and 1 of a bool")]
+    text: Annotated[str, chars(LONGEST_TEXT, "of a string, a byte each character")]
+
+
+class DataReply(NamedTuple):
+    """Reply to DATA: the value as it was read, after any writing."""
+
+    datum: Annotated[int, int32()]
+    value: Annotated[float, float32("1", "of a num, or 0 and 1 of a bool")]
+    text: Annotated[str, chars(LONGEST_TEXT, "of a string")]
+
+
+DATA = MessageType(
+    "DATA",
+    1311,
+    DataRequest,
+    _CLIENT,
+    (Port.CONTROL,),
+    since=3,
+    replies=(Reply(ReplyCode.SUCCESS, DataReply), _NOT_DONE),
 )
 
 MESSAGES = tuple(row for row in tuple(globals().values()) if isinstance(row, MessageType))

@@ -219,7 +219,7 @@ class Reason(IntEnum):
     OVERRUN = 15, "more points than there is room for"
     CHECKSUM = 16, "the checksum of a batch is wrong"
     NO_SIGNAL = 17, "the driver does not have this signal"
-    READ_ONLY = 18, "this signal may not be written"
+    READ_ONLY = 18, "this signal or datum may not be written"
     BAD_VALUE = 19, "a value is outside its range"
     NOT_EXECUTING = 20, "the motion task is not executing"
     MOTORS_OFF = 21, "the motors are off"
@@ -238,6 +238,7 @@ class Reason(IntEnum):
     NO_FRAME = 34, "the driver does not have this tool or work object"
     NO_ROUTINE = 35, "there is no such routine, or not with these parameters"
     IS_PROGRAM = 36, "a program is under way: its instructions have speeds of their own"
+    NO_DATUM = 37, "the robot's program does not have this datum, or not of this type"
     STOPPED = 40, "stopped on request"
     SUPERSEDED = 41, "a newer trajectory took its place"
     CLIENT_LOST = 42, "the connection to the client was lost"
@@ -250,6 +251,7 @@ class Reason(IntEnum):
     INTERNAL = 49, "the driver met a state that it does not know"
     WAITED = 50, "a signal did not come in time"
     ROUTINE = 51, "a routine has raised an error"
+    OVERTIME = 52, "a routine took longer than it may"
 
 
 def error_code(reason: Reason, joint: int = 0) -> int:

@@ -219,6 +219,15 @@ def test_refusals_have_abbs_symbol_and_a_mend(served):
             controller.tasks() and controller.modules("T_NONE")
 
 
+def test_mastership_within_mastership_lasts_until_the_outer_end(served):
+    with Controller(served.address, **served.keywords) as controller:
+        with controller.mastership("cfg"):
+            with controller.mastership("cfg"):
+                pass
+            assert controller.holder("cfg").mine
+        assert controller.holder("cfg") is None
+
+
 def test_a_restart_that_takes_too_long_is_told(served):
     with Controller(served.address, **served.keywords) as controller:
         controller.panel()

@@ -5,6 +5,7 @@ import asyncio
 import pytest
 
 from rapidgen.client import RobotTimeout
+from rapidgen.client.errors import ConnectionLost
 from rapidgen.client.rws import AsyncController, Controller, topics
 from rapidgen.client.rws.errors import RwsError
 
@@ -55,6 +56,37 @@ def test_events_come_as_things_change_and_go_on_over_a_restart(served):
             assert quiet.next(60).value == "AUTO"
             with pytest.raises(RobotTimeout):
                 quiet.next(0.01)
+
+
+def test_no_ticket_of_tls_comes_between_a_read_and_a_write(served_two):
+    """One thread reads and one writes: a write during TLS 1.3's tickets was lost, and the
+    handshake of the websocket waited for ever, once in a thousand."""
+    with (
+        Controller(served_two.address, **served_two.keywords) as controller,
+        controller.subscribe(topics.mode()) as events,
+    ):
+        assert events._socket.socket.version() == "TLSv1.2"
+
+
+def test_a_websocket_that_is_lost_at_its_opening_is_opened_again(served, monkeypatch):
+    with (
+        Controller(served.address, **served.keywords) as controller,
+        controller.subscribe(topics.symbol("T_ROB1/x")) as events,
+    ):
+        assert events.next(60).value == "1"
+        opened, carrier = [], type(events._carrier)
+        real = carrier.open_socket
+
+        def lost_once(self, path, stack):
+            opened.append(path)
+            if len(opened) == 1:
+                raise ConnectionLost.because("RG601", "the controller restarts again")
+            return real(self, path, stack)
+
+        monkeypatch.setattr(carrier, "open_socket", lost_once)
+        controller.restart()
+        assert events.next(60).value == "1"
+        assert len(opened) == 2
 
 
 def test_the_asynchronous_client_is_told_the_same(served):

@@ -158,5 +158,7 @@ def connect(line) -> RwsTransport:
     controller = kind(
         "rws://cell", password=PASSWORD, fingerprint=fingerprint, pin_file=Path(os.devnull)
     )
+    if not line.on_thread:
+        controller._core.clock = lambda: line.cabinet.now
     controller.connect()
     return RwsTransport(controller, "rws://cell")

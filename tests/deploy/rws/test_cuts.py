@@ -11,6 +11,7 @@ from contextlib import nullcontext, suppress
 
 import pytest
 
+from rapidgen.deploy.session import earlier_set
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.wire.rws.bodies import Generation
 
@@ -74,13 +75,17 @@ def run_cut(rws, generation, folder, case, cut, how):
     folder.mkdir()
     with rws.empty_cabinet(folder, generation) as cabinet:
         empty = rws.home_of(cabinet), rws.cfg_of(cabinet)
-        if case != "first":
-            rws.run(rws.connect(rws.Line(cabinet, generation)), old)
+        before = {"first": [], "rollback": [old, new]}.get(case, [old])
+        for wanted in before:
+            rws.run(rws.connect(rws.Line(cabinet, generation)), wanted)
         line = rws.Line(cabinet, generation, cut=cut, how=how)
-        wanted = {"first": old, "update": new, "uninstall": None}[case]
-        verb = "uninstall" if case == "uninstall" else "deploy"
+        wanted = {"first": old, "update": new}.get(case)
+        verb = case if case in ("uninstall", "rollback") else "deploy"
         with suppress(DiagnosticError) if cut else nullcontext():
-            rws.run(rws.connect(line), wanted, verb)
+            transport = rws.connect(line)
+            if case == "rollback":
+                wanted = earlier_set(transport, "", None)
+            rws.run(transport, wanted, verb)
         if not cut:
             return line.log
         restarted(cabinet, rws)
@@ -101,10 +106,13 @@ def run_cut(rws, generation, folder, case, cut, how):
 CASES = [
     (generation, case, how)
     for generation in Generation
-    for case in ("first", "update", "uninstall")
+    for case in ("first", "update", "rollback", "uninstall")
     for how in ("before", "after")
 ]
-SHORT = [(1, "first", "before"), (2, "update", "after"), (8, "uninstall", "before")]
+SHORT = [
+    (1, "first", "before"), (2, "update", "after"), (1, "rollback", "before"),
+    (8, "uninstall", "before"),
+]  # fmt: skip
 
 
 @pytest.mark.parametrize(("generation", "case", "how"), CASES)

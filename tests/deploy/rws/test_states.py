@@ -6,8 +6,9 @@ from dataclasses import replace
 import pytest
 
 from rapidgen.deploy import backup_set, make_plan, plan_json
+from rapidgen.deploy.doctor import _contents
 from rapidgen.deploy.live.proof import ReadBack
-from rapidgen.deploy.session import check_plans, write_plans
+from rapidgen.deploy.session import check_plans, earlier_set, write_plans
 from rapidgen.deploy.show import plan_text
 from rapidgen.wire.rws.bodies import Generation
 from tests.refusal import refusal, refused
@@ -92,6 +93,70 @@ def test_manual_mode_is_a_persons_step(rws, cell, wanted):
     assert "! pendant: automatic mode (it is MANR)" in plan_text(make_plan(transport, wanted))
     assert "RG542" in refused(rws.run, transport, wanted)
     assert not rws.home_of(cabinet)
+
+
+def grants_rmmp(cabinet, answer="Grant"):
+    """Whoever holds the pendant answers as soon as it asks; what it asked."""
+    operator, asked = cabinet.controller.operator, []
+    operator.attach()
+
+    def look():
+        for question in operator.questions:
+            if not question.answered:
+                asked.append(question.text)
+                operator.answer(question.number, answer)
+
+    operator.asked.add(look)
+    return asked
+
+
+def test_manual_mode_is_written_in_when_the_pendant_grants_it(rws, cell, wanted):
+    cabinet, transport = cell
+    cabinet.controller.set_mode("manual_reduced")
+    asked, said = grants_rmmp(cabinet), []
+    rws.run(transport, wanted, said=said)
+    assert "rapidgen" in asked[0]
+    assert any("Press Grant there within 10 s" in line for line in said)
+    assert rws.home_of(cabinet)
+    assert cabinet.restarts == 1
+
+
+def test_what_the_pendant_denies_changes_nothing(rws, cell, wanted):
+    cabinet, transport = cell
+    cabinet.controller.set_mode("manual_reduced")
+    grants_rmmp(cabinet, "Deny")
+    told = refused(rws.run, transport, wanted)
+    assert "RG542" in told
+    assert not rws.home_of(cabinet)
+
+
+def test_a_grant_that_is_missing_is_told_before_anything_is_changed(rws, cell, wanted):
+    cabinet, transport = cell
+    office = transport.services._carrier.line.desk.office
+    office.login = replace(office.login, denied=frozenset({"UAS_CFG_WRITE"}))
+    plan = make_plan(transport, wanted)
+    assert "! you: give the user UAS_CFG_WRITE in RobotStudio" in plan_text(plan)
+    told = refused(rws.run, transport, wanted)
+    assert "RG542" in told
+    assert not rws.home_of(cabinet)
+
+
+def test_an_uninstall_without_a_restart_is_pending_until_one(rws, cell, wanted):
+    cabinet, transport = cell
+    rws.run(transport, wanted)
+    transport.services.stop(everything=True)
+    said = []
+    rws.run(transport, None, "uninstall", restart=False, said=said)
+    assert said[-1].startswith("restart pending")
+    pending = make_plan(transport, None, verb="uninstall")
+    assert pending.is_pending
+    assert "restart pending" in plan_text(pending)
+    assert "cfg no longer has T_ROS_" in plan_text(make_plan(transport, wanted))
+    found = {(c.area, c.verdict): c.found for c in _contents(transport, wanted, ())}
+    assert "a restart is pending" in found["restart", "warn"]
+    rws.run(transport, None, "uninstall")
+    assert cabinet.restarts == 2
+    assert "RG529" in refused(make_plan, transport, None, verb="uninstall")
 
 
 def test_people_are_waited_for(rws, cell, wanted):
@@ -219,6 +284,27 @@ def test_success_and_then_a_system_failure(rws, cell, wanted):
     assert rws.home_of(cabinet) == home
     assert modules(cabinet) == ["MainModule"]
     assert transport.services.panel().state != "sysfail"
+
+
+def test_rollback_out_of_a_system_failure(rws, generation, tmp_path):
+    """An update is agreed to with 2xx throughout, and what boots is broken."""
+    old, new = rws.build(generation), rws.build(generation, "trajectory.capacity=500")
+    bad = [
+        replace(f, data=f.data.replace(b"ENDMODULE", b"  oops := ;\r\nENDMODULE"))
+        if "ROS_stateServer" in f.path
+        else f
+        for f in new.files
+    ]
+    with rws.empty_cabinet(tmp_path, generation) as cabinet:
+        transport = rws.connect(rws.Line(cabinet, generation))
+        rws.run(transport, old)
+        (found,) = refusal(rws.run, transport, replace(new, files=tuple(bad))).diagnostics
+        assert found.code == "RG544"
+        assert "`rapidgen rollback` with --restart" in found.help
+        assert transport.services.panel().state == "sysfail"
+        rws.run(transport, earlier_set(transport, "", None), "rollback")
+        assert transport.services.panel().state != "sysfail"
+        assert make_plan(transport, old).is_empty
 
 
 def test_a_port_must_serve_our_build(rws, cell, wanted):

@@ -10,6 +10,7 @@ def test_deployed_restarted_and_taken_off_again(rws, generation, tmp_path):
         line = rws.Line(cabinet, generation)
         transport = rws.connect(line)
         rws.run(transport, wanted)
+        assert len(line.desk.sessions) == 1  # the restart has left none behind
         if generation is Generation.EIGHT:
             changes = [target for method, target in line.log if method != "GET"]
             first = next(n for n, t in enumerate(changes) if t.startswith("/fileservice/HOME"))

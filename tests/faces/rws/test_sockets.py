@@ -116,3 +116,18 @@ def test_nothing_is_lost_between_the_answer_and_the_upgrade(tmp_path):
         assert told == ["1", "0", "1"]
         link.close()
         service.close()
+
+
+def test_who_leaves_late_takes_nothing_from_who_came_since(one):
+    """A poll URL of RWS 1.0 can be opened again while the old websocket is still closing."""
+    form = {"resources": "1", "1": "/rw/iosystem/signals/aoSpeed;state", "1-p": "2"}
+    assert one.post("/subscription", form) == 201
+    groups, old, new = one.desk.groups, [], []
+    group = groups.find("1", one.session)
+    groups.listen(group, old.append, lambda: None)
+    first = group.send
+    groups.listen(group, new.append, lambda: None)
+    groups.leave("1", first)
+    assert one.post("/rw/iosystem/signals/aoSpeed?action=set", {"lvalue": "2"}) == 204
+    assert len(new) == 1
+    assert not old

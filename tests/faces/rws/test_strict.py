@@ -202,3 +202,22 @@ def hostile(tmp_path_factory):
         for caller in callers:
             caller.desk.sessions.is_too_fast = lambda: False
         yield callers
+
+
+def test_robotware_6_takes_mastership_for_a_program_pointer_by_itself(one):
+    """[code: abb_librws, abb_robot_client]: both set it so, and ask for nothing before."""
+    other = Caller(one.desk, "Admin")
+    pp = "/rw/rapid/execution?action=resetpp"
+    assert one.post(pp) == 204
+    assert other.post("/rw/mastership/rapid?action=request") == 204
+    held = one.send("POST", pp)
+    assert (held.status, code_of(held)) == (403, CODES["E_RESOURCE_HELD"])
+
+
+@pytest.mark.parametrize(
+    "name", ["total-payload-name", "jog-mode", "coord-system", "is-integrated-unit", "axes-total"]
+)
+def test_a_mechanical_unit_tells_what_public_clients_want(one, name):
+    """[code: abb_librws]: static and dynamic information are none without."""
+    (item,) = one.get("/rw/motionsystem/mechunits/ROB_1?resource=dynamic")
+    assert item.text(name)

@@ -285,3 +285,20 @@ def test_power_up_gives_outputs_their_defaults(plant):
     io.set(io["di1"], 1)
     io.power_up()
     assert (io["do1"].value, io["doDefault"].value, io["di1"].value) == (0, 1, 1)
+
+
+def test_units_are_switched_off_and_on(make_bench):
+    """S4 datasys 2-IODisable, 3HAC16581-1 IOUnitState [manual]."""
+    on_unit = SignalSpec("do1", "DO", device="board10")
+    bench = make_bench(System("plant", (), signals=(on_unit,)))
+    assert bench("IOUnitState", "BOARD10", Phys=True) == 21
+    bench("IODisable", "board10", 5)
+    assert bench("IOUnitState", "board10", Phys=True) == 20
+    assert bench("IOUnitState", "board10", Logic=True) == 10
+    assert bench("IOUnitState", "board10") == 3
+    bench("IOEnable", "Board10", 5)
+    assert bench("IOUnitState", "board10", Logic=True) == 11
+    for name, time in (("IOEnable", (5,)), ("IODisable", (5,)), ("IOUnitState", ())):
+        with pytest.raises(RapidError) as raised:
+            bench(name, "board11", *time)
+        assert raised.value.name == "ERR_NAME_INVALID"

@@ -9,7 +9,7 @@ MODULE ROS_stateServer
     ! moment. Nobody waits for this task. A client that does not read would hold up the others
     ! in a send, so a send that takes too long is broken off, and its client dropped.
 
-    CONST string ROS_BUILD_STATE_SERVER := "993aa5eee0c0";
+    CONST string ROS_BUILD_STATE_SERVER := "a62caf2b7eae";
 
     LOCAL CONST num PORT := 11002;
     LOCAL CONST num PERIOD := 0.1;
@@ -86,6 +86,8 @@ MODULE ROS_stateServer
     LOCAL VAR num numbers{EVENTS};
     LOCAL VAR num types{EVENTS};
     LOCAL VAR string titles{EVENTS};
+    LOCAL VAR string upper_texts{EVENTS};
+    LOCAL VAR string lower_texts{EVENTS};
     LOCAL VAR num events_put := 0;
     LOCAL VAR num events_taken := 0;
     LOCAL VAR num events_lost := 0;
@@ -358,6 +360,8 @@ MODULE ROS_stateServer
         VAR num number;
         VAR errtype type;
         VAR string title;
+        VAR string first;
+        VAR string second;
         VAR num place;
 
         IF (events_put - events_taken + ROS_WRAP) MOD ROS_WRAP >= EVENTS THEN
@@ -365,12 +369,14 @@ MODULE ROS_stateServer
             RETURN;
         ENDIF
         GetTrapData found;
-        ReadErrData found, domain, number, type \Title:=title;
+        ReadErrData found, domain, number, type \Title:=title \Str1:=first \Str2:=second;
         place := events_put MOD EVENTS + 1;
         domains{place} := domain;
         numbers{place} := number;
         types{place} := type;
         titles{place} := title;
+        upper_texts{place} := first;
+        lower_texts{place} := second;
         events_put := ROS_next(events_put);
     ERROR
         SkipWarn;
@@ -385,11 +391,11 @@ MODULE ROS_stateServer
         IF events_taken <> events_put THEN
             place := events_taken MOD EVENTS + 1;
             ROS_pack_event message, domains{place}, numbers{place}, types{place};
-            ROS_pack_title message, titles{place};
+            ROS_pack_texts message, titles{place}, upper_texts{place}, lower_texts{place};
             events_taken := ROS_next(events_taken);
         ELSEIF events_lost > 0 THEN
             ROS_pack_event message, 0, events_lost, ROS_EVENT_WARNING;
-            ROS_pack_title message, "Events that were not told";
+            ROS_pack_texts message, "Events that were not told", "", "";
             events_lost := 0;
         ELSE
             RETURN;

@@ -11,6 +11,7 @@ from rapidgen.client.rws.flows import (
     rapid,
     signals,
     subscribing,
+    users,
 )
 
 __all__ = [
@@ -24,4 +25,5 @@ __all__ = [
     "rapid",
     "signals",
     "subscribing",
+    "users",
 ]

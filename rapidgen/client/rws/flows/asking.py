@@ -8,6 +8,7 @@ from rapidgen.client.rws.errors import Busy, LoginFailed, NotRws, RwsError
 from rapidgen.wire.rws import media
 from rapidgen.wire.rws.bodies import Body, Generation, Unreadable
 from rapidgen.wire.rws.forms import Fields, form_type, write_form
+from rapidgen.wire.rws.grants import needed
 from rapidgen.wire.rws.operations import RwsOperation
 
 _TRIES = 6
@@ -54,7 +55,8 @@ def ask(
     read = _read(core, response)
     good = (200, 201, 202, 204, *accepted)
     if response.status not in good or (read.fault is not None and response.status not in accepted):
-        raise RwsError(response.status, f"{route.method} {target}", read.fault)
+        takes = needed(operation, core.generation)
+        raise RwsError(response.status, f"{route.method} {target}", read.fault, takes)
     return read, response
 
 

@@ -25,8 +25,6 @@ def domain_of(core: RwsCore, domain: str) -> str:
 
 def held(core: RwsCore, domain: str, steps: Flow[T]) -> Flow[T]:
     """Carry out steps with mastership of a domain, which is given back where it was not held."""
-    if domain_of(core, domain) in core.held:
-        return (yield from steps)
     yield from take(core, domain)
     try:
         return (yield from steps)
@@ -37,10 +35,12 @@ def held(core: RwsCore, domain: str, steps: Flow[T]) -> Flow[T]:
 def take(core: RwsCore, domain: str = "rapid", *, wait: float = 0.0) -> Flow[None]:
     """Take mastership of `rapid`, `cfg` or `motion`; wait s for it while somebody else has it.
 
-    It is never taken by force. Raises Held (RG654) with who has it.
+    What was taken several times is given back as often. It is never taken by force. Raises Held
+    (RG654) with who has it.
     """
     name = domain_of(core, domain)
     if name in core.held:
+        core.held[name] += 1
         return
     until = core.clock() + wait
     while True:
@@ -52,7 +52,7 @@ def take(core: RwsCore, domain: str = "rapid", *, wait: float = 0.0) -> Flow[Non
             if core.clock() >= until:
                 raise (yield from _held_by(core, name)) from error
         else:
-            core.held.add(name)
+            core.held[name] = 1
             return
         yield Pause(min(_LOOK, max(0.0, until - core.clock())))
 
@@ -74,9 +74,11 @@ def _request(core: RwsCore, name: str) -> Flow[None]:
 def give(core: RwsCore, domain: str = "rapid") -> Flow[None]:
     """Give mastership back; harmless when it is not held."""
     name = domain_of(core, domain)
-    if name not in core.held:
+    left = core.held.pop(name, 0) - 1
+    if left > 0:
+        core.held[name] = left
+    if left != 0:
         return
-    core.held.discard(name)
     if core.generation is Generation.EIGHT:
         # A write may have cleared it already [VC 8.1.1].
         yield from ask(core, ops.WRITE_RELEASE, accepted=(403,))

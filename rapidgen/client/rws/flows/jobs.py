@@ -4,12 +4,12 @@ from collections.abc import Mapping
 
 from rapidgen.client.errors import ConnectionFailed, ConnectionLost, RobotTimeout
 from rapidgen.client.rws.core import RwsCore
-from rapidgen.client.rws.effects import Flow, Forget, Pause
+from rapidgen.client.rws.effects import Flow, Pause
 from rapidgen.client.rws.errors import Busy, LoginFailed, RwsError
 from rapidgen.client.rws.flows.asking import ask
-from rapidgen.client.rws.flows.connecting import connect
+from rapidgen.client.rws.flows.connecting import close, connect
 from rapidgen.client.rws.flows.files import volume
-from rapidgen.client.rws.flows.holding import domain_of, give, holder, take
+from rapidgen.client.rws.flows.holding import give, holder, take
 from rapidgen.client.rws.flows.rapid import tasks
 from rapidgen.wire.rws import operations as ops
 from rapidgen.wire.rws.bodies import Fault
@@ -56,20 +56,18 @@ def restart(core: RwsCore, *, wait: float = 180.0) -> Flow[None]:
 
     RAPID stops. Returns when it is back and has tasks. Raises RobotTimeout (RG602).
     """
-    own = domain_of(core, "cfg") in core.held
     yield from take(core, "cfg")
     try:
         yield from ask(core, ops.RESTART, form={"restart-mode": "restart"})
     except ConnectionLost:
         pass  # it was quicker than its answer; whether it restarts is looked at below
     except RwsError:
-        if not own:
-            yield from give(core, "cfg")
+        yield from give(core, "cfg")
         raise
     yield from _gone(core, wait)
-    core.connected = False
     core.held.clear()
-    yield Forget()
+    # Looking has logged in to the new run already, perhaps.
+    yield from close(core)
     yield from wait_ready(core, wait=wait)
 
 
@@ -95,10 +93,12 @@ def wait_ready(core: RwsCore, *, wait: float = 180.0) -> Flow[None]:
             yield from connect(core)
             if (yield from tasks(core)):
                 return
-        except (ConnectionFailed, ConnectionLost, Busy, RwsError) as error:
+        except RwsError as error:
+            last = error  # it boots: the session stays, so that none is left behind
+        except (ConnectionFailed, ConnectionLost, Busy) as error:
             if isinstance(error, LoginFailed) and error.diagnostics[0].code == "RG652":
                 raise
             last = error
-        core.connected = False
+            core.connected = False
         yield Pause(_LOOK)
     raise RobotTimeout.because("RG602", f"{core.where} did not come back within {wait:g} s: {last}")

@@ -104,7 +104,7 @@ def start(core: RwsCore, *, cycle: str = "asis") -> Flow[None]:
     mastership, which keeps a program from running. NotObeyed (RG655): it was agreed to, and does
     not run.
     """
-    if core.held - {"write"}:
+    if core.held.keys() - {"write"}:
         raise NotReady.because(
             "RG658",
             "this session holds mastership, which keeps a program from running",

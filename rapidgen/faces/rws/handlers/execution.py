@@ -42,8 +42,7 @@ def start(office: "Office", asked: RwsRequest) -> None:
     told = {name: asked.field(name, words) for name, words in _START.items()}
     controller = office.controller
     office.masters.need_start(asked)
-    if controller.mode != "auto":
-        raise Denied(403, "E_MODE_REJECT", "not in automatic mode", -2)
+    office.masters.need_mode(asked.session, "exec")
     if told["execmode"] != "continue":
         raise Denied(403, "E_MODE_REJECT", "steps are for manual mode", -2)
     if office.masters.is_editing and office.strict:
@@ -76,7 +75,8 @@ def stop(office: "Office", asked: RwsRequest) -> None:
 @serves(ops.RESET_PP)
 def reset_pp(office: "Office", asked: RwsRequest) -> None:
     """Program pointers of all tasks to main."""
-    office.masters.need(asked, "rapid")
+    # RobotWare 6 takes mastership by itself [code: abb_librws, abb_robot_client].
+    office.masters.need(asked, "rapid", by_itself=asked.is_one)
     controller = office.controller
     if execution(controller) == "running":
         raise Denied(400 if asked.is_one else 403, "E_EXEC_STATE", "the program runs", -508)

@@ -92,7 +92,7 @@ def get_symbol(office: "Office", asked: RwsRequest) -> Served:
 def set_symbol(office: "Office", asked: RwsRequest) -> None:
     """Give a datum a value: at once, wherever it is read."""
     if asked.is_one:
-        office.masters.need_mode()  # RobotWare 6 takes mastership by itself
+        office.masters.need_mode(asked.session)  # RobotWare 6 takes mastership by itself
     else:
         office.masters.need(asked, "rapid")
     found = find(office, asked.names["symbol"], asked)

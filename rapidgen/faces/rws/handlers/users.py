@@ -4,19 +4,15 @@ import re
 from typing import TYPE_CHECKING
 
 from rapidgen.faces.rws.asking import Denied, RwsRequest, Served, show
+from rapidgen.faces.rws.rmmp import Privilege
 from rapidgen.faces.rws.routing import serves
 from rapidgen.wire.rws import operations as ops
 from rapidgen.wire.rws.bodies import Generation, Item
-from rapidgen.wire.rws.codes import name_of
+from rapidgen.wire.rws.codes import CODES, name_of
 
 if TYPE_CHECKING:
     from rapidgen.faces.rws.office import Office
 
-GRANTS = (
-    "UAS_FULL_ACCESS", "UAS_CFG_WRITE", "UAS_BACKUP", "UAS_RAPID_EDIT", "UAS_RAPID_EXECUTE",
-    "UAS_IO_WRITE", "UAS_RAPID_LOADPROGRAM", "UAS_SPEED_DECREASE",
-    "UAS_CONTROLLER_PROPERTIES_WRITE",
-)  # fmt: skip
 _GUID = re.compile(r"\{[0-9A-Fa-f]{8}(-[0-9A-Fa-f]{4}){3}-[0-9A-Fa-f]{12}\}")
 
 
@@ -44,8 +40,7 @@ def login_info(office: "Office", asked: RwsRequest) -> Served:
 
 
 def _grants(office: "Office", asked: RwsRequest) -> list[str]:
-    denied = office.login.denied if asked.session.user == "Default User" else frozenset[str]()
-    return [grant for grant in GRANTS if grant not in denied]
+    return sorted(office.login.granted(asked.session.user))
 
 
 @serves(ops.GRANTS)
@@ -78,37 +73,61 @@ def retcode(office: "Office", asked: RwsRequest) -> Served:
     return show(Item("err-desc", str(code), told))
 
 
-# -- RMMP: asked for, and nobody is there to grant it ---------------------------------------------
+# -- RMMP: remote writing in manual mode ----------------------------------------------------------
 
 
 @serves(ops.ASK_RMMP)
 def ask_rmmp(office: "Office", asked: RwsRequest) -> Served:
     """Ask the pendant's user for the right to write in manual mode."""
     _no_rmmp_on_8(office)
-    asked.field("privilege", ("modify", "exec"))
+    wanted = asked.field("privilege", ("modify", "exec"))
+    privilege: Privilege = "exec" if wanted == "exec" else "modify"
+    if office.controller.mode != "auto" and not office.masters.manual.ask(asked.session, privilege):
+        raise Denied(403, "E_RESOURCE_HELD", "another session asks for it, or has it", -4_502)
     return Served(202)
 
 
 @serves(ops.CANCEL_RMMP)
 def cancel_rmmp(office: "Office", asked: RwsRequest) -> None:
-    """Ask no more."""
+    """Ask no more, or give it back."""
     _no_rmmp_on_8(office)
+    office.masters.manual.cancel(asked.session)
 
 
 @serves(ops.RMMP)
 def rmmp(office: "Office", asked: RwsRequest) -> Served:
-    """Who may write in manual mode: nobody."""
+    """Who may write in manual mode, or asks for it."""
     _no_rmmp_on_8(office)
-    told = {"userid": "0", "alias": "", "location": "", "application": "", "privilege": "none"}
-    return show(Item("user-rmmp", "rmmp", {**told, "rmmpheldbyme": "false"}))
+    manual = office.masters.manual
+    who = manual.session
+    told = {
+        "userid": str(who.number if who else 0),
+        "alias": (who.alias or who.user) if who else "",
+        "location": who.location if who else "",
+        "application": who.application if who else "",
+        "privilege": ("" if manual.granted else "pending ") + manual.privilege if who else "none",
+        "rmmpheldbyme": "true" if manual.has(asked.session, "modify") else "false",
+    }
+    return show(Item("user-rmmp", "rmmp", told))
+
+
+_POLLED = {
+    "PENDING": "SYS_CTRL_S_PENDING", "GRANTED": "SYS_CTRL_S_GRANTED", "DENIED": "E_REJECT",
+    "TIMEOUT": "E_TIMEOUT", "NONE": "E_NO_DATA",
+}  # fmt: skip
 
 
 @serves(ops.RMMP_POLL)
 def poll_rmmp(office: "Office", asked: RwsRequest) -> Served:
-    """Whether it was granted: in automatic mode it need not be."""
+    """Whether it was granted; keeps the question on the pendant. In automatic mode it need not be.
+
+    PENDING and GRANTED are ABB's words [code: abb_robot_client], those for a refusal are ours.
+    """
     _no_rmmp_on_8(office)
-    granted = office.controller.mode == "auto"
-    told = {"code": "0", "status": "GRANTED" if granted else "PENDING"}
+    manual = office.masters.manual
+    manual.keep(asked.session)
+    state = "GRANTED" if office.controller.mode == "auto" else manual.state(asked.session)
+    told = {"code": str(CODES[_POLLED[state]]), "status": state}
     return show(Item("user-rmmp-poll", "poll", told))
 
 
@@ -156,7 +175,7 @@ def mastership(office: "Office", asked: RwsRequest) -> Served:
 def request(office: "Office", asked: RwsRequest) -> None:
     """Take one domain, or all of them."""
     _gone(office)
-    office.masters.need_mode()
+    office.masters.need_mode(asked.session)
     for domain in _named(office, asked):
         office.masters.request(asked.session, domain)
 

@@ -1,0 +1,17 @@
+# A virtual controller: docker run -p 11000-11002:11000-11002 rapidgen irb120 --host 0.0.0.0
+FROM python:3.13-slim AS build
+WORKDIR /src
+COPY . .
+RUN python -m venv /opt/rapidgen \
+    && /opt/rapidgen/bin/pip install --no-cache-dir --disable-pip-version-check .
+
+FROM python:3.13-slim
+RUN useradd --create-home --uid 1000 robot
+COPY --from=build /opt/rapidgen /opt/rapidgen
+ENV PATH=/opt/rapidgen/bin:$PATH \
+    PYTHONUNBUFFERED=1
+USER 1000
+WORKDIR /home/robot
+EXPOSE 11000 11001 11002
+ENTRYPOINT ["rapidgen", "sim"]
+CMD ["irb120", "--host", "0.0.0.0"]

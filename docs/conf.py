@@ -1,0 +1,76 @@
+"""The site: `make site` builds it from docs/ and the docstrings, with every warning an error."""
+
+import re
+from pathlib import Path
+from typing import ClassVar
+
+from pygments.lexer import RegexLexer, words
+from pygments.token import Comment, Keyword, Name, Number, Punctuation, String, Whitespace
+from sphinx.application import Sphinx
+
+from rapidgen import __version__
+from rapidgen.diagnostics.pages import codes, page
+from rapidgen.rapid.syntax.lexer import KEYWORDS
+
+project = "rapidgen"
+author = project_copyright = "the authors of rapidgen"
+release = version = __version__
+
+extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx_copybutton"]
+exclude_patterns = ["changes"]
+
+html_theme = "furo"
+html_title = f"rapidgen {release}"
+html_copy_source = False
+html_show_sphinx = False
+
+myst_heading_anchors = 3
+myst_enable_extensions = ["colon_fence"]
+# A prompt is not part of a command.
+copybutton_prompt_text = "$ "
+
+# A word between single backticks in a docstring is code, as in Markdown.
+default_role = "code"
+autodoc_default_options = {"members": True, "undoc-members": True, "show-inheritance": True}
+autodoc_member_order = "bysource"
+autodoc_typehints = "signature"
+autodoc_typehints_format = "short"
+autodoc_preserve_defaults = True
+
+
+class RapidLexer(RegexLexer):
+    """Colours of RAPID; the reserved words are the front end's."""
+
+    name = "RAPID"
+    aliases: ClassVar = ["rapid"]
+    flags = re.IGNORECASE
+    tokens: ClassVar = {
+        "root": [
+            (r"![^\n]*", Comment.Single),
+            (r'"(?:[^"\n]|"")*"', String),
+            (words(sorted(KEYWORDS), prefix=r"\b", suffix=r"\b"), Keyword),
+            (
+                r"(?:num|dnum|bool|string|robtarget|jointtarget|speeddata|zonedata|tooldata)\b",
+                Keyword.Type,
+            ),
+            (r"\d[\d.]*(?:E[+-]?\d+)?", Number),
+            (r"\w+", Name),
+            (r"\s+", Whitespace),
+            (r".", Punctuation),
+        ]
+    }
+
+
+def write_codes(app: Sphinx) -> None:
+    """What `rapidgen explain` says becomes a page of the site."""
+    chapters = (re.sub(r"^#", "##", page(code), flags=re.MULTILINE) for code in codes())
+    text = "# Diagnostics\n\nWhat `rapidgen explain CODE` says.\n\n" + "\n".join(chapters)
+    path = Path(app.srcdir) / "reference" / "codes.md"
+    if not path.exists() or path.read_text("utf-8") != text:
+        path.write_text(text, encoding="utf-8")
+
+
+def setup(app: Sphinx) -> None:
+    """Sphinx calls it when it has read this file."""
+    app.connect("builder-inited", write_codes)
+    app.add_lexer("rapid", RapidLexer)

@@ -1,0 +1,142 @@
+"""Where a robot is to go, as people write and read it: joints in deg and mm, poses in mm."""
+
+import math
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import typer
+
+from rapidgen.diagnostics import suggest
+
+if TYPE_CHECKING:
+    from rapidgen.axes.frames import Pose
+    from rapidgen.client.core.group import Group
+
+_TURN = 180 / math.pi
+_THOUSAND = 1000.0
+_UNIT = 0.01
+"""By which a quaternion's length may differ from 1: people write three digits."""
+_NAMED = re.compile(r"\s*([^=\s]+)\s*=\s*(\S+)\s*")
+
+
+@dataclass(frozen=True, slots=True)
+class Units:
+    """What figures are shown and read in: deg and mm, or (`si`) rad and m."""
+
+    si: bool = False
+
+    def joint(self, kind: str) -> tuple[str, float, int]:
+        """Of a joint of a kind: unit, how many of it are one rad or m, digits shown."""
+        if kind == "revolute":
+            return ("rad", 1.0, 4) if self.si else ("deg", _TURN, 2)
+        return ("m", 1.0, 5) if self.si else ("mm", _THOUSAND, 2)
+
+    @property
+    def said(self) -> str:
+        """Both units."""
+        return "rad, m" if self.si else "deg, mm"
+
+    @property
+    def length(self) -> tuple[str, float, int]:
+        """As `joint`, of a place."""
+        return self.joint("prismatic")
+
+
+def joints_text(units: Units, group: "Group", values: Sequence[float]) -> str:
+    """Joints as `--joints` takes them: all, in the robot's order, between commas."""
+    return ",".join(
+        figure(value, *units.joint(joint.kind)[1:])
+        for joint, value in zip(group.joints, values, strict=True)
+    )
+
+
+def named_text(units: Units, group: "Group", values: Sequence[float]) -> str:
+    """Joints with names and units, for people."""
+    told = []
+    for joint, value in zip(group.joints, values, strict=True):
+        unit, factor, digits = units.joint(joint.kind)
+        told.append(f"{joint.name} {figure(value, factor, digits)} {unit}")
+    return ", ".join(told)
+
+
+def figure(value: float, factor: float = 1.0, digits: int = 2) -> str:
+    """A number in a unit; never -0."""
+    return f"{round(value * factor, digits) + 0.0:.{digits}f}"
+
+
+def pose_text(units: Units, pose: "Pose") -> str:
+    """A pose as `--pose` takes it."""
+    place, turn = pose
+    factor, digits = units.length[1:]
+    return ",".join(
+        [*(figure(v, factor, digits) for v in place), *(figure(v, 1.0, 5) for v in turn)]
+    )
+
+
+def read_joints(
+    text: str, units: Units, group: "Group", here: Sequence[float], option: str = "--joints"
+) -> tuple[float, ...]:
+    """All joints in the robot's order, or some by NAME=VALUE, the others where they are; rad, m.
+
+    Raises typer.BadParameter.
+    """
+    parts = text.split(",")
+    names = list(group.names)
+    named = [_NAMED.fullmatch(part) for part in parts]
+    if all(named):
+        found = list(here)
+        seen = set()
+        for hit in named:
+            assert hit is not None
+            name = hit[1]
+            if name not in names:
+                mend = suggest(name, names) or f"its joints are: {', '.join(names)}"
+                raise typer.BadParameter(f"there is no joint '{name}': {mend}", param_hint=option)
+            if name in seen:
+                raise typer.BadParameter(f"'{name}' is there twice", param_hint=option)
+            seen.add(name)
+            found[names.index(name)] = _number(hit[2], option)
+            found[names.index(name)] /= units.joint(group.joints[names.index(name)].kind)[1]
+        return tuple(found)
+    if len(parts) != len(names):
+        raise typer.BadParameter(
+            f"{len(parts)} values for {len(names)} joints: give all of them ({','.join(names)}), "
+            "or some as NAME=VALUE",
+            param_hint=option,
+        )
+    return tuple(
+        _number(part, option) / units.joint(joint.kind)[1]
+        for part, joint in zip(parts, group.joints, strict=True)
+    )
+
+
+def read_pose(text: str, units: Units, here: "Pose", option: str = "--pose") -> "Pose":
+    """X,Y,Z,Q1,Q2,Q3,Q4, or X,Y,Z: turned as it is; m. Raises typer.BadParameter."""
+    values = [_number(part, option) for part in text.split(",")]
+    if len(values) not in (3, 7):
+        raise typer.BadParameter(
+            f"{len(values)} values: X,Y,Z,Q1,Q2,Q3,Q4, or X,Y,Z alone, turned as it is",
+            param_hint=option,
+        )
+    x, y, z = (value / units.length[1] for value in values[:3])
+    if len(values) == 3:
+        return (x, y, z), here[1]
+    length = math.hypot(*values[3:])
+    if abs(length - 1) > _UNIT:
+        raise typer.BadParameter(
+            f"Q1,Q2,Q3,Q4 is no unit quaternion: its length is {length:.3f}", param_hint=option
+        )
+    a, b, c, d = (value / length for value in values[3:])
+    return (x, y, z), (a, b, c, d)
+
+
+def _number(text: str, option: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value):
+        raise typer.BadParameter(f"'{text.strip()}' is no number", param_hint=option)
+    return value

@@ -1,0 +1,84 @@
+"""`rapidgen jog`: joints a little from where they are."""
+
+import math
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from rapidgen.cli import options
+from rapidgen.cli.goals import Units, figure, named_text, read_joints
+
+if TYPE_CHECKING:
+    from rapidgen.client import Robot
+
+_SLOW = 0.05
+"""m/s of the tool where nobody says more."""
+
+
+def jog(
+    config: options.Config,
+    by: Annotated[
+        list[str], typer.Argument(help="How far: joint_1=5 joint_3=-2.", metavar="JOINT=STEP...")
+    ],
+    to: options.RobotAddress = "",
+    group: options.Group = "",
+    yes: options.YesHere = False,
+    move_real_robot: options.RealRobot = "",
+    speed: Annotated[
+        float, typer.Option(help="mm/s of the tool (m/s with --rad).", metavar="V")
+    ] = 0.0,
+    rad: options.InRad = False,
+    as_json: options.AsJson = False,
+) -> int:
+    """Move joints a little from where they are: at most 11.4 deg or 100 mm. Ctrl-C stops.
+
+    The controller stops the robot when it does not hear of this command for 0.2 s. Needs the
+    driver's control port.
+
+    rapidgen jog cell.yaml joint_1=5 joint_3=-2 --to sim
+    """
+    from rapidgen.cli.moving import confirm_at, permitted, told_of_a_cut
+    from rapidgen.client import Robot
+
+    units = Units(rad)
+    if speed < 0 or not math.isfinite(speed):
+        raise typer.BadParameter(f"must be above 0, not {speed}", param_hint="--speed")
+    robot = Robot(config, address=to or None, group=group)
+    must_ask = permitted(robot, to, yes=yes, real_robot=move_real_robot)
+    with robot:
+        steps = _steps(robot, units, by)
+        if must_ask:
+            confirm_at(robot)
+        with told_of_a_cut(robot, units):
+            result = robot.jog(speed=speed / units.length[1] or _SLOW, **steps)
+        if as_json:
+            import json
+
+            typer.echo(json.dumps({"seconds": result.seconds, "joints": result.state.by_name}))
+        else:
+            typer.echo(f"at {named_text(units, robot.group, result.state.joints)}")
+    return 0
+
+
+def _steps(robot: "Robot", units: Units, by: list[str]) -> dict[str, float]:
+    """Steps in rad and m by joint. Raises typer.BadParameter."""
+    from rapidgen.client.flows.program import LONGEST_JOG
+
+    group = robot.group
+    if not all("=" in step for step in by):
+        raise typer.BadParameter("write JOINT=STEP, such as joint_1=5", param_hint="JOINT=STEP")
+    nothing = [0.0] * len(group.names)
+    found = read_joints(",".join(by), units, group, nothing, "JOINT=STEP")
+    steps = {}
+    for joint, step in zip(group.joints, found, strict=True):
+        most = LONGEST_JOG[joint.kind]
+        if abs(step) > most:
+            unit, factor, _ = units.joint(joint.kind)
+            raise typer.BadParameter(
+                f"{joint.name} by {figure(step, factor)} {unit} is too far: at most "
+                f"{figure(most, factor)} {unit} at a time; `rapidgen move --joints` goes farther",
+                param_hint="JOINT=STEP",
+            )
+        if step:
+            steps[joint.name] = step
+    return steps

@@ -1,0 +1,56 @@
+"""PERS of the robot's own program, as far as the configuration lists them."""
+
+from rapidgen.client.core.program_checks import fits
+from rapidgen.client.core.robot import Core
+from rapidgen.client.errors import NotSupported, RequestRefused
+from rapidgen.client.flows.control import ask
+from rapidgen.client.flows.effects import Flow
+from rapidgen.diagnostics import suggest
+from rapidgen.wire.simple_message import messages
+
+Datum = float | bool | str
+"""A num, a bool or a string."""
+
+
+def read(core: Core, name: str) -> Flow[Datum]:
+    """A PERS of `data:`, by its name there. Raises NotSupported for one that is not listed,
+    RequestRefused where the robot's program does not have it, RobotTimeout."""
+    return (yield from _reach(core, name, None))
+
+
+def write(core: Core, name: str, value: Datum) -> Flow[Datum]:
+    """Give a PERS of `data:` a value; that is what it then was read as. Raises as `read_data`, and
+    ValueError for a value that its type does not have."""
+    return (yield from _reach(core, name, value))
+
+
+def _reach(core: Core, name: str, value: Datum | None) -> Flow[Datum]:
+    known = core.known_group.data
+    names = [datum.name for datum in known]
+    if name not in names:
+        raise NotSupported.because(
+            "RG624",
+            f"the configuration lists no datum '{name}'",
+            suggest(name, names) or f"`data:` lists: {', '.join(names) or 'none'}",
+        )
+    index = names.index(name)
+    datum = known[index]
+    if value is not None and datum.access == "read":
+        raise NotSupported.because(
+            "RG624",
+            f"'{name}' is listed for reading only",
+            "`access: write` in the configuration; build and deploy again",
+        )
+    if value is not None and not fits(datum.type, value):
+        raise ValueError(f"{name} is a {datum.type}: it cannot be {value!r}")
+    number = 0.0 if value is None or isinstance(value, str) else float(value)
+    text = value if isinstance(value, str) else ""
+    asked = messages.DataRequest(index, int(value is not None), number, text)
+    reply = yield from ask(core, asked, f"{'read' if value is None else 'write'} {name}")
+    if not isinstance(reply, messages.DataReply) or reply.datum != index:
+        raise RequestRefused.because(
+            "RG625", f"{name} was answered with {reply}", **core.evidence()
+        )
+    if datum.type == "string":
+        return reply.text
+    return reply.value == 1 if datum.type == "bool" else reply.value

@@ -1,0 +1,33 @@
+"""`robot.data`: PERS of the robot's own program, as a mapping."""
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+
+from rapidgen.client.flows.data import Datum
+
+
+@dataclass(frozen=True, eq=False)
+class RobotData(Mapping[str, Datum]):
+    """What `data:` of the configuration lists, by `MODULE:NAME`; read and written at the robot.
+
+    Raises as `read_data` and `write_data`, so NotSupported for a name that is not listed.
+    """
+
+    names: tuple[str, ...]
+    read: Callable[[str], Datum]
+    write: Callable[[str, Datum], Datum]
+
+    def __getitem__(self, name: str) -> Datum:
+        return self.read(name)
+
+    def __setitem__(self, name: str, value: Datum) -> None:
+        self.write(name, value)
+
+    def __contains__(self, name: object) -> bool:
+        return name in self.names
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.names)
+
+    def __len__(self) -> int:
+        return len(self.names)

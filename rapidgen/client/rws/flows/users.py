@@ -1,0 +1,66 @@
+"""What the user may do: grants by UAS name, and remote writing in manual mode (RMMP)."""
+
+from rapidgen.client.errors import NotReady
+from rapidgen.client.rws.core import RwsCore
+from rapidgen.client.rws.effects import Flow, Pause
+from rapidgen.client.rws.flows.asking import ask
+from rapidgen.client.rws.flows.panel import one
+from rapidgen.wire.rws import operations as ops
+from rapidgen.wire.rws.bodies import Generation
+from rapidgen.wire.rws.operations import RwsOperation
+
+_LOOK = 0.5
+"""s between two polls; each keeps the question on the pendant [code: abb_robot_client]."""
+
+
+def grants(core: RwsCore) -> Flow[frozenset[str]]:
+    """UAS names of what this user may do; none where the controller does not tell."""
+    body, _ = yield from ask(core, ops.GRANTS, accepted=(400, 403, 404))
+    kinds = ("user-grant", "uas-grant")
+    return frozenset(i.text("grantname") or i.title for i in body.all(*kinds)) - {""}
+
+
+def ask_rmmp(core: RwsCore, privilege: str = "modify", *, wait: float = 10.0) -> Flow[None]:
+    """Ask the pendant's user for remote writing (`modify`) or running, too (`exec`), in manual
+    mode; returns when it is granted, and at once in automatic mode.
+
+    It lasts until `cancel_rmmp`, the end of the session or another mode. Raises NotReady (RG661):
+    it was denied, or nobody answered within s. NotSupported (RG659): RobotWare 8 has none that
+    works.
+    """
+    if (yield from _mode(core)) == "AUTO":
+        return
+    if core.generation is Generation.EIGHT:
+        core.route(_NO_RMMP)
+    yield from ask(core, ops.ASK_RMMP, form={"privilege": privilege})
+    until = core.clock() + wait
+    while True:
+        told = yield from one(core, ops.RMMP_POLL, "user-rmmp-poll")
+        status = told.text("status").upper()
+        if status == "GRANTED":
+            return
+        if status != "PENDING" or core.clock() >= until:
+            break
+        yield Pause(_LOOK)
+    yield from ask(core, ops.CANCEL_RMMP, accepted=(400, 403, 404))
+    why = f"nobody granted it within {wait:g} s" if status == "PENDING" else f"it says {status}"
+    raise NotReady.because(
+        "RG661",
+        f"{core.where} is in manual mode, and remote {privilege} was not granted: {why}",
+        "answer the question on the pendant with Grant, or switch to automatic mode there",
+    )
+
+
+_NO_RMMP = RwsOperation("-", "POST /users/rmmp", "-")
+"""Every call of it is answered with status 500 [VC 8.1.1]."""
+
+
+def cancel_rmmp(core: RwsCore) -> Flow[None]:
+    """Give remote writing in manual mode back; harmless where there is none."""
+    if core.generation is not Generation.EIGHT:
+        yield from ask(core, ops.CANCEL_RMMP, accepted=(400, 403, 404))
+
+
+def _mode(core: RwsCore) -> Flow[str]:
+    told = yield from one(core, ops.OPMODE, "pnl-opmode")
+    return told.text("opmode")

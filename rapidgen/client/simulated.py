@@ -1,0 +1,57 @@
+"""`sim` as an address: the simulator that runs on this machine for this user."""
+
+import logging
+
+from rapidgen._running import Simulator, running
+from rapidgen.client.address import Address, parse_address
+from rapidgen.client.errors import fault
+from rapidgen.diagnostics import DiagnosticError
+
+SIMULATOR = "sim"
+"""The word for it, where an address is asked for."""
+_LOG = logging.getLogger("rapidgen.client")
+
+
+def find_simulator(name: str = "", group: str = "") -> Address:
+    """Address of a motion group of the simulator with a robot's name; without one, of the only one.
+
+    What simulators left behind that ended without a word is removed and logged. Raises
+    DiagnosticError RG642.
+    """
+    found, left = running()
+    for path in left:
+        _LOG.warning("%s was left behind by a simulator that ended without a word: removed", path)
+    own = [one for one in found if name in ("", one.name)]
+    if len(own) != 1:
+        raise _unclear(name, own, found)
+    (simulator,) = own
+    addresses = simulator.addresses
+    if not group and len(addresses) == 1:
+        (group,) = addresses
+    if group not in addresses:
+        said = f"no motion group '{group}'" if group else "several motion groups, or none"
+        raise DiagnosticError(
+            fault(
+                "RG642",
+                f"the simulator of '{simulator.name}' has {said}",
+                f"--group {' or '.join(addresses)}" if addresses else "it serves no driver",
+            )
+        )
+    return parse_address(addresses[group])
+
+
+def _unclear(name: str, own: list[Simulator], found: list[Simulator]) -> DiagnosticError:
+    shown = tuple(f"{one.name} (process {one.pid}): {_places(one)}" for one in found)
+    if own:
+        message, mend = f"{len(own)} simulators run", "end the others, or say --to with an address"
+    elif found:
+        message = f"no simulator of '{name}' runs, but others do"
+        mend = f"`rapidgen sim` with the configuration of '{name}', or the other configuration here"
+    else:
+        message = "no simulator of yours runs on this machine"
+        mend = f"`rapidgen sim {name or 'CONFIG'} --ports auto` in another terminal"
+    return DiagnosticError(fault("RG642", message, mend, *shown), exit_code=1)
+
+
+def _places(simulator: Simulator) -> str:
+    return ", ".join(simulator.addresses.values()) or "no driver's ports"

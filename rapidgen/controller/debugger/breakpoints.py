@@ -1,0 +1,92 @@
+"""Breakpoints: where, on which condition, at which pass; and where a line really is."""
+
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+
+from rapidgen.rapid.syntax import nodes as n
+from rapidgen.rapid.syntax.walk import walk
+from rapidgen.runtime.compiler.symbols import LoadedModule
+
+_HITS = re.compile(r"\s*(>=|%|=|==)?\s*(\d+)\s*")
+_INSERT = re.compile(r"\{([^{}]*)\}")
+
+
+@dataclass(frozen=True, slots=True)
+class Breakpoint:
+    """What somebody asks for.
+
+    `hits` counts passes for which `condition` holds: "3" or "=3" the third, ">=3" from there on,
+    "%3" every third. With `log` nothing pauses: the text is told, `{expression}` worked out.
+    """
+
+    module: str
+    line: int
+    task: str = ""
+    """Empty: every task that has the module."""
+    condition: str = ""
+    hits: str = ""
+    log: str = ""
+
+
+@dataclass(slots=True, eq=False)
+class Placed:
+    """A breakpoint in a controller."""
+
+    number: int
+    asked: Breakpoint
+    line: int = 0
+    """Of the statement before which it lies; 0: it lies nowhere."""
+    points: set[tuple[int, int]] = field(default_factory=set)
+    """Trees by identity, and the token of the statement in each."""
+    doubt: str = ""
+    """Why it lies nowhere, or when it will not be noticed."""
+    count: int = 0
+    """Passes for which the condition held."""
+
+
+def due(hits: str, count: int) -> bool:
+    """Whether a pass counts. ValueError: `hits` is no such text."""
+    if not hits:
+        return True
+    found = _HITS.fullmatch(hits)
+    if found is None or int(found[2]) == 0:
+        raise ValueError(f'{hits!r} is no number of passes: "3", ">=3" or "%3"')
+    kind, number = found[1], int(found[2])
+    if kind == ">=":
+        return count >= number
+    return count % number == 0 if kind == "%" else count == number
+
+
+def pieces(log: str) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Texts and expressions of a log point, taking turns."""
+    parts = _INSERT.split(log)
+    return tuple(parts[::2]), tuple(parts[1::2])
+
+
+def place(placed: Placed, modules: Iterable[LoadedModule]) -> None:
+    """Find the first statement of a routine that begins in the line asked for, or below."""
+    placed.line, placed.points = 0, set()
+    for module in modules:
+        if module.name.lower() == placed.asked.module.lower():
+            found = _statement_at(module, placed.asked.line)
+            if found is not None:
+                placed.line = module.tree.source.line(found)
+                placed.points.add((id(module.tree), found))
+    placed.doubt = "" if placed.line else "no statement begins there"
+
+
+def _statement_at(module: LoadedModule, line: int) -> int | None:
+    source = module.tree.source
+    for routine in module.tree.routines:
+        if source.line(routine.first) <= line <= source.line(routine.last):
+            tokens = sorted(node.first for node in statements(routine))
+            return next((token for token in tokens if source.line(token) >= line), None)
+    return None
+
+
+def statements(routine: n.RoutineDeclaration) -> Iterable[n.Statement]:
+    """Everything in a routine that is executed and told to tracers."""
+    for node in walk(routine):
+        if isinstance(node, n.Statement) and not isinstance(node, n.Label):
+            yield node

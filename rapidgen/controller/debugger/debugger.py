@@ -1,0 +1,347 @@
+"""The debugger of one controller: it pauses everything, time and robots included.
+
+A pause is none of the controller's own states: nothing stops, no event routine runs, no socket
+closes, the robot stands still in the middle of its move because time does not pass. Programs
+whose statements nobody asks for are compiled as if there were no debugger.
+"""
+
+import sys
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Literal, TypeAlias
+
+from rapidgen.controller.controller import VirtualController
+from rapidgen.controller.debugger import breakpoints as places
+from rapidgen.controller.debugger import pointers, values
+from rapidgen.controller.debugger.breakpoints import Breakpoint, Placed
+from rapidgen.controller.debugger.stack import Level, StackFrame, depth_here, frames_of, innermost
+from rapidgen.controller.debugger.values import NotNow, Shown
+from rapidgen.machine.scheduler import WaitSet
+from rapidgen.rapid.syntax import nodes as n
+from rapidgen.runtime.compiler.symbols import LoadedModule, Routine
+from rapidgen.runtime.compiler.watching import WatchedExpression
+from rapidgen.runtime.errors import FatalError, Location, RapidError
+from rapidgen.runtime.task.task import Task
+
+Reason: TypeAlias = Literal["breakpoint", "step", "cursor", "error", "pause"]
+StepKind: TypeAlias = Literal["in", "over", "out"]
+ErrorStop: TypeAlias = Literal["never", "unhandled", "all"]
+"""At which errors everything pauses: at those that stop a task, or before each handler, too."""
+LARGEST_OUTPUT = 1000
+"""Lines of log points that are kept."""
+
+
+@dataclass(frozen=True, slots=True)
+class Halt:
+    """Why everything is paused."""
+
+    reason: Reason
+    task: str = ""
+    """Empty: somebody paused, wherever the tasks were."""
+    place: Location | None = None
+    text: str = ""
+    breakpoint: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class Told:
+    """A line of a log point. `time` is the controller's, s."""
+
+    time: float
+    task: str
+    place: Location
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class _Step:
+    task: str
+    kind: StepKind
+    depth: int
+    level: Level
+    hidden: bool
+    """It began in a module that is executed as a whole."""
+
+
+class Debugger:
+    """Breakpoints, steps, stacks and values of one controller.
+
+    Everything is called on the thread that lets the controller's time pass. On the virtual clock
+    `run_for` and the like return at once while it is paused.
+    """
+
+    def __init__(
+        self, controller: VirtualController, breakpoints: Iterable[Breakpoint] = ()
+    ) -> None:
+        self._controller = controller
+        self._scheduler = controller.scheduler
+        self._tasks = controller.rapid_tasks
+        self._numbers = 0
+        self.placed: dict[int, Placed] = {}
+        """Breakpoints by number."""
+        self.errors: ErrorStop = "never"
+        self.halt: Halt | None = None
+        """Why it is paused; None: it is not."""
+        self.output: list[Told] = []
+        """What log points told, the latest last."""
+        self.changed = WaitSet()
+        """Paused, going on, told something, or breakpoints changed."""
+        self._armed: dict[tuple[int, int], list[Placed]] = {}
+        self._trees: dict[int, n.Module] = {}
+        self._watched: dict[tuple[str, Routine, str], WatchedExpression] = {}
+        self._step: _Step | None = None
+        self._cursor: Placed | None = None
+        controller.statements.errors.append(self._error)
+        controller.statements.failures.append(self._failure)
+        for asked in breakpoints:
+            self.add(asked)
+
+    # -- breakpoints -----------------------------------------------------------------------------
+
+    def add(self, asked: Breakpoint) -> Placed:
+        """Set a breakpoint; where it lies, and what is in doubt. ValueError: `hits` is no text."""
+        places.due(asked.hits, 0)
+        self._numbers += 1
+        placed = self.placed[self._numbers] = Placed(self._numbers, asked)
+        self._place()
+        self._listen()
+        self.changed.notify()
+        return placed
+
+    def remove(self, number: int) -> None:
+        """Take a breakpoint away; harmless when it is gone."""
+        self.placed.pop(number, None)
+        self._place()
+        self._listen()
+        self.changed.notify()
+
+    def _place(self) -> None:
+        """Find the statements of all breakpoints in the modules that are loaded now."""
+        modules = [m for task in self._tasks.values() for m in task.program.modules.values()]
+        self._trees = {id(module.tree): module.tree for module in modules}
+        self._watched.clear()
+        self._armed = {}
+        every = [*self.placed.values(), *([self._cursor] if self._cursor else ())]
+        for placed in every:
+            places.place(placed, modules)
+            for point in placed.points:
+                self._armed.setdefault(point, []).append(placed)
+
+    def _listen(self) -> None:
+        """Let tasks report their statements while that is needed."""
+        tracers = self._controller.statements.tracers
+        needed = bool(self._armed) or self._step is not None
+        if not needed:
+            if self._statement in tracers:
+                tracers.remove(self._statement)
+            return
+        if self._statement not in tracers:
+            tracers.append(self._statement)
+        for name, task in self._tasks.items():
+            doubt = task.report_statements()
+            for placed in self.placed.values():
+                if doubt and placed.line and self._is_in(name, placed):
+                    placed.doubt = f"{name} notices it when its routines are called again: {doubt}"
+
+    def _is_in(self, task: str, placed: Placed) -> bool:
+        modules = {id(module.tree) for module in self._tasks[task].program.modules.values()}
+        return any(tree in modules for tree, _ in placed.points)
+
+    # -- pausing and going on --------------------------------------------------------------------
+
+    def pause(self) -> None:
+        """Pause wherever the tasks are, also in the middle of a statement."""
+        if self.halt is None:
+            self.halt = Halt("pause")
+            self._scheduler.pause()
+            self.changed.notify()
+
+    def resume(self) -> None:
+        """Go on to the next breakpoint."""
+        self._go_on(None)
+
+    def step(self, task: str, kind: StepKind = "over") -> None:
+        """Go on until a task is before its next statement. NotNow: it is not paused.
+
+        `in` enters what is called, `over` does not, `out` ends where the routine was called.
+        Traps, event routines and modules with NOSTEPIN are not stepped into: they are executed
+        whole, unless there is a breakpoint in them. All other tasks go on meanwhile.
+        """
+        frames = self._frames(task)
+        if not frames:
+            raise NotNow(f"{task} is not executing anything")
+        depth = depth_here(self._tasks[task], self._tasks[task].frame)
+        if kind == "out" and len(frames) < 2:
+            raise NotNow("this is the outermost routine")
+        self._go_on(_Step(task, kind, depth, frames[-1].level, _hidden(frames[-1].module)))
+
+    def run_to(self, task: str, module: str, line: int) -> None:
+        """Go on to a line, as if there were a breakpoint for once. NotNow: there is none."""
+        cursor = Placed(0, Breakpoint(module, line, task))
+        places.place(cursor, self._tasks[task].program.modules.values())
+        if not cursor.line:
+            raise NotNow(f"no statement begins in line {line} of {module}")
+        self._require_halt()
+        self._cursor = cursor
+        self._go_on(None)
+
+    def _go_on(self, step: _Step | None) -> None:
+        self._require_halt()
+        self._step = step
+        self._place()
+        self._listen()
+        self.halt = None
+        self.changed.notify()
+        self._scheduler.resume()
+
+    def _require_halt(self) -> None:
+        if self.halt is None:
+            raise NotNow("nothing is paused")
+
+    def close(self) -> None:
+        """Take everything away and let the controller go on."""
+        statements = self._controller.statements
+        statements.errors.remove(self._error)
+        statements.failures.remove(self._failure)
+        self.placed.clear()
+        self._cursor = self._step = None
+        self._place()
+        self._listen()
+        self.halt = None
+        self._scheduler.resume()
+
+    # -- what tasks tell -------------------------------------------------------------------------
+
+    def _statement(self, name: str, routine: Routine, node: n.Statement) -> None:
+        module = routine.module
+        assert module is not None
+        if id(module.tree) not in self._trees:
+            self._place()
+        for placed in self._armed.get((id(module.tree), node.first), ()):
+            asked = placed.asked
+            if asked.task and asked.task.lower() != name.lower():
+                continue
+            halt = self._reached(name, placed, innermost(self._tasks[name], sys._getframe(1)))
+            if halt is not None:
+                self._hold(halt)
+                return
+        step = self._step
+        if step is not None and step.task == name and self._ends(step, module):
+            frame = innermost(self._tasks[name], sys._getframe(1))
+            self._hold(Halt("step", name, frame.place))
+
+    def _reached(self, name: str, placed: Placed, frame: StackFrame) -> Halt | None:
+        """What a breakpoint brings whose statement is about to be executed."""
+        asked, task = placed.asked, self._tasks[name]
+        try:
+            if asked.condition and self._value(task, frame, asked.condition) is not True:
+                return None
+            placed.count += 1
+            if not places.due(asked.hits, placed.count):
+                return None
+            if asked.log:
+                self._tell(task, frame, asked.log)
+                return None
+        except NotNow as reason:
+            return Halt("breakpoint", name, frame.place, str(reason), placed.number)
+        if placed is self._cursor:
+            return Halt("cursor", name, frame.place)
+        return Halt("breakpoint", name, frame.place, "", placed.number)
+
+    def _value(self, task: Task, frame: StackFrame, text: str) -> object:
+        return values.read(self._compiled(task, frame, text), frame)
+
+    def _compiled(self, task: Task, frame: StackFrame, text: str) -> WatchedExpression:
+        key = (task.name, frame.routine, text)
+        found = self._watched.get(key)
+        if found is None:
+            found = self._watched[key] = values.compiled(task.program, frame, text)
+        return found
+
+    def _tell(self, task: Task, frame: StackFrame, log: str) -> None:
+        texts, expressions = places.pieces(log)
+        line = texts[0]
+        for expression, text in zip(expressions, texts[1:], strict=True):
+            watched = self._compiled(task, frame, expression)
+            value = values.read(watched, frame)
+            line += values.shown("", watched.type, watched.dims, value).text + text
+        self.output.append(Told(self._controller.now, task.name, frame.place, line))
+        del self.output[:-LARGEST_OUTPUT]
+        self.changed.notify()
+
+    def _ends(self, step: _Step, module: LoadedModule) -> bool:
+        task = self._tasks[step.task]
+        outside = step.level == "program" and (task.in_trap or bool(task.events.running))
+        if outside or (_hidden(module) and not step.hidden):
+            return False
+        depth = depth_here(task, sys._getframe(1))
+        return step.kind == "in" or depth < step.depth + (step.kind == "over")
+
+    def _error(self, name: str, error: RapidError) -> None:
+        if self.errors == "all":
+            frame = innermost(self._tasks[name], sys._getframe(1))
+            self._hold(Halt("error", name, frame.place, f"{error.name} {error.text}".strip()))
+
+    def _failure(self, name: str, fatal: FatalError) -> None:
+        if self.errors != "never":
+            place = fatal.stack[-1] if fatal.stack else None
+            text = ": ".join([f"{fatal.event} {fatal.title}", *(a for a in fatal.arguments if a)])
+            self._hold(Halt("error", name, place, text))
+
+    def _hold(self, halt: Halt) -> None:
+        """Pause in the task that tells: it goes on from here."""
+        self._step = self._cursor = None
+        self.halt = halt
+        self.changed.notify()
+        task = self._tasks[halt.task]
+        self._scheduler.pause(task)
+        task.attend()
+
+    # -- stacks and values -----------------------------------------------------------------------
+
+    def frames(self, task: str) -> tuple[StackFrame, ...]:
+        """Call stack of a task, outermost first. KeyError: there is no such task."""
+        return frames_of(self._tasks[task])
+
+    def _frames(self, task: str) -> tuple[StackFrame, ...]:
+        self._require_halt()
+        return self.frames(task)
+
+    def frame(self, task: str, level: int = -1) -> StackFrame:
+        """One routine of a call stack, the innermost by default. NotNow: there is none."""
+        frames = self.frames(task)
+        try:
+            return frames[level]
+        except IndexError:
+            raise NotNow(f"{task} is not executing anything there") from None
+
+    def evaluate(self, task: str, text: str, level: int = -1) -> Shown:
+        """The value of an expression, where a routine stands. NotNow says why there is none."""
+        return values.evaluate(self._tasks[task].program, self.frame(task, level), text)
+
+    def assign(self, task: str, target: str, value: str, level: int = -1) -> Shown:
+        """Set a datum, an element or a component; the value it has then. NotNow says why not."""
+        done = values.assign(self._tasks[task].program, self.frame(task, level), target, value)
+        self.changed.notify()
+        return done
+
+    def variables(self, task: str, level: int = -1) -> tuple[Shown, ...]:
+        """Parameters, data and loop variables of a routine."""
+        return values.variables(self._tasks[task].program, self.frame(task, level))
+
+    def module_data(self, task: str, level: int = -1) -> tuple[Shown, ...]:
+        """Data of the module of a routine."""
+        return values.module_data(self._tasks[task].program, self.frame(task, level))
+
+    def program_pointer(self, task: str) -> Location | None:
+        """Where a task is in its program, not in a trap or an event routine; None: nowhere."""
+        return pointers.program_pointer(self._tasks[task])
+
+    def motion_pointer(self, task: str) -> Location | None:
+        """The move instruction of a task that its robot is executing; None: there is none."""
+        return pointers.motion_pointer(self._controller, task)
+
+
+def _hidden(module: LoadedModule) -> bool:
+    """Whether its routines are executed as a whole [S4 overview 4-8]."""
+    return module.installed or "NOSTEPIN" in module.tree.attributes

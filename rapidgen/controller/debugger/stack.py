@@ -1,0 +1,131 @@
+"""Call stacks of tasks with what their routines hold."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from types import FrameType
+from typing import Literal, TypeAlias
+
+from rapidgen.rapid.syntax import nodes as n
+from rapidgen.runtime.compiler.compiled import CodeRole
+from rapidgen.runtime.compiler.resume import find
+from rapidgen.runtime.compiler.symbols import LoadedModule, Routine
+from rapidgen.runtime.errors import Location
+from rapidgen.runtime.task.call_stack import location, outwards
+from rapidgen.runtime.task.event_routines import EventRoutines
+from rapidgen.runtime.task.interrupts import Interrupts
+from rapidgen.runtime.task.task import Task
+from rapidgen.runtime.values import Value
+
+Level: TypeAlias = Literal["program", "trap", "event"]
+"""What a routine runs for: the program, an interrupt, or an event such as START."""
+_LEVELS: dict[object, Level] = {
+    Interrupts.serve.__code__: "trap",
+    EventRoutines.execute.__code__: "event",
+}
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class StackFrame:
+    """One routine of a call stack."""
+
+    place: Location
+    level: Level
+    handler: str
+    """`ERROR` or `UNDO` when that handler of the routine is being executed."""
+    routine: Routine
+    module: LoadedModule
+    values: dict[str, Value]
+    """Python locals, by what compiled code calls them."""
+    python: FrameType | None
+    """None: of a program that an error stopped, only the values are left."""
+    loops: tuple[n.For, ...] = ()
+    """FOR loops around the place, outermost first."""
+
+
+def frames_of(task: Task) -> tuple[StackFrame, ...]:
+    """Routines of a task that is being executed or stands, outermost first."""
+    if not task.pointer.begun and task.pointer.place is not None:
+        return tuple(_kept(task))
+    return tuple(reversed(list(_live(task, task.frame))))
+
+
+def innermost(task: Task, frame: FrameType | None) -> StackFrame:
+    """The routine that a running task is in, seen from a Python frame above."""
+    return next(iter(_live(task, frame)))
+
+
+def depth_here(task: Task, frame: FrameType | None) -> int:
+    """Routines inside each other above a Python frame; a handler counts as its routine."""
+    codes = task.program.codes
+    found = 0
+    for at in outwards(frame):
+        compiled = codes.get(at.f_code.co_filename)
+        if compiled is not None and compiled.role(at.f_code) is CodeRole.ROUTINE:
+            found += 1
+    return found
+
+
+def _live(task: Task, frame: FrameType | None) -> Iterable[StackFrame]:
+    codes = task.program.codes
+    inner: list[FrameType] = []
+    """Handlers and parts of the routine whose own frame comes next."""
+    waiting: list[StackFrame] = []
+    for at in outwards(frame):
+        level = _LEVELS.get(at.f_code)
+        if level is not None:
+            # Everything inside of this call runs for it.
+            yield from (replace(known, level=level) for known in waiting)
+            waiting.clear()
+            continue
+        compiled = codes.get(at.f_code.co_filename)
+        if compiled is None:
+            continue
+        inner.append(at)
+        if compiled.role(at.f_code) is not CodeRole.ROUTINE:
+            continue
+        first = inner[0]
+        place = location(codes, first.f_code.co_filename, first.f_lineno)
+        assert place is not None
+        handler = next((r for f in inner if (r := compiled.role(f.f_code)).is_handler), None)
+        values: dict[str, Value] = {}
+        for part in reversed(inner):
+            values.update(part.f_locals)
+        token = compiled.tokens[first.f_lineno]
+        loops = loops_around(compiled.routine, token)
+        waiting.append(
+            StackFrame(
+                place,
+                "program",
+                handler.value if handler is not None else "",
+                compiled.routine,
+                compiled.module,
+                values,
+                at,
+                loops,
+            )
+        )
+        inner = []
+    yield from waiting
+
+
+def _kept(task: Task) -> Iterable[StackFrame]:
+    for standing in task.pointer.place or ():
+        module = standing.routine.module
+        assert module is not None
+        body, i = standing.path[-1]
+        place = Location(module.name, standing.routine.name, module.span(body[i]))
+        loops = tuple(s for b, k in standing.path if isinstance(s := b[k], n.For))
+        yield StackFrame(
+            place, "program", "", standing.routine, module, standing.values, None, loops
+        )
+
+
+def loops_around(routine: Routine, token: int) -> tuple[n.For, ...]:
+    """FOR loops of a routine that are around the statement at a token."""
+    node = routine.node
+    assert node is not None
+    for part in (node, node.error, node.undo, node.backward):
+        path = find(part.body, token) if part is not None else None
+        if path is not None:
+            return tuple(s for body, i in path[:-1] if isinstance(s := body[i], n.For))
+    return ()

@@ -1,0 +1,149 @@
+"""Values where a program stands: read, work out an expression, set."""
+
+import ctypes
+import sys
+from collections.abc import Iterator
+from dataclasses import dataclass
+from types import FrameType
+
+from rapidgen.controller.debugger.stack import StackFrame
+from rapidgen.rapid.syntax import nodes as n
+from rapidgen.runtime.compiler.context import Options
+from rapidgen.runtime.compiler.linking import Linker
+from rapidgen.runtime.compiler.loops import loop_variable
+from rapidgen.runtime.compiler.program import Program
+from rapidgen.runtime.compiler.symbols import CannotCompile, LoadedModule, Routine
+from rapidgen.runtime.compiler.watching import (
+    WatchedExpression,
+    parse_assignment,
+    parse_expression,
+    store,
+    watch,
+)
+from rapidgen.runtime.errors import RECOVERABLE, FatalError, as_rapid_error
+from rapidgen.runtime.text import value_text
+from rapidgen.runtime.values import ATOMIC, Record, Type, Value
+
+LONGEST = 400
+"""Characters of a value that are shown; parts of it can be asked for."""
+
+
+class NotNow(Exception):
+    """What was asked for is not possible where the program stands; the text says why."""
+
+
+@dataclass(frozen=True, slots=True)
+class Shown:
+    """A value for people: RAPID's own text, and whether there are parts to be asked for."""
+
+    name: str
+    type: str
+    text: str
+    parts: int = 0
+    """Components or elements."""
+    settable: bool = True
+
+
+def evaluate(program: Program, frame: StackFrame, text: str) -> Shown:
+    """The value of an expression in a frame. NotNow: it has none, or would call something."""
+    watched = compiled(program, frame, text)
+    return shown(text, watched.type, watched.dims, read(watched, frame))
+
+
+def compiled(program: Program, frame: StackFrame, text: str) -> WatchedExpression:
+    """An expression, ready to be read in any frame of the routine. NotNow."""
+    try:
+        return watch(*_where(program, frame), parse_expression(text))
+    except (CannotCompile, SyntaxError, FatalError) as error:
+        raise NotNow(str(error)) from error
+
+
+def read(watched: WatchedExpression, frame: StackFrame) -> Value:
+    """The present value. NotNow: an error of execution."""
+    try:
+        return watched.read(frame.values)
+    except RECOVERABLE as error:
+        known = as_rapid_error(error)
+        raise NotNow(f"{known.name}{f': {known.text}' if known.text else ''}") from error
+    except FatalError as error:
+        raise NotNow(f"{error.event} {error.title}") from error
+
+
+def assign(program: Program, frame: StackFrame, target: str, value: str) -> Shown:
+    """Set a datum, an element or a component, as an assignment there would. NotNow."""
+    try:
+        node = parse_assignment(f"{target}:={value}")
+        name, change = store(*_where(program, frame), node)
+    except (CannotCompile, SyntaxError, FatalError) as error:
+        raise NotNow(str(error)) from error
+    try:
+        changed = change(frame.values)
+    except RECOVERABLE as error:
+        raise NotNow(as_rapid_error(error).name) from error
+    if name:
+        _set_local(program, frame, name, changed)
+    return evaluate(program, frame, target)
+
+
+def _set_local(program: Program, frame: StackFrame, name: str, value: Value) -> None:
+    code = program.codes[frame.python.f_code.co_filename] if frame.python is not None else None
+    whole = type(frame.values[name]) is int and type(value) is not int
+    if whole and code is not None and not code.traced:
+        raise NotNow("the code that is being executed counts on a whole number there")
+    frame.values[name] = value
+    if frame.python is not None:
+        _write_local(frame.python, name, value)
+
+
+def _write_local(frame: FrameType, name: str, value: Value) -> None:
+    frame.f_locals[name] = value
+    if sys.version_info < (3, 13):  # since then the line above writes through [PEP 667]
+        ctypes.pythonapi.PyFrame_LocalsToFast(ctypes.py_object(frame), ctypes.c_int(0))
+
+
+def _where(
+    program: Program, frame: StackFrame
+) -> tuple[Linker, Routine, tuple[n.For, ...], Options, tuple[str, ...]]:
+    return program.linker, frame.routine, frame.loops, program.options, tuple(frame.values)
+
+
+def variables(program: Program, frame: StackFrame) -> tuple[Shown, ...]:
+    """Parameters, data and loop variables of a frame, in the order of their declarations."""
+    node = frame.routine.node
+    assert node is not None
+    loops = [loop.variable for loop in frame.loops if loop_variable(loop) in frame.values]
+    names = [p.name for p in node.parameters] + [d.name for d in node.data]
+    return tuple(_each(program, frame, [*dict.fromkeys([*loops, *names])]))
+
+
+def module_data(program: Program, frame: StackFrame) -> tuple[Shown, ...]:
+    """Data of the frame's module, as the frame sees them."""
+    return tuple(_each(program, frame, [d.name for d in _declared(frame.module)]))
+
+
+def _declared(module: LoadedModule) -> Iterator[n.DataDeclaration]:
+    yield from module.declarations.values()
+
+
+def _each(program: Program, frame: StackFrame, names: list[str]) -> Iterator[Shown]:
+    for name in names:
+        try:
+            yield evaluate(program, frame, name)
+        except NotNow as reason:
+            yield Shown(name, "", f"({reason})", settable=False)
+
+
+def shown(name: str, kind: Type, dims: tuple[int, ...], value: Value) -> Shown:
+    """A value as people read it."""
+    typed = kind.name + ("{" + ",".join(map(str, dims)) + "}" if any(dims) else "")
+    if kind.kind == "semivalue":
+        return Shown(name, kind.name, value_text(value.value), settable=False)
+    if value is None:
+        return Shown(name, typed, "(not present)", settable=False)
+    parts = len(value) if isinstance(value, dict) else 0
+    if isinstance(value, Record):
+        parts = len(kind.components)
+    elif kind.kind not in ATOMIC and not parts:
+        return Shown(name, typed, f"({kind.name})", settable=False)
+    text = value_text(value, kind)
+    return Shown(name, typed, text if len(text) <= LONGEST else text[:LONGEST] + "…", parts)

@@ -1,0 +1,97 @@
+"""Data of the customer's program that clients may read and write: DATA on the control port."""
+
+import math
+from dataclasses import replace
+
+from rapidgen.config.model import OwnDatum
+from rapidgen.proving import messages
+from rapidgen.proving.behaviour import Theme
+from rapidgen.proving.bench import Bench
+from rapidgen.proving.link import RawLink
+from rapidgen.proving.messages import RawComm, RawContent, RawReason
+from rapidgen.proving.model import Broken
+from rapidgen.proving.suite.control import not_done
+from rapidgen.system.model import ModuleFile, System
+
+case = Theme("own data", needs="control")
+
+_BEGIN = {"num": "3", "bool": "FALSE", "string": '"begin"'}
+_FIRST = {"num": (3.0, ""), "bool": (0.0, ""), "string": (0.0, "begin")}
+_SOME = {
+    "num": ((-2.5, ""), (2.0**101, "")),
+    "bool": ((1.0, ""), (0.0, "")),
+    "string": ((0.0, "x" * 80), (0.0, ""), (0.0, "caf\xe9")),
+}
+_NEVER = {
+    "num": ((math.nan, RawReason.NOT_FINITE), (math.inf, RawReason.NOT_FINITE)),
+    "bool": ((2.0, RawReason.BAD_VALUE), (math.nan, RawReason.BAD_VALUE)),
+    "string": (),
+}
+
+
+@case("own-data", "data of the robot's program that the configuration lists")
+def _data(bench: Bench) -> None:
+    """Read, written, refused; where the program lacks them, refused, and nothing else happens."""
+    listed = bench.group.data
+    control = bench.control()
+    for index in (-1, len(listed), 99, 2**31 - 1, -(2**31)):
+        told = _asks(control, index)
+        if listed:
+            not_done(told, RawReason.NO_DATUM, f"datum {index} of {len(listed)}")
+        elif not isinstance(told, messages.RawFailure):
+            raise Broken("a driver without data answers DATA")
+    for index in range(len(listed)):
+        told = _asks(control, index)
+        not_done(told, RawReason.NO_DATUM, f"datum {index} is not in the robot's program")
+    if not listed:
+        return
+    with bench.beside(_with(bench, listed)) as other:
+        control = other.control()
+        for index, datum in enumerate(listed):
+            _one(control, index, datum)
+        other.stays(0.5, "data were read and written")
+
+
+def _one(control: RawLink, index: int, datum: OwnDatum) -> None:
+    kind, reply = datum.type, messages.RawDatumReply
+    _says(_asks(control, index), reply(index, *_FIRST[kind]))
+    if datum.access == "read":
+        told = _asks(control, index, 1, 1.0, "other")
+        not_done(told, RawReason.READ_ONLY, f"datum {index} may not be written")
+        _says(_asks(control, index), reply(index, *_FIRST[kind]))
+        return
+    for number, text in _SOME[kind]:
+        _says(_asks(control, index, 1, number, text), reply(index, number, text))
+        _says(_asks(control, index), reply(index, number, text))
+    for number, reason in _NEVER[kind]:
+        not_done(_asks(control, index, 1, number), reason, f"{number} to a {kind}")
+    for write in (2, -1):
+        told = _asks(control, index, write)
+        not_done(told, RawReason.BAD_VALUE, "neither read nor write")
+    _says(_asks(control, index), reply(index, *_SOME[kind][-1]))
+
+
+def _asks(
+    control: RawLink, index: int, write: int = 0, value: float = 7.0, text: str = "7"
+) -> RawContent:
+    """The reply; a refusal whole is one, too."""
+    asked = messages.RawDatum(index, write, value, text)
+    control.send(messages.encode(asked, RawComm.REQUEST))
+    return control.reply(messages.DATA)
+
+
+def _says(told: RawContent, wanted: messages.RawDatumReply) -> None:
+    if told != wanted:
+        raise Broken(f"DATA is answered by {told}, not {wanted}")
+
+
+def _with(bench: Bench, listed: tuple[OwnDatum, ...]) -> System:
+    """The system with a module that has these data in the motion task."""
+    lines = [f"PERS {d.type} {d.name.partition(':')[2]} := {_BEGIN[d.type]};" for d in listed]
+    text = "\n".join(("MODULE own", *lines, "ENDMODULE", ""))
+    module = ModuleFile("own", "own.mod", text.encode())
+    tasks = tuple(
+        replace(task, modules=(*task.modules, module)) if task.name == bench.group.task else task
+        for task in bench.system.tasks
+    )
+    return replace(bench.system, tasks=tasks)

@@ -1,0 +1,189 @@
+"""Routines of the customer's own that a program calls: arguments, results, errors, how they end."""
+
+import struct
+from collections.abc import Sequence
+from dataclasses import replace
+
+from rapidgen.proving import messages
+from rapidgen.proving.batches import millionths
+from rapidgen.proving.behaviour import Theme
+from rapidgen.proving.bench import Bench
+from rapidgen.proving.link import RawLink
+from rapidgen.proving.messages import RawInstruction, RawReason, RawTrajectoryState
+from rapidgen.proving.model import Broken
+from rapidgen.proving.programs import ALL, Programmer
+from rapidgen.proving.suite.control import stop
+from rapidgen.system.model import ModuleFile, System
+
+case = Theme("own routines", needs="stream")
+
+_CALL = RawInstruction.CALL
+_MODULE = b"""MODULE cell
+    PERS num calls := 0;
+    PERS bool undone := FALSE;
+    VAR errnum weld_failed := -1;
+
+    PROC weld(INOUT num seam, bool dry, INOUT bool good, INOUT string note)
+        calls := calls + 1;
+        IF weld_failed = -1 BookErrNo weld_failed;
+        IF seam < 0 RAISE weld_failed;
+        seam := 2 * seam;
+        good := NOT dry;
+        note := note + note;
+    ERROR
+        RAISE;
+    ENDPROC
+
+    PROC wait_long()
+        undone := FALSE;
+        WaitTime 8;
+        calls := calls + 1;
+    UNDO
+        undone := TRUE;
+    ENDPROC
+ENDMODULE
+"""
+WELD, LONG, ABSENT = 0, 1, 2
+"""Numbers of the routines that a configuration for these cases has (tests/proving)."""
+
+
+@case("routine-absent", "a routine of a module that is not there refuses its program")
+def _absent(bench: Bench) -> None:
+    """At once and whole, with its index; a driver without routines has no CALL."""
+    client = Programmer(bench)
+    if not bench.group.routines:
+        told = _calls(client, LONG)
+        client.refused(told, RawReason.NO_INSTRUCTION, 0, "a driver without routines")
+        return
+    for number in range(3):
+        arguments = _weld(1.0) if number == WELD else ()
+        told = _calls(client, number, arguments)
+        client.refused(told, RawReason.NO_ROUTINE, 0, f"routine {number} is not there")
+    with bench.beside(_with_module(bench)) as other:
+        client = Programmer(other)
+        for number in (ABSENT, 3, -1):
+            client.refused(_calls(client, number), RawReason.NO_ROUTINE, 0, f"routine {number}")
+        for seconds in (-1.0, 2001.0):
+            told = _calls(client, LONG, seconds=seconds)
+            client.refused(told, RawReason.BAD_VALUE, 0, f"a routine that may take {seconds} s")
+        told = _calls(client, WELD, _weld(1.0, dry=2))
+        client.refused(told, RawReason.BAD_VALUE, 0, "a bool that is 2")
+        told = _calls(client, WELD, [2143289344, *_weld(1.0)[1:]])
+        client.refused(told, RawReason.NOT_FINITE, 0, "a num that is none")
+        other.stays(0.5, "no routine was called")
+
+
+@case("routine-results", "a routine's parameters and its error come back")
+def _results(bench: Bench) -> None:
+    """Numbers, texts, number and name of an error; the program behind it goes on, or ends."""
+    if not bench.group.routines:
+        return
+    with bench.beside(_with_module(bench)) as other:
+        client, watcher = Programmer(other), other.watcher()
+        for seam, dry in ((1.5, 0), (2.0**100, 1)):
+            _taken(_calls(client, WELD, _weld(seam, dry=dry)))
+            told = _ended(other, client, 4)
+            if (told.error, told.values[:3], told.text) != (0, (2 * seam, dry, 1 - dry), "abab"):
+                raise Broken(f"weld({seam}, {dry}) is told as {told}")
+            if _asks(client, 1).text or _asks(client, 9).text or _asks(client, -1).text:
+                raise Broken("a parameter that is no string has a text")
+        _taken(_calls(client, WELD, _weld(-1.0)))
+        told = _ended(other, client, 0)
+        if told.error == 0 or told.text != "weld_failed":
+            raise Broken(f"weld has raised weld_failed, RESULT says {told}")
+        other.run(0.5)
+        seen = other.progress(watcher)
+        if (seen.state, seen.reason) != (RawTrajectoryState.FAILED, RawReason.ROUTINE):
+            raise Broken(f"a routine has raised an error, PROGRESS says {seen}")
+        if other.controller.task(other.group.task)["cell:calls"] != 3:
+            raise Broken("weld was not called three times")
+
+
+@case("routine-alone", "nothing else begins while a routine runs", needs="control")
+def _alone(bench: Bench) -> None:
+    """Not by its own client, nor by another one; STOP and the time-out end it, UNDO runs."""
+    if not bench.group.routines:
+        return
+    with bench.beside(_with_module(bench)) as other:
+        client, watcher = Programmer(other), other.watcher()
+        own = other.controller.task(other.group.task)
+        trajectory = _taken(_calls(client, LONG))
+        other.run(0.5)
+        told = _calls(client, LONG)
+        client.refused(told, RawReason.MOVING, -1, "a program into a routine")
+        points = other.wave(4)
+        client.link.send(other.download(points))
+        newer = RawLink(other, other.group.ports.motion)
+        newer.send(other.download(points))
+        newer.wait_until_lost(3, "a newer client's motion into a routine")
+        seen = other.progress(watcher)
+        if (seen.trajectory, seen.state) != (trajectory, RawTrajectoryState.MOVING):
+            raise Broken(f"a routine runs, PROGRESS says {seen}")
+        other.until(lambda: own["cell:calls"] == 1, 10, "the routine comes to its end")
+        other.run(0.5)
+        if own["cell:undone"] or other.progress(watcher).state != RawTrajectoryState.DONE:
+            raise Broken("the routine did not end by itself")
+        other.stays(1, "a trajectory was turned away")
+        for reason, seconds in ((RawReason.OVERTIME, 1.0), (RawReason.STOPPED, 0.0)):
+            _taken(_calls(client, LONG, seconds=seconds))
+            other.run(2)
+            if reason is RawReason.STOPPED:
+                stop(other.control())
+            other.run(1)
+            seen = other.progress(watcher)
+            if (seen.reason, own["cell:undone"], own["cell:calls"]) != (reason, True, 1):
+                raise Broken(f"{reason.name} of a routine: PROGRESS says {seen}")
+        other.moves_through(client.link, points)
+
+
+def _weld(seam: float, *, dry: int = 0, text: str = "ab") -> list[int]:
+    """Words of weld's arguments: a num as float32, two bools, a text."""
+    number = struct.unpack("<i", struct.pack("<f", seam))[0]
+    letters = text.encode().ljust(4, b"\0")
+    return [
+        number,
+        *millionths([float(dry), 0.0, float(len(text))]),
+        int.from_bytes(letters, "little"),
+    ]
+
+
+def _calls(
+    client: Programmer, number: int, arguments: Sequence[int] = (), *, seconds: float = 0.0
+) -> messages.RawContent:
+    """A program of one call; its reply."""
+    client.number += 1
+    words = [*millionths(client.bench.position), int(_CALL), *millionths([number, seconds])]
+    return client.say([*words, *arguments], 1, ALL)
+
+
+def _taken(told: messages.RawContent) -> int:
+    if not isinstance(told, messages.RawPointsAccepted):
+        raise Broken(f"a call is right, the reply is {told}")
+    return told.trajectory
+
+
+def _asks(client: Programmer, parameter: int) -> messages.RawResultReply:
+    told = client.link.ask(messages.RawResult(parameter))
+    if not isinstance(told, messages.RawResultReply):
+        raise Broken(f"RESULT is answered by {told}")
+    return told
+
+
+def _ended(bench: Bench, client: Programmer, parameter: int) -> messages.RawResultReply:
+    """What RESULT says when the newest call has ended."""
+    newest = bench.progress(bench.watcher()).trajectory
+    for _ in range(100):
+        told = _asks(client, parameter)
+        if told.trajectory == newest:
+            return told
+        bench.run(0.02)
+    raise Broken("RESULT does not tell the newest call")
+
+
+def _with_module(bench: Bench) -> System:
+    module = ModuleFile("cell", "cell.mod", _MODULE)
+    tasks = tuple(
+        replace(task, modules=(*task.modules, module)) if task.name == bench.group.task else task
+        for task in bench.system.tasks
+    )
+    return replace(bench.system, tasks=tasks)

@@ -1,0 +1,153 @@
+"""What is in a recording: its channels and their messages, JSON with a schema each.
+
+Times are the controller's, ns from its start. Angles are rad, lengths m, quaternions q1..q4. What
+changes is written when it does; every second a `Snapshot` has all of it once more, so that
+any moment is a snapshot and what followed. `/joints` has a sample every 4 ms in which something
+has moved; in between a robot stands.
+"""
+
+from collections.abc import Mapping
+from typing import Final, Literal
+
+from pydantic import BaseModel, ConfigDict
+
+PROFILE: Final = "rapidgen"
+FORMAT: Final = "1"
+METADATA: Final = "rapidgen"
+"""Name of the metadata: format, title, version."""
+ROBOTS: Final = "robots.json"
+"""Attachment: the configured groups."""
+OVERVIEW: Final = "overview.json"
+"""Attachment at the end: positions of each robot once a second, `[[time s, [..], [..]], ..]`."""
+SOURCES: Final = "source/"
+"""Attachments TASK/MODULE: what tasks have loaded, from their time on."""
+JOINTS_PERIOD_NS: Final = 4_000_000
+SNAPSHOT_EVERY_NS: Final = 1_000_000_000
+
+
+class Recorded(BaseModel):
+    """Anything in a message."""
+
+    model_config = ConfigDict(frozen=True)
+
+
+class Joints(Recorded):
+    """Controller axes of a robot, in wire order."""
+
+    commanded: tuple[float, ...]
+    actual: tuple[float, ...]
+
+
+class RecordedFrame(Recorded):
+    """A frame: position m, orientation q1..q4."""
+
+    position: tuple[float, float, float]
+    orientation: tuple[float, float, float, float]
+
+
+class Carried(Recorded):
+    """Tool (in the flange, or in the world where it is stationary) and work object."""
+
+    tool: RecordedFrame
+    held: bool
+    work_object: RecordedFrame
+    standing: bool
+
+
+class ProgramPlace(Recorded):
+    """Where in a program."""
+
+    module: str
+    routine: str
+    line: int
+
+
+class StackEntry(ProgramPlace):
+    """A routine of a call stack, and what it runs for."""
+
+    level: Literal["program", "trap", "event"]
+
+
+class TaskPointers(Recorded):
+    """A task: its state, its stack (outermost first), and the move that its robot executes."""
+
+    state: str
+    stack: tuple[StackEntry, ...]
+    motion: ProgramPlace | None
+    fault: str = ""
+
+
+class PanelState(Recorded):
+    """The controller as a whole."""
+
+    mode: str
+    motors_on: bool
+    e_stop: bool
+    execution_error: bool
+    failed: bool
+    override: float
+
+
+class SignalValues(Recorded):
+    """Signals that have changed."""
+
+    values: dict[str, float]
+
+
+class LogLine(Recorded):
+    """An event of the controller's log."""
+
+    sequence: int
+    time: float
+    code: int
+    kind: Literal["info", "warning", "error"]
+    title: str
+    texts: tuple[str, ...]
+    task: str
+
+
+class SocketFrame(Recorded):
+    """What a socket of the program did; `data` in base64."""
+
+    change: Literal["open", "in", "out", "close"]
+    task: str
+    local: str
+    peer: str
+    data: str = ""
+
+
+class WatchedValue(Recorded):
+    """An expression of the watch list."""
+
+    task: str
+    expression: str
+    type: str
+    text: str
+
+
+class Snapshot(Recorded):
+    """All of it at once."""
+
+    joints: dict[str, Joints]
+    carried: dict[str, Carried]
+    tasks: dict[str, TaskPointers]
+    panel: PanelState
+    signals: dict[str, float]
+    watch: tuple[WatchedValue, ...]
+    connections: tuple[SocketFrame, ...]
+    log: tuple[LogLine, ...]
+    """The latest events."""
+
+
+CHANNELS: Final[Mapping[str, type[Recorded]]] = {
+    "joints": Joints,
+    "carried": Carried,
+    "task": TaskPointers,
+    "panel": PanelState,
+    "signals": SignalValues,
+    "log": LogLine,
+    "sockets": SocketFrame,
+    "watch": WatchedValue,
+    "snapshot": Snapshot,
+}
+"""First part of each topic; `joints`, `carried` and `task` are followed by a name."""

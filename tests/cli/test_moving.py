@@ -1,0 +1,181 @@
+"""move to a goal, jog, pose and io against a simulator: typed in deg and mm, right and wrong."""
+
+import json
+import math
+import signal
+import subprocess
+import sys
+
+import pytest
+
+from rapidgen.cli.app import main
+from rapidgen.client import Trajectory
+
+CELL = "model: irb120\nsignals:\n  gripper: {kind: DO, access: write}\n  part: {kind: DI}\n"
+HOME = "0,0,0,0,30,0"
+
+
+@pytest.fixture(scope="module")
+def cell(tmp_path_factory):
+    """A simulator in a runtime folder of its own; (configuration, simulator)."""
+    from tests.cli.conftest import Running
+
+    folder = tmp_path_factory.mktemp("cell")
+    path = folder / "cell.yaml"
+    path.write_text(CELL)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("XDG_RUNTIME_DIR", str(folder))
+        sim = Running(str(path), "--ports", "auto")
+        yield str(path), sim
+        sim.close()
+
+
+def told(capsys, *words, code=0):
+    assert main(list(words)) == code
+    return capsys.readouterr()
+
+
+def positions(sim):
+    return sim.control(do="status")["result"]["groups"]["rob1"]["positions"]
+
+
+def at_home(cell, capsys):
+    told(capsys, "move", cell[0], "--joints", HOME, "--to", "sim")
+
+
+def test_joints_are_typed_in_degrees(cell, capsys):
+    path, sim = cell
+    shown = told(capsys, "move", path, "--joints", "-10,5,0,0,30,0", "--to", "sim")
+    assert "at joint_1 -10.00 deg, joint_2 5.00 deg" in shown.out
+    wanted = [math.radians(angle) for angle in (-10, 5, 0, 0, 30, 0)]
+    assert positions(sim) == pytest.approx(wanted, abs=1e-5)
+    columns = next(line for line in shown.err.splitlines() if "joint " in line).split()
+    assert columns == ["joint", "now", "least", "most", "end", "lower", "upper"]
+    assert max(map(len, shown.err.splitlines())) < 100
+
+
+def test_some_by_name_and_in_radians(cell, capsys):
+    path, sim = cell
+    at_home(cell, capsys)
+    told(capsys, "move", path, "--joints", "joint_6=0.2,joint_2=-0.1", "--rad", "--to", "sim")
+    wanted = [0, -0.1, 0, 0, math.radians(30), 0.2]
+    assert positions(sim) == pytest.approx(wanted, abs=1e-5)
+
+
+def test_a_pose_as_it_was_told_is_where_the_robot_goes(cell, capsys):
+    path, sim = cell
+    told(capsys, "move", path, "--joints", "10,10,0,0,30,5", "--to", "sim")
+    before = positions(sim)
+    line = told(capsys, "pose", path, "--to", "sim").out.splitlines()[0]
+    at_home(cell, capsys)
+    told(capsys, "move", path, "--pose", line.split()[1], "--to", "sim")
+    assert positions(sim) == pytest.approx(before, abs=1e-4)
+    x, y, z = (float(value) for value in line.split()[1].split(",")[:3])
+    told(capsys, "move", path, "--pose", f"{x},{y},{z - 50}", "--to", "sim")
+    found = json.loads(told(capsys, "pose", path, "--to", "sim", "--json").out)
+    assert found["position"] == pytest.approx([x / 1000, y / 1000, (z - 50) / 1000], abs=1e-4)
+
+
+def test_a_pose_of_joints_asks_no_robot(capsys):
+    shown = told(capsys, "pose", "irb120", "--joints", HOME)
+    assert shown.out.splitlines() == [
+        "pose    364.35,0.00,594.00,0.50000,0.00000,0.86603,0.00000  (mm, quaternion)",
+        "joints  0.00,0.00,0.00,0.00,30.00,0.00  (deg, mm)",
+    ]
+
+
+def test_a_dry_run_draws_and_sends_nothing(cell, capsys, tmp_path):
+    path, sim = cell
+    before = positions(sim)
+    words = ["move", path, "--joints", "20,20,20,20,20,20", "--to", "sim", "--dry-run"]
+    shown = told(capsys, *words, "--plot", str(tmp_path / "p.png"))
+    assert shown.out == "dry run: 2 points would be executed; nothing was sent\n"
+    assert sorted(found.name for found in tmp_path.iterdir()) == ["p.html", "p.png"]
+    assert json.loads(told(capsys, *words, "--json").out)["dry_run"] is True
+    assert positions(sim) == before
+
+
+def test_what_was_executed_is_drawn_and_recorded_in_radians(cell, capsys, tmp_path):
+    path, _ = cell
+    at_home(cell, capsys)
+    files = ["--plot", str(tmp_path / "p"), "--record", str(tmp_path / "r.csv")]
+    told(capsys, "move", path, "--joints", "joint_1=10", "--to", "sim", *files)
+    recorded = Trajectory.from_csv(tmp_path / "r.csv")
+    assert recorded.positions[-1][0] == pytest.approx(math.radians(10), abs=1e-5)
+    assert (tmp_path / "p.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_jog(cell, capsys):
+    path, sim = cell
+    at_home(cell, capsys)
+    told(capsys, "jog", path, "joint_1=5", "joint_3=-2", "--speed", "200", "--to", "sim")
+    wanted = [math.radians(angle) for angle in (5, 0, -2, 0, 30, 0)]
+    assert positions(sim) == pytest.approx(wanted, abs=1e-5)
+
+
+def test_signals_of_a_driver_are_read_and_set(cell, capsys):
+    path, _ = cell
+    assert told(capsys, "io", path, "gripper", "1", "--to", "sim").out == "gripper  DO  1\n"
+    found = json.loads(told(capsys, "io", path, "--to", "sim", "--json").out)
+    assert [(s["name"], s["value"]) for s in found] == [("gripper", 1.0), ("part", 0.0)]
+    shown = told(capsys, "io", "irb120", "--to", "127.0.0.1:1,1,1")
+    assert shown.out == ""
+    assert "irb120 has no signals" in shown.err
+
+
+@pytest.mark.parametrize(
+    ("words", "code", "said"),
+    [
+        (["move"], 2, "where to?"),
+        (["move", "--joints", HOME, "--pose", "1,2,3"], 2, "--joints and --pose were given"),
+        (["move", "p.csv", "--joints", HOME], 2, "a file and --joints were given"),
+        (["move", "--joints", "1,2,3"], 2, "3 values for 6 joints"),
+        (["move", "--joints", "1,2,3,4,5,six"], 2, "'six' is no number"),
+        (["move", "--joints", "1,2,3,4,5,nan"], 2, "'nan' is no number"),
+        (["move", "--joints", "joint_7=1"], 2, "there is no joint 'joint_7': did you mean"),
+        (["move", "--joints", "joint_1=1,joint_1=2"], 2, "'joint_1' is there twice"),
+        (["move", "--joints", "joint_1=166"], 1, "rax_1 goes from -165.00 to 165.00 deg"),
+        (["move", "--pose", "1,2"], 2, "2 values: X,Y,Z,Q1,Q2,Q3,Q4"),
+        (["move", "--pose", "300,0,500,1,1,0,0"], 2, "no unit quaternion: its length is 1.414"),
+        (["move", "--pose", "3000,0,500"], 1, "no posture within the limits reaches the pose"),
+        (["move", "--joints", HOME, "--approach", "3"], 2, "--joints begins where the robot is"),
+        (["move", "--joints", HOME, "--speed", "0"], 2, "must be above 0"),
+        (["move", "--joints", HOME, "--record", "/nowhere/r.csv"], 2, "cannot write /nowhere"),
+        (["jog", "joint_1"], 2, "write JOINT=STEP"),
+        (["jog", "joint_1=20"], 2, "at most 11.46 deg at a time"),
+        (["jog", "joint_9=1"], 2, "there is no joint 'joint_9'"),
+        (["jog", "joint_1=1", "--speed", "-1"], 2, "must be above 0"),
+        (["io", "gripper", "on"], 2, "'on' is no value of a signal"),
+        (["io", "gipper"], 1, "did you mean 'gripper'?"),
+        (["io", "part", "1"], 1, "exposed for reading only"),
+        (["pose", "--joints", "1"], 2, "1 values for 6 joints"),
+    ],
+)
+def test_typed_wrong(cell, capsys, words, code, said):
+    path, sim = cell
+    before = positions(sim)
+    verb, *rest = words
+    shown = told(capsys, verb, path, *rest, "--to", "sim", code=code)
+    assert said in " ".join(shown.err.split())
+    assert "Traceback" not in shown.err
+    assert positions(sim) == before
+
+
+def test_ctrl_c_stops_the_robot_and_tells_where_it_stands(cell, capsys):
+    path, sim = cell
+    at_home(cell, capsys)
+    words = ["move", path, "--joints", "joint_1=90", "--speed", "0.02", "--to", "sim"]
+    process = subprocess.Popen(
+        [sys.executable, "-m", "rapidgen.cli", *words],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    while positions(sim)[0] < 0.01:
+        assert process.poll() is None, process.communicate()
+    process.send_signal(signal.SIGINT)
+    _, shown = process.communicate(timeout=60)
+    assert process.returncode == 130
+    degrees = math.degrees(positions(sim)[0])
+    assert f"Ctrl-C: the robot stands at joint_1 {degrees:.2f} deg" in shown
+    assert degrees < 90

@@ -1,0 +1,130 @@
+"""`rapidgen stop` before anything heavy is imported: what it sends, and where."""
+
+import socket
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from rapidgen._data import data_folder
+from rapidgen.cli.quick_stop import STOP, addresses, motion_ports
+from rapidgen.client.core.robot import STOP_FRAME
+from rapidgen.config import load_config, shipped_names
+
+ROBOTS = data_folder("robots")
+EXAMPLES = sorted(Path(ROBOTS, "examples").glob("*.yaml"))
+
+
+def test_it_is_the_codecs_stop():
+    assert STOP == STOP_FRAME
+
+
+@pytest.mark.parametrize(
+    "target", [*shipped_names(), *map(str, EXAMPLES)], ids=lambda t: t.rpartition("/")[2]
+)
+def test_ports_are_those_of_the_configuration(target):
+    path = target if "/" in target else f"{ROBOTS}/{target}.yaml"
+    whole = {group.name: group.ports.motion for group in load_config(target).groups}
+    assert motion_ports(path) == whole
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "model: irb120\nports: {motion: 12000, state: 12002}\n",
+        "model: irb120 # mine\nports:\n  state: 12002\n  motion: 12000  # free\nname: cell\n",
+        "model: irb14000\ngroups:\n  rob_r:\n    ports: {motion: 12000}\n",
+        "groups:\n  a:\n    model: irb120\n  b:\n    model: irb1200\n    ports: {motion: 12000}\n",
+        "model: irb120\ndescription: |\n  ports: {motion: 1}\n  more, and more\n",
+        "model: irb120\ntool: {name: t,\n  load: {mass: 1, centre: [0,\n  0, 1]}}\n",
+    ],
+)
+def test_files_of_a_users_own(tmp_path, text):
+    path = tmp_path / "cell.yaml"
+    path.write_text(text)
+    whole = {group.name: group.ports.motion for group in load_config(path).groups}
+    assert motion_ports(str(path)) == whole
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "{model: irb120, ports: {motion: 12000}}\n",
+        "model: irb120\nports: &own {motion: 12000}\n",
+        "model: irb120\nports: {motion: 12000,\n  state: 12002}\n",
+        'model: irb120\n"ports": {motion: 12000}\n',
+        "model: irb120\nports: {motion: 12000}\nports: {motion: 13000}\n",
+        "model: irb120\ngroups: {rob1: {ports: {motion: 12000}}}\n",
+        "model: irb14000\nports: {motion: 12000}\n",
+        "model: irb14000\ngroups:\n  rob_r: *other\n",
+        "model: irb120\nports: {motion: 0x2EE0}\n",
+    ],
+)
+def test_what_takes_a_closer_look_is_left_to_the_whole_way(tmp_path, text):
+    path = tmp_path / "cell.yaml"
+    path.write_text(text)
+    assert motion_ports(str(path)) == {}
+    assert addresses([str(path)]) == []
+
+
+@pytest.mark.parametrize(
+    ("words", "places"),
+    [
+        (["10.0.0.1"], [("10.0.0.1", 11000)]),
+        (["robot.lab:12000,12002,12001"], [("robot.lab", 12000)]),
+        (["[::1]:12000"], [("::1", 12000)]),
+        (["irb120"], [("127.0.0.1", 11000)]),
+        (["irb120", "--to", "10.0.0.1"], [("10.0.0.1", 11000)]),
+        (["--to=10.0.0.1:12000,12002", "irb120", "--json"], [("10.0.0.1", 12000)]),
+        (["irb14000", "--to", "10.0.0.1"], [("10.0.0.1", 11000), ("10.0.0.1", 11010)]),
+        (["irb14000", "--group", "rob_r"], [("127.0.0.1", 11010)]),
+        (["irb14000", "--group", "rob_x"], []),
+        (["--help"], []),
+        (["irb120", "--help"], []),
+        (["irb120", "irb1200"], []),
+        (["irb120", "--grup", "rob1"], []),
+        (["irb120x", "--to", "10.0.0.1"], []),
+        (["nowhere.yaml"], []),
+        (["10.0.0.1:70000"], []),
+        (["a b"], []),
+        ([], []),
+    ],
+)
+def test_where_it_goes(words, places):
+    assert addresses(words) == places
+
+
+def test_the_first_bytes_of_the_command_are_stop():
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        server.settimeout(60)
+        process = subprocess.Popen(
+            [sys.executable, "-m", "rapidgen.cli", "stop", f"127.0.0.1:{server.getsockname()[1]}"],
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+        )
+        try:
+            link, _ = server.accept()
+            with link:
+                link.settimeout(60)
+                assert link.makefile("rb").read(len(STOP)) == STOP
+        finally:
+            process.kill()
+            process.wait()
+
+
+def test_nothing_heavy_is_imported_before_it():
+    script = (
+        "import sys\n"
+        "from rapidgen.cli import entry, quick_stop\n"
+        "assert quick_stop.addresses(['irb14000']) == "
+        "[('127.0.0.1', 11000), ('127.0.0.1', 11010)]\n"
+        "own = {n for n in sys.modules if n.startswith('rapidgen')}\n"
+        "heavy = {'typer', 'numpy', 'ruamel', 'asyncio', 'threading', 'json', 'dataclasses'}\n"
+        "print(sorted(own), sorted(heavy & set(sys.modules)))"
+    )
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
+    assert done.stdout == (
+        "['rapidgen', 'rapidgen._data', 'rapidgen.cli', 'rapidgen.cli.entry',"
+        " 'rapidgen.cli.quick_stop'] []\n"
+    ), done.stderr

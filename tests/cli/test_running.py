@@ -1,0 +1,111 @@
+"""`sim` as an address: simulators are found while they run, and only then."""
+
+import os
+import signal
+import subprocess
+import sys
+from contextlib import ExitStack
+
+import pytest
+
+from rapidgen._running import Simulator, folder, published, running
+from rapidgen.cli import quick_stop
+from rapidgen.cli.app import main
+from rapidgen.client.simulated import find_simulator
+from tests.refusal import refusal
+
+ARM = Simulator("irb120", 7, {"rob1": "127.0.0.1:11000,11002,11001"})
+YUMI = Simulator("irb14000", 8, {"rob_l": "127.0.0.1:1,3,2", "rob_r": "127.0.0.1:11,13,12"})
+
+
+@pytest.fixture(autouse=True)
+def own(tmp_path, monkeypatch):
+    monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
+    return tmp_path / "rapidgen"
+
+
+def test_a_simulator_is_found_while_it_runs():
+    with published(ARM) as told:
+        assert told
+        assert running() == ([ARM], [])
+        assert str(find_simulator("irb120")) == "127.0.0.1:11000,11002"
+        assert str(find_simulator()) == "127.0.0.1:11000,11002"
+    assert running() == ([], [])
+    assert os.listdir(folder()) == []
+
+
+def test_groups_are_told_apart():
+    with published(YUMI):
+        assert find_simulator("irb14000", "rob_r").motion == 11
+        assert "--group rob_l or rob_r" in refusal(find_simulator, "irb14000").diagnostics[0].help
+        assert quick_stop.addresses(["irb14000", "--to", "sim"]) == [
+            ("127.0.0.1", 1),
+            ("127.0.0.1", 11),
+        ]
+        assert quick_stop.addresses(["irb14000", "--to", "sim", "--group", "rob_r"]) == [
+            ("127.0.0.1", 11)
+        ]
+        assert len(quick_stop.addresses(["sim"])) == 2
+
+
+@pytest.mark.parametrize(
+    ("there", "name", "message", "note"),
+    [
+        ([], "irb120", "no simulator of yours runs", ""),
+        ([YUMI], "irb120", "no simulator of 'irb120' runs, but others do", "irb14000 (process 8)"),
+        ([ARM, Simulator("irb120", 9, {})], "irb120", "2 simulators run", "(process 9)"),
+    ],
+)
+def test_what_is_not_clear_is_refused(there, name, message, note):
+    with ExitStack() as stack:
+        for one in there:
+            stack.enter_context(published(one))
+        (found,) = refusal(find_simulator, name).diagnostics
+    assert found.code == "RG642"
+    assert message in found.message
+    assert note in " ".join(found.notes)
+
+
+def test_one_that_ended_without_a_word_is_told_of_and_forgotten(caplog):
+    script = (
+        "import os, signal\n"
+        "from rapidgen._running import Simulator, published\n"
+        "with published(Simulator('irb120', os.getpid(), {'rob1': '127.0.0.1:1,3'})):\n"
+        "    os.kill(os.getpid(), signal.SIGKILL)\n"
+    )
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
+    assert done.returncode == -signal.SIGKILL, done.stderr
+    assert refusal(find_simulator, "irb120").diagnostics[0].code == "RG642"
+    assert "ended without a word" in caplog.text
+    assert os.listdir(folder()) == []
+
+
+def test_a_folder_that_others_may_write_is_not_believed(own):
+    own.mkdir()
+    own.chmod(0o777)
+    with published(ARM) as told:
+        assert not told
+        assert running() == ([], [])
+
+
+def test_damaged_files_are_passed_over(own):
+    with published(ARM):
+        (own / "sim-1-x.json").write_text("[]")
+        (own / "notes").write_text("mine")
+        assert running()[0] == [ARM]
+    assert os.listdir(own) == ["notes"]
+
+
+def test_the_verbs_find_it(start, capsys):
+    sim = start("irb120", "--ports", "auto")
+    assert sim.ready["address"]["rob1"] == "127.0.0.1:{motion},{state},{control}".format(
+        **sim.ready["ports"]["rob1"]
+    )
+    assert main(["monitor", "irb120", "--to", "sim", "--plain", "--count", "1"]) == 0
+    assert main(["monitor", "sim", "--plain", "--count", "1"]) == 0
+    capsys.readouterr()
+    assert main(["stop", "sim"]) == 0
+    assert "stopped at joint_1" in capsys.readouterr().out
+    sim.end()
+    assert main(["stop", "irb120", "--to", "sim"]) == 1
+    assert "error[RG642]" in capsys.readouterr().err

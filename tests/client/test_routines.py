@@ -1,0 +1,231 @@
+"""Routines of the cell's own that a program calls, against our own driver, on the virtual clock."""
+
+import numpy as np
+import pytest
+from driven import BENT, complaints, driven, moved, wiggle
+
+from rapidgen.client import (
+    InvalidProgram,
+    MotionFailed,
+    MotionStopped,
+    Program,
+    RoutineFailed,
+    TrajectoryRefused,
+)
+from rapidgen.system.model import ModuleFile
+from rapidgen.wire.simple_message.spec import Reason
+
+ROUTINES = {
+    "routines.weld": {
+        "call": "cell:weld",
+        "parameters": [
+            {"name": "seam", "type": "num", "mode": "inout"},
+            {"name": "dry", "type": "bool"},
+            {"name": "done", "type": "bool", "mode": "inout"},
+            {"name": "note", "type": "string"},
+        ],
+    },
+    "routines.go_home": {"call": "go_home"},
+    "routines.named": {
+        "call": "cell:named",
+        "parameters": [{"name": "text", "type": "string", "mode": "inout"}],
+    },
+    "routines.reach": {
+        "call": "cell:reach",
+        "parameters": [
+            {"name": "there", "type": "robtarget"},
+            {"name": "back", "type": "jointtarget"},
+            {"name": "steps", "type": "num", "mode": "inout"},
+        ],
+    },
+    "routines.absent": {"call": "nocell:weld"},
+    "routines.area": {
+        "call": "cell:area",
+        "parameters": [{"name": "side", "type": "num"}],
+        "returns": "num",
+    },
+    "routines.told": {"call": "told", "returns": "string"},
+    "routines.divides": {"call": "cell:divides"},
+    "routines.nobody": {"call": "cell:nobody"},
+    "routines.other": {"call": "cell:weld"},
+}
+CELL_MODULE = b"""MODULE cell
+    PERS string noted := "";
+    PERS bool undone := FALSE;
+    VAR errnum weld_failed := -1;
+    PROC weld(INOUT num seam, bool dry, INOUT bool done, string note)
+        noted := note;
+        IF seam < 0 RAISE ERR_ARGVALERR;
+        seam := seam * 2;
+        done := NOT dry;
+    ERROR
+        RAISE;
+    ENDPROC
+    PROC named(INOUT string text)
+        IF weld_failed = -1 BookErrNo weld_failed;
+        IF text = "" RAISE weld_failed;
+        text := "<" + text + ">";
+    ERROR
+        RAISE;
+    ENDPROC
+    PROC reach(robtarget there, jointtarget back, INOUT num steps)
+        MoveJ there, v100, fine, tool0;
+        steps := steps + 1;
+        MoveAbsJ back \\NoEOffs, v100, fine, tool0;
+        steps := steps + 1;
+    ENDPROC
+    PROC divides()
+        VAR num none := 0;
+        none := 1 / none;
+    ENDPROC
+    FUNC num area(num side)
+        RETURN side * side;
+    ENDFUNC
+    FUNC string told()
+        RETURN "well";
+    ENDFUNC
+    PROC go_home()
+        VAR jointtarget home;
+        undone := FALSE;
+        home := CJointT();
+        home.robax.rax_1 := home.robax.rax_1 + 20;
+        MoveAbsJ home \\NoEOffs, v10, fine, tool0;
+        home.robax.rax_1 := home.robax.rax_1 - 20;
+        MoveAbsJ home \\NoEOffs, v10, fine, tool0;
+    UNDO
+        undone := TRUE;
+    ENDPROC
+ENDMODULE
+"""
+
+
+def with_routines():
+    return driven(overrides=ROUTINES, modules=[ModuleFile("cell", "cell.mod", CELL_MODULE)])
+
+
+def test_a_routine_is_called_and_tells_its_results():
+    with with_routines() as (robot, controller):
+        assert robot.call("weld", 3.5, False, False, "seam 7, \u00e9") == (7.0, True)
+        assert controller.task("T_ROB1")["cell:noted"] == "seam 7, \u00e9"
+        assert robot.call("weld", -0.0, True, True, "x" * 80) == (0.0, False)
+        program = Program().move_joints(BENT).call("weld", 1e30, True, False, "")
+        program.move_joints([0.0] * 6)
+        assert robot.run(program).result().points == 3
+
+
+def test_what_a_routine_raises_comes_back():
+    with with_routines() as (robot, controller):
+        with pytest.raises(RoutineFailed) as told:
+            robot.call("weld", -1.0, False, False, "")
+        assert (told.value.number > 0, told.value.name) == (True, "ERR_ARGVALERR")
+        with pytest.raises(RoutineFailed, match="weld_failed") as own:
+            robot.call("named", "")
+        assert own.value.name == "weld_failed"
+        program = Program().call("weld", -1.0, False, False, "").move_joints(BENT)
+        with pytest.raises(MotionFailed) as failed:
+            robot.run(program).result()
+        assert (failed.value.reason, failed.value.reached) == (Reason.ROUTINE, 0)
+        for name, *given in (("nobody",), ("other",)):
+            with pytest.raises(MotionFailed) as failed:
+                robot.call(name, *given)
+            assert failed.value.reason is Reason.NO_ROUTINE
+        assert controller.task("T_ROB1").state == "running"
+        assert robot.call("weld", 2.0, False, False, "") == (4.0, True)
+
+
+def test_an_error_that_stops_the_program_is_told_with_its_place():
+    with with_routines() as (robot, controller):
+        with pytest.raises(RoutineFailed, match=r"cell/divides/\d+") as told:
+            robot.call("divides")
+        assert "PP to Main" in told.value.diagnostics[0].help
+        assert (told.value.number, told.value.event.code) == (0, 40199)
+        assert controller.task("T_ROB1").state == "error"
+
+
+def test_texts_and_values_of_functions_come_back():
+    with with_routines() as (robot, controller):
+        for text in ("x" * 78, "caf\u00e9", "7"):
+            assert robot.call("named", text) == (f"<{text}>",)
+        assert robot.call("area", 3.0) == (9.0,)
+        assert robot.call("told") == ("well",)
+        assert not complaints(controller)
+
+
+def test_a_routine_gets_poses_and_joints():
+    with with_routines() as (robot, controller):
+        robot.move_to(BENT, speed=1.0)
+        there = moved(robot.pose, y=0.05)
+        with robot.recording() as recording:
+            assert robot.call("reach", there, [0.0] * 6, 1.0) == (3.0,)
+        ways = [robot.pose_of(joints)[0] for joints in recording.positions]
+        assert min(np.linalg.norm(np.subtract(way, there[0])) for way in ways) < 1e-3
+        assert robot.state.joints == pytest.approx([0.0] * 6, abs=1e-4)
+        far = (9.0, 0.0, 0.0), there[1]
+        for given in ((far, [0.0] * 6), (there, [9.0] * 6), (there, [0.0] * 5), (1.0, [0.0] * 6)):
+            with pytest.raises(InvalidProgram):
+                robot.call("reach", *given, 1.0)
+        assert not complaints(controller)
+
+
+def test_a_routine_of_a_module_that_is_not_there_is_refused_at_once():
+    with with_routines() as (robot, _):
+        program = Program().move_joints(BENT).call("absent")
+        with pytest.raises(TrajectoryRefused) as refused:
+            robot.run(program)
+        assert (refused.value.reason, refused.value.point) == (Reason.NO_ROUTINE, 1)
+        assert robot.state.joints == pytest.approx([0.0] * 6, abs=1e-6)
+
+
+def test_the_controller_leaves_a_routine_that_takes_too_long():
+    with with_routines() as (robot, controller):
+        with pytest.raises(MotionFailed) as failed:
+            robot.call("go_home", timeout=1.0)
+        assert failed.value.reason is Reason.OVERTIME
+        assert controller.task("T_ROB1")["cell:undone"] is True
+        here = robot.state.joints
+        robot.sleep(2)
+        assert robot.state.joints == pytest.approx(here, abs=1e-6)
+        assert robot.call("named", "a") == ("<a>",)
+
+
+def test_nothing_else_begins_while_a_routine_runs():
+    with with_routines() as (robot, _):
+        execution = robot.run(Program().call("go_home").move_joints(BENT))
+        robot.sleep(1)
+        # The client itself sees that something is under way; a driver must not need that.
+        robot._core.motion, motion = None, robot._core.motion
+        for way in ("download", "stream"):
+            with pytest.raises(TrajectoryRefused) as refused:
+                robot.run(Program().move_joints([0.1] * 6), way=way)
+            assert refused.value.reason is Reason.MOVING
+        with pytest.raises(TrajectoryRefused) as refused:
+            robot.execute(wiggle(robot), way="download")
+        assert refused.value.reason is Reason.MOVING
+        robot._core.motion = motion
+        assert execution.result().deviation < 1e-4
+        assert robot.state.joints == pytest.approx(BENT, abs=1e-4)
+
+
+def test_a_stop_leaves_a_routine_wherever_it_is():
+    with with_routines() as (robot, controller):
+        execution = robot.run(Program().call("go_home").move_joints(BENT))
+        robot.sleep(3)
+        assert robot.state.is_moving
+        robot.stop()
+        with pytest.raises(MotionStopped) as told:
+            execution.result()
+        assert told.value.reached == 0
+        assert controller.task("T_ROB1")["cell:undone"] is True
+        here = robot.state.joints
+        robot.sleep(2)
+        assert robot.state.joints == pytest.approx(here, abs=1e-6)
+        assert robot.run(Program().move_joints(BENT)).result().deviation < 1e-4
+
+
+@pytest.mark.parametrize(
+    "given",
+    [(1.0, True, True), (1.0, 1, True, ""), ("1", True, True, ""), (1.0, True, True, "x" * 81)],
+)
+def test_arguments_that_do_not_fit_are_told(given):
+    with with_routines() as (robot, _), pytest.raises(InvalidProgram):
+        robot.call("weld", *given)
