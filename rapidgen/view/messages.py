@@ -8,15 +8,12 @@ belongs to the union of its direction at the end of this file.
 from collections.abc import Mapping
 from typing import Annotated, Literal, TypeAlias
 
-from pydantic import BaseModel, ConfigDict, Field, TypeAdapter
+from pydantic import Field, TypeAdapter
+
+from rapidgen.view import program_messages as p
+from rapidgen.view.spoken import Spoken
 
 Finite = Annotated[float, Field(allow_inf_nan=False)]
-
-
-class Spoken(BaseModel):
-    """What is inside of messages."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid")
 
 
 class Pose(Spoken):
@@ -296,10 +293,34 @@ ToPage: TypeAlias = (
     | Signals
     | SignalValues
     | Connections
+    | p.LoadedPrograms
+    | p.Pointers
+    | p.Debugging
+    | p.HeldValues
+    | p.Covered
     | Replied
 )
 Request: TypeAlias = (
-    Act | SetMode | SetOverride | SetPace | AnswerQuestion | Jog | Copy | SetSignal | Cut
+    Act
+    | SetMode
+    | SetOverride
+    | SetPace
+    | AnswerQuestion
+    | Jog
+    | Copy
+    | SetSignal
+    | Cut
+    | p.ReadSource
+    | p.SetBreakpoint
+    | p.RemoveBreakpoint
+    | p.Drive
+    | p.RunTo
+    | p.StopOnErrors
+    | p.LookAt
+    | p.Evaluate
+    | p.Assign
+    | p.SetWatch
+    | p.Cover
 )
 
 

@@ -37,9 +37,9 @@ class Moment:
     time: float
     """s from the controller's start."""
     joints: dict[str, m.Joints] = field(default_factory=dict)
-    carried: dict[str, m.Carried] = field(default_factory=dict)
+    carried: dict[str, m.CarriedFrames] = field(default_factory=dict)
     tasks: dict[str, m.TaskPointers] = field(default_factory=dict)
-    panel: m.PanelState | None = None
+    panel: m.RecordedPanel | None = None
     signals: dict[str, float] = field(default_factory=dict)
     watch: dict[tuple[str, str], m.WatchedValue] = field(default_factory=dict)
     """By task and expression."""
@@ -150,13 +150,13 @@ class RecordingFile:
             case "joints":
                 moment.joints[name] = self._decoded(m.Joints, message)
             case "carried":
-                moment.carried[name] = self._decoded(m.Carried, message)
+                moment.carried[name] = self._decoded(m.CarriedFrames, message)
             case "task":
                 moment.tasks[name] = self._decoded(m.TaskPointers, message)
             case "panel":
-                moment.panel = self._decoded(m.PanelState, message)
+                moment.panel = self._decoded(m.RecordedPanel, message)
             case "signals":
-                moment.signals |= self._decoded(m.SignalValues, message).values
+                moment.signals |= self._decoded(m.RecordedSignals, message).values
             case "log":
                 moment.log = [*moment.log, self._decoded(m.LogLine, message)][-EVENTS_KEPT:]
             case "sockets":
@@ -205,7 +205,7 @@ class RecordingFile:
         """Times and values of a signal: at the beginning, and each change until the end, s."""
         found = [(begin, self.at(begin).signals[name])] if name in self.at(begin).signals else []
         for message in self._messages(round(begin * _NS) + 1, round(end * _NS), "signals"):
-            values = self._decoded(m.SignalValues, message).values
+            values = self._decoded(m.RecordedSignals, message).values
             if name in values:
                 found.append((message.time / _NS, values[name]))
         return found

@@ -97,7 +97,7 @@ class RecordingWriter:
 
     def _follow(self, signal: Signal) -> None:
         def changed() -> None:
-            self._write("signals", m.SignalValues(values={signal.name: signal.value}))
+            self._write("signals", m.RecordedSignals(values={signal.name: signal.value}))
 
         signal.changed.add(changed)
         self._ends.append(lambda: signal.changed.remove(changed))
@@ -156,9 +156,9 @@ class RecordingWriter:
             fault="" if task.fault is None else task.fault.title,
         )
 
-    def _panel(self) -> m.PanelState:
+    def _panel(self) -> m.RecordedPanel:
         c = self._controller
-        return m.PanelState.model_construct(
+        return m.RecordedPanel.model_construct(
             mode=c.mode,
             motors_on=c.motors_on,
             e_stop=c.e_stop,
@@ -319,7 +319,7 @@ def _frame(news: SocketNews) -> m.SocketFrame:
     )
 
 
-def _carried(group: MotionGroup, now: int) -> m.Carried:
+def _carried(group: MotionGroup, now: int) -> m.CarriedFrames:
     move = group.motion.move(now)
     if move is not None:
         carrier = move.carrier.at(group.positions())
@@ -329,7 +329,7 @@ def _carried(group: MotionGroup, now: int) -> m.Carried:
         tool = configured.tool.frame.position, configured.tool.frame.orientation
         held = configured.tool.held
         placed = _identity
-    return m.Carried.model_construct(
+    return m.CarriedFrames.model_construct(
         tool=m.RecordedFrame.model_construct(position=tool[0], orientation=tool[1]),
         held=held,
         work_object=m.RecordedFrame.model_construct(position=placed[0], orientation=placed[1]),

@@ -7,6 +7,7 @@ from rapidgen.view.aspect import Aspect
 from rapidgen.view.simulator.connections import ConnectionsAspect
 from rapidgen.view.simulator.motion import MotionAspect
 from rapidgen.view.simulator.pendant import PendantAspect
+from rapidgen.view.simulator.program import ProgramAspect
 from rapidgen.view.simulator.signals import SignalsAspect
 from rapidgen.view.simulator.telling import TellingAspect
 
@@ -16,6 +17,7 @@ ASPECTS: tuple[Callable[[Cabinet], Aspect], ...] = (
     TellingAspect,
     SignalsAspect,
     ConnectionsAspect,
+    ProgramAspect,
 )
 """What is told of a virtual controller; the scene comes first."""
 

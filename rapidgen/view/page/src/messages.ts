@@ -13,6 +13,13 @@ export interface AnswerQuestion {
   readonly value: string;
 }
 
+/** Set a datum, an element or a component where it is looked at. */
+export interface Assign {
+  readonly do: "assign";
+  readonly target: string;
+  readonly value: string;
+}
+
 /** A joint and the controller axis that it drives; limits and speed are the axis' (rad, m). */
 export interface Axis {
   readonly name: string;
@@ -36,10 +43,32 @@ export interface Copy {
   readonly form: "jointtarget" | "robtarget" | "python";
 }
 
+/** Count how often lines are reached from now on, or no more. */
+export interface Cover {
+  readonly do: "cover";
+  readonly on: boolean;
+}
+
+/** How often the lines of a text were reached; only where a statement begins. */
+export interface Covered {
+  readonly type: "covered";
+  readonly source: number;
+  readonly lines: Readonly<Record<string, number>>;
+}
+
 /** Cut a connection: the task's socket is reset, and so is the other end. */
 export interface Cut {
   readonly do: "cut";
   readonly number: number;
+}
+
+/** Breakpoints, the pause, lines of log points, the latest last. */
+export interface Debugging {
+  readonly type: "debugging";
+  readonly halt: SeenHalt | null;
+  readonly breakpoints: readonly SeenBreakpoint[];
+  readonly errors: "never" | "unhandled" | "all";
+  readonly output: readonly string[];
 }
 
 /** A dialog that waits; without choices a text or number is typed. */
@@ -57,10 +86,32 @@ export interface Dialogs {
   readonly waiting: readonly Dialog[];
 }
 
+/** Pause, go on, step a task. */
+export interface Drive {
+  readonly do: "drive";
+  readonly how: "pause" | "resume" | "in" | "over" | "out";
+  readonly task: string;
+}
+
+/** The reply's text is the value of an expression where it is looked at. */
+export interface Evaluate {
+  readonly do: "evaluate";
+  readonly expression: string;
+}
+
 /** A request and the number that its reply will have. */
 export interface FromPage {
   readonly id: number;
-  readonly request: Act | SetMode | SetOverride | SetPace | AnswerQuestion | Jog | Copy | SetSignal | Cut;
+  readonly request: Act | SetMode | SetOverride | SetPace | AnswerQuestion | Jog | Copy | SetSignal | Cut | ReadSource | SetBreakpoint | RemoveBreakpoint | Drive | RunTo | StopOnErrors | LookAt | Evaluate | Assign | SetWatch | Cover;
+}
+
+/** What the routine that is looked at holds, and the watch list. */
+export interface HeldValues {
+  readonly type: "held";
+  readonly task: string;
+  readonly level: number;
+  readonly variables: readonly SeenValue[];
+  readonly watch: readonly SeenValue[];
 }
 
 /** Put a standing robot elsewhere: controller axes in wire order. */
@@ -68,6 +119,18 @@ export interface Jog {
   readonly do: "jog";
   readonly group: string;
   readonly axes: readonly number[];
+}
+
+/** Modules of a task. A text that two tasks share has one number. */
+export interface LoadedModules {
+  readonly task: string;
+  readonly modules: Readonly<Record<string, number>>;
+}
+
+/** What is loaded; texts are asked for (ReadSource). */
+export interface LoadedPrograms {
+  readonly type: "loaded";
+  readonly tasks: readonly LoadedModules[];
 }
 
 /** Events that are new, oldest first. */
@@ -87,6 +150,13 @@ export interface LogEntry {
   readonly task: string;
 }
 
+/** Show the values of a routine of a call stack from now on; -1: the innermost. */
+export interface LookAt {
+  readonly do: "look";
+  readonly task: string;
+  readonly level: number;
+}
+
 /** What the pendant's status bar says. */
 export interface PanelState {
   readonly type: "panel";
@@ -102,6 +172,13 @@ export interface PanelState {
   readonly pace: number;
 }
 
+/** Program pointers and motion pointers. */
+export interface Pointers {
+  readonly type: "pointers";
+  readonly time: number;
+  readonly tasks: readonly SeenTask[];
+}
+
 /** A frame: position m, orientation q1..q4. */
 export interface Pose {
   readonly position: readonly [number, number, number];
@@ -113,6 +190,18 @@ export interface Positions {
   readonly type: "positions";
   readonly time: number;
   readonly groups: readonly RobotPlace[];
+}
+
+/** The reply's text is a source. */
+export interface ReadSource {
+  readonly do: "source";
+  readonly number: number;
+}
+
+/** Take one away. */
+export interface RemoveBreakpoint {
+  readonly do: "unbreak";
+  readonly number: number;
 }
 
 /** The answer to a request; `error` is empty when it was carried out. */
@@ -135,6 +224,14 @@ export interface RobotPlace {
   readonly standing: boolean;
 }
 
+/** Go on to a line. */
+export interface RunTo {
+  readonly do: "run-to";
+  readonly task: string;
+  readonly module: string;
+  readonly line: number;
+}
+
 /** The first message of a connection, and of a controller that has restarted. */
 export interface Scene {
   readonly type: "scene";
@@ -150,6 +247,36 @@ export interface Screen {
   readonly rows: readonly string[];
 }
 
+/** A breakpoint, and in which line it lies (0: nowhere, `doubt` says why). */
+export interface SeenBreakpoint {
+  readonly number: number;
+  readonly task: string;
+  readonly module: string;
+  readonly line: number;
+  readonly condition: string;
+  readonly hits: string;
+  readonly log: string;
+  readonly count: number;
+  readonly doubt: string;
+}
+
+/** Why everything is paused. */
+export interface SeenHalt {
+  readonly reason: "breakpoint" | "step" | "cursor" | "error" | "pause";
+  readonly task: string;
+  readonly place: SeenPlace | null;
+  readonly text: string;
+}
+
+/** Where in a program. `made` is the template's line of a generated one. */
+export interface SeenPlace {
+  readonly module: string;
+  readonly routine: string;
+  readonly line: number;
+  readonly made: string;
+  readonly level: "program" | "trap" | "event";
+}
+
 /** A robot. `urdf` is its description, whose meshes are paths of this server. */
 export interface SeenRobot {
   readonly name: string;
@@ -160,6 +287,33 @@ export interface SeenRobot {
   readonly movable: readonly string[];
   readonly axes: readonly Axis[];
   readonly has_geometry: boolean;
+}
+
+/** A task: what it executes, outermost routine first, and what its robot executes. */
+export interface SeenTask {
+  readonly name: string;
+  readonly state: string;
+  readonly stack: readonly SeenPlace[];
+  readonly motion: SeenPlace | null;
+}
+
+/** A value in RAPID's own words. */
+export interface SeenValue {
+  readonly name: string;
+  readonly kind: string;
+  readonly text: string;
+  readonly settable: boolean;
+}
+
+/** A new one; the reply's text is its number. */
+export interface SetBreakpoint {
+  readonly do: "break";
+  readonly module: string;
+  readonly line: number;
+  readonly task: string;
+  readonly condition: string;
+  readonly hits: string;
+  readonly log: string;
 }
 
 /** Turn the key. */
@@ -185,6 +339,12 @@ export interface SetSignal {
   readonly do: "signal";
   readonly name: string;
   readonly value: number;
+}
+
+/** The watch list. */
+export interface SetWatch {
+  readonly do: "watch";
+  readonly expressions: readonly string[];
 }
 
 /** A signal; `largest` is None where nothing bounds it. */
@@ -217,6 +377,12 @@ export interface Signals {
   readonly signals: readonly ShownSignal[];
 }
 
-export type ToPage = Connections | Dialogs | Log | PanelState | Positions | Replied | Scene | Screen | SignalValues | Signals;
+/** At which errors everything pauses. */
+export interface StopOnErrors {
+  readonly do: "errors";
+  readonly errors: "never" | "unhandled" | "all";
+}
 
-export type Request = Act | AnswerQuestion | Copy | Cut | Jog | SetMode | SetOverride | SetPace | SetSignal;
+export type ToPage = Connections | Covered | Debugging | Dialogs | HeldValues | LoadedPrograms | Log | PanelState | Pointers | Positions | Replied | Scene | Screen | SignalValues | Signals;
+
+export type Request = Act | AnswerQuestion | Assign | Copy | Cover | Cut | Drive | Evaluate | Jog | LookAt | ReadSource | RemoveBreakpoint | RunTo | SetBreakpoint | SetMode | SetOverride | SetPace | SetSignal | SetWatch | StopOnErrors;

@@ -5,6 +5,7 @@ import { axesPanel } from "./axes";
 import { connectionsPanel } from "./connections";
 import { logPanel } from "./log";
 import { pendantPanel } from "./pendant";
+import { programPanel } from "./program";
 import { signalsPanel } from "./signals";
 
-export const PANELS: readonly MakePanel[] = [pendantPanel, axesPanel, signalsPanel, logPanel, connectionsPanel];
+export const PANELS: readonly MakePanel[] = [pendantPanel, programPanel, axesPanel, signalsPanel, logPanel, connectionsPanel];
