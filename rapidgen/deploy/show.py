@@ -97,7 +97,7 @@ def plans_text(plans: Sequence[Plan], *, diff: bool = False) -> str:
 
 def diff_text(plan: Plan) -> str:
     """Unified diffs of all files that are texts, those that come and go, too."""
-    out = []
+    out: list[str] = []
     for change in plan.changes:
         if change.action == "same" or _is_new_id(plan, change):
             continue

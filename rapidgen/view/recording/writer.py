@@ -269,7 +269,7 @@ class RecordingWriter:
             self._attach(m.OVERVIEW, json.dumps(self._overview).encode())
             self._closed = True
             self._unsubscribe()
-            self._writer.finish()
+            self._writer.finish()  # type: ignore[no-untyped-call]  # mcap's own
 
     def _unsubscribe(self) -> None:
         for end in self._ends:
