@@ -9,8 +9,17 @@ export TIMEFORMAT = %U s of CPU, %R s
 
 .PHONY: demo test lint types contract unit wheel page driver-hours site release-lint changelog room picture foreign campaigns clean
 
-demo: $(STAMP)
-	$(BIN)/rapidgen demo
+# Needs no more than rapidgen itself, which comes with a line every few seconds; `make test` adds the rest.
+RUNS := $(VENV)/.runs
+demo: $(if $(wildcard $(STAMP)),$(STAMP),$(RUNS))
+	@$(BIN)/rapidgen demo
+
+$(RUNS): pyproject.toml
+	@echo "setup    an environment in $(VENV) with what rapidgen needs: once, half a minute"
+	@test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
+	@(while sleep 4; do echo "         $$SECONDS s"; done) & beat=$$!; trap "kill $$beat" EXIT; \
+		$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-compile --editable '.[plot]'
+	@touch $@
 
 test: lint types contract wheel driver-hours site release-lint unit
 
