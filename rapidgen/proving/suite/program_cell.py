@@ -174,8 +174,9 @@ def _sets(bench: Bench) -> None:
             told = _sends(client, WAIT_SIGNAL, [float(index), 1.0, 1.0])
             client.refused(told, RawReason.BAD_VALUE, 0, f"a wait for {signal.name}")
             continue
-        if bench.controller.signals[signal.name] == 0:
-            _accepted(_sends(client, WAIT_SIGNAL, [float(index), 0.0, 0.0], before=there))
+        if signal.name in bench.controller.signals:
+            now = float(bench.controller.signals[signal.name])
+            _accepted(_sends(client, WAIT_SIGNAL, [float(index), now, 0.0], before=there))
             bench.wait_until_at(there.joints, 60)
         if signal.kind[1] == "I":
             _waits(bench, client, index, signal.name)
