@@ -119,6 +119,14 @@ runtime-mutants: $(STAMP) ## 15 min: the same for the conformance files of the r
 driver-mutants: $(STAMP) ## 12 min: which mutants of the generated modules the suite notices
 	$(BIN)/python benchmarks/mutation.py --jobs 2 --budget 4 --output build/mutation.jsonl irb120
 
+# A Dask scheduler and WORKERS workers as processes of this machine, until Ctrl-C, for
+# `rapidgen test ... --cluster tcp://127.0.0.1:8786`.
+WORKERS ?= $(shell nproc)
+cluster: $(STAMP)
+	$(BIN)/dask scheduler --host 127.0.0.1 --port 8786 --no-dashboard & trap "kill $$!" EXIT; \
+		$(BIN)/dask worker tcp://127.0.0.1:8786 --nworkers $(WORKERS) --nthreads 1 --no-dashboard
+.PHONY: cluster
+
 motion-campaign: $(STAMP) ## 10 min: 10,000 random programs with random stops
 	$(BIN)/python -m tests.motion.campaign
 

@@ -1,7 +1,7 @@
 """The whole suite for one robot: every case under every setting, and schedules, as a campaign."""
 
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TextIO
@@ -18,11 +18,12 @@ from rapidgen.proving.campaign import Campaign, Limits, Progress, Workload
 from rapidgen.proving.explore import Explored, explore, ground_of
 from rapidgen.proving.guide import Guide
 from rapidgen.proving.identity import identity
-from rapidgen.proving.model import Proof, Verdict
-from rapidgen.proving.plan import Ground
+from rapidgen.proving.model import Finding, Proof, Verdict
+from rapidgen.proving.plan import Ground, drawn, named
 from rapidgen.proving.report import series
 from rapidgen.proving.results import Results
 from rapidgen.proving.settings import Setting, assumed, rows, settings
+from rapidgen.proving.smaller import smaller
 from rapidgen.proving.suite import CASES
 from rapidgen.proving.workers import Local, Workers, each, in_a_fork
 from rapidgen.system.model import System
@@ -77,6 +78,7 @@ def prove(
     *,
     seeds: int = 200,
     jobs: int | None = None,
+    hire: Callable[["Subject"], Workers] | None = None,
     only: Sequence[str] = (),
     cases: bool = True,
     strength: int = 2,
@@ -90,6 +92,7 @@ def prove(
 
     The answers to any `strength` open questions meet in some setting (0: the default alone);
     `assuming`: in that one only. `progress(what, done, total)` is called for every piece of work.
+    `hire`: who works, by default `jobs` processes of this machine.
     Results are kept in a file, in which `resume` finds those that are known already.
     A KeyboardInterrupt ends the run; the report has what it had seen, and says so. Raises
     DiagnosticError RG805, WorkersLost.
@@ -101,7 +104,7 @@ def prove(
     attempts = _attempts(config, report.rows, only) if cases or only else []
     with (
         Results(results, f"{identity()} {report.build_id}", resume=resume) as kept,
-        Local(driver, jobs) as workers,
+        hire(driver) if hire else Local(driver, jobs) as workers,
     ):
         campaign = Campaign(workers, kept, limits or Limits(), progress)
         try:
@@ -111,7 +114,7 @@ def prove(
             if not only and not assuming:
                 for outcome in report.outcomes:
                     add_lines(report.lines, outcome.lines)
-                _explored(report, campaign, seeds)
+                _explored(report, campaign, seeds, progress)
         except KeyboardInterrupt:
             report.broken_off = True
     report.left = campaign.left
@@ -119,7 +122,7 @@ def prove(
     return report
 
 
-def _explored(report: Proof, campaign: Campaign, seeds: int) -> None:
+def _explored(report: Proof, campaign: Campaign, seeds: int, progress: Progress | None) -> None:
     (found,) = each(campaign.workers, range(1), ground)
     guide = Guide(found)
     # Of a run that is broken off, too.
@@ -128,6 +131,11 @@ def _explored(report: Proof, campaign: Campaign, seeds: int) -> None:
         report.schedules += 1
         if explored.finding is not None:
             report.findings.append(explored.finding)
+    few = report.findings[:EXPLAINED]
+    for number, finding in enumerate(each(campaign.workers, few, minimised)):
+        report.findings[number] = finding
+        if progress is not None:
+            progress("smaller schedules", number + 1, len(few))
 
 
 def _attempts(
@@ -222,6 +230,13 @@ def schedule(driver: Subject, name: str) -> Explored:
     """One schedule."""
     # A controller leaves things behind in its process.
     return in_a_fork(lambda: explore(driver.config, driver.system, name))
+
+
+def minimised(driver: Subject, finding: Finding) -> Finding:
+    """The same finding in the smallest schedule that has it."""
+    name = named(finding.schedule)
+    steps = len(drawn(name, ground_of(driver.config, driver.system)).steps)
+    return smaller(name, steps, finding, lambda tried: schedule(driver, str(tried)).finding)
 
 
 class Starter:
