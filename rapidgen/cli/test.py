@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
     from rapidgen.config.model import RobotConfig
     from rapidgen.proving.model import Proof
-    from rapidgen.proving.run import Subject
+    from rapidgen.proving.run import DriverUnderTest
     from rapidgen.proving.workers import Workers
 
 
@@ -183,7 +183,7 @@ def _check_writable(path: Path | None) -> None:
         ) from fault
 
 
-def _of_cluster(address: str) -> "Callable[[Subject], Workers]":
+def _of_cluster(address: str) -> "Callable[[DriverUnderTest], Workers]":
     try:
         from rapidgen.proving.cluster import Cluster
     except ModuleNotFoundError as missing:

@@ -58,7 +58,7 @@ class Suspects:
 
 
 @dataclass(frozen=True, slots=True)
-class Subject:
+class DriverUnderTest:
     """What every worker has: a configuration and its generated system."""
 
     config: RobotConfig
@@ -67,7 +67,7 @@ class Subject:
     """The controller that a worker keeps, by what its setting assumes."""
 
     @classmethod
-    def of(cls, config: RobotConfig) -> "Subject":
+    def of(cls, config: RobotConfig) -> "DriverUnderTest":
         """The driver of a configuration, in its cell. Raises DiagnosticError."""
         system = make_system(config, build(config), open_words=True)
         return cls(config, in_its_cell(system, config))
@@ -78,7 +78,7 @@ def prove(
     *,
     seeds: int = 200,
     jobs: int | None = None,
-    hire: Callable[["Subject"], Workers] | None = None,
+    hire: Callable[["DriverUnderTest"], Workers] | None = None,
     only: Sequence[str] = (),
     cases: bool = True,
     strength: int = 2,
@@ -97,7 +97,7 @@ def prove(
     A KeyboardInterrupt ends the run; the report has what it had seen, and says so. Raises
     DiagnosticError RG805, WorkersLost.
     """
-    driver = Subject.of(config)
+    driver = DriverUnderTest.of(config)
     started = time.monotonic()
     report = Proof(config.name, driver.system.build_id)
     report.rows = {"as asked": tuple(assuming)} if assuming else rows(strength)
@@ -199,7 +199,7 @@ def _explained(report: Proof, workers: Workers, progress: Progress | None) -> li
 # -- pieces of work -----------------------------------------------------------------------------
 
 
-def explain(driver: Subject, broken: Suspects) -> dict[str, tuple[str, ...]]:
+def explain(driver: DriverUnderTest, broken: Suspects) -> dict[str, tuple[str, ...]]:
     """By setting, the smallest part of what it assumes that breaks a case."""
 
     def breaks(texts: Sequence[str]) -> bool:
@@ -210,7 +210,7 @@ def explain(driver: Subject, broken: Suspects) -> dict[str, tuple[str, ...]]:
     return blamed(broken.rows, lambda texts: in_a_fork(lambda: breaks(texts)))
 
 
-def attempt(driver: Subject, job: Attempt) -> Verdict:
+def attempt(driver: DriverUnderTest, job: Attempt) -> Verdict:
     """A case under a setting."""
     # Jobs come setting by setting, so one controller is kept.
     if job.name not in driver.booted:
@@ -221,18 +221,18 @@ def attempt(driver: Subject, job: Attempt) -> Verdict:
     return replace(driver.booted[job.name].attempt(CASES[job.case]), setting=job.name)
 
 
-def ground(driver: Subject, _item: object) -> Ground:
+def ground(driver: DriverUnderTest, _item: object) -> Ground:
     """What schedules are drawn from."""
     return ground_of(driver.config, driver.system)
 
 
-def schedule(driver: Subject, name: str) -> Explored:
+def schedule(driver: DriverUnderTest, name: str) -> Explored:
     """One schedule."""
     # A controller leaves things behind in its process.
     return in_a_fork(lambda: explore(driver.config, driver.system, name))
 
 
-def minimised(driver: Subject, finding: Finding) -> Finding:
+def minimised(driver: DriverUnderTest, finding: Finding) -> Finding:
     """The same finding in the smallest schedule that has it."""
     name = named(finding.schedule)
     steps = len(drawn(name, ground_of(driver.config, driver.system)).steps)
@@ -281,5 +281,5 @@ def _verdict(case: Behaviour, bench: Bench) -> Verdict:
 
 def replay(config: RobotConfig, name: str, trace: TextIO | None = None) -> Explored:
     """One schedule again, exactly; every statement of RAPID goes to `trace`."""
-    driver = Subject.of(config)
+    driver = DriverUnderTest.of(config)
     return explore(driver.config, driver.system, name, trace=trace)

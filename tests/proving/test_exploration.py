@@ -14,7 +14,7 @@ from rapidgen.proving.explore import STEPS, Explored, explore, ground_of
 from rapidgen.proving.guide import Guide
 from rapidgen.proving.model import Finding
 from rapidgen.proving.plan import drawn, named
-from rapidgen.proving.run import Subject, minimised
+from rapidgen.proving.run import DriverUnderTest, minimised
 from rapidgen.proving.smaller import smaller
 from rapidgen.rapid import check, parse
 from tests.proving.defective import CAPACITY, DEFECTS, FOLDER, small_driver, with_defect
@@ -162,7 +162,7 @@ def test_a_schedule_is_made_smaller_as_long_as_the_same_demand_does_not_hold():
 
 
 def test_a_race_in_its_smallest_schedule_is_still_there():
-    driver = Subject(SMALL, small_driver("R7a"))
+    driver = DriverUnderTest(SMALL, small_driver("R7a"))
     guide = Guide(ground_of(SMALL, driver.system))
     names = (guide.name(number) for number in range(8))
     found = (explore(SMALL, driver.system, name).finding for name in names)
