@@ -162,7 +162,7 @@ def _unpacked(stream: BinaryIO, piece: StoredChunk) -> bytes:
     chunk = Chunk.read(ReadDataStream(stream))
     match chunk.compression:
         case "":
-            data = chunk.data
+            data: bytes = chunk.data
         case "zstd":
             told = zstandard.frame_content_size(chunk.data)
             if told != size:
