@@ -28,7 +28,7 @@ def symbols(
     from dataclasses import asdict
 
     from rapidgen.cli.carrying_out import make_sure
-    from rapidgen.cli.web_services import controller
+    from rapidgen.cli.web_services import ask_pendant, controller
     from rapidgen.client.rws.values import read
 
     parts = name.split("/") if name else []
@@ -40,6 +40,7 @@ def symbols(
         if literal is not None:
             if not found.identity().is_virtual:
                 make_sure(f"set {name} to {value} at {host}?", yes=yes)
+            ask_pendant(found, "modify", found.panel().mode)
             found.set_symbol(name, literal)
         if len(parts) == 3:
             text = found.symbol_text(name)

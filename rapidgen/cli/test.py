@@ -40,8 +40,8 @@ def test(
         typer.Option(help="Only this setting (repeatable).", metavar="NAME=ANSWER,..."),
     ] = None,
     replay: Annotated[
-        int | None,
-        typer.Option(help="One schedule again, exactly; its story on stdout.", metavar="SEED"),
+        str | None,
+        typer.Option(help="One schedule again, exactly; its story on stdout.", metavar="SCHEDULE"),
     ] = None,
     trace: Annotated[
         Path | None,
@@ -221,7 +221,7 @@ def _show(report: "Proof", uncovered: bool, durations: int) -> None:
     from rich.console import Console
     from rich.table import Table
 
-    from rapidgen.proving.report import complaint, missed, slowest
+    from rapidgen.proving.report import complaint, met, missed, slowest
 
     console = Console(highlight=False)
     table = Table("group", "held", "of", "answers", box=None)
@@ -246,7 +246,9 @@ def _show(report: "Proof", uncovered: bool, durations: int) -> None:
         if not outcome.passed:
             console.print(f"failed: {complaint(outcome)}", markup=False)
     for finding in report.findings:
-        console.print(f"failed: --replay {finding.seed}: {finding.detail}", markup=False)
+        console.print(f"failed: --replay {finding.schedule}: {finding.detail}", markup=False)
+    if report.curve:
+        console.print(met(report), markup=False)
     verdict = "everything held" if report.passed else "something did not hold"
     if report.left:
         verdict += f", {report.left} were not tried"
@@ -259,19 +261,19 @@ def _show(report: "Proof", uncovered: bool, durations: int) -> None:
     )
 
 
-def _replay(config: "RobotConfig", seed: int, trace: Path | None) -> int:
+def _replay(config: "RobotConfig", name: str, trace: Path | None) -> int:
     from rapidgen.proving.run import replay
 
     _check_writable(trace)
     if trace is None:
-        explored = replay(config, seed)
+        explored = replay(config, name)
     else:
         with trace.open("w", encoding="utf-8") as file:
-            explored = replay(config, seed, file)
+            explored = replay(config, name, file)
     typer.echo(explored.plan)
     if explored.finding is None:
-        typer.echo(f"seed {seed}: the invariant held")
+        typer.echo(f"schedule {name}: the invariant held")
         return 0
     typer.echo("\n".join(explored.finding.log))
-    typer.echo(f"seed {seed}: {explored.finding.detail}")
+    typer.echo(f"schedule {name}: {explored.finding.detail}")
     return 1

@@ -73,7 +73,8 @@ def as_json(report: Proof) -> dict[str, Json]:
             for outcome in report.outcomes
         ],
         "schedules": report.schedules,
-        "findings": [{"seed": f.seed, "detail": f.detail} for f in report.findings],
+        "pairs": [list(point) for point in report.curve],
+        "findings": [{"schedule": f.schedule, "detail": f.detail} for f in report.findings],
     }
 
 
@@ -108,7 +109,7 @@ def write_junit(report: Proof, path: Path) -> None:
             suite,
             "testcase",
             classname=f"{report.name}.exploration",
-            name=f"seed {finding.seed}",
+            name=f"schedule {finding.schedule}",
         )
         failure = ElementTree.SubElement(case, "failure", message=_xml(finding.detail))
         failure.text = _xml("\n".join((finding.plan, *finding.log)))
@@ -128,7 +129,7 @@ def write_html(report: Proof, path: Path) -> None:
     )
     details = "".join(_details(o) for o in report.outcomes if o.series or not o.passed)
     findings = "".join(
-        f"<h3>seed {f.seed}</h3><p>{html.escape(f.detail)}</p>"
+        f"<h3>schedule {f.schedule}</h3><p>{html.escape(f.detail)}</p>"
         f"<pre>{html.escape(chr(10).join((f.plan, *f.log)))}</pre>"
         for f in report.findings
     )
@@ -141,6 +142,7 @@ def write_html(report: Proof, path: Path) -> None:
 {report.schedules} schedules explored · on the virtual controller; no real controller was asked.</p>
 <p>{html.escape(_versions())}</p>
 {_coverage(report)}
+{_pairs(report)}
 <p><input id="search" type="search" placeholder="search cases" aria-label="search cases"></p>
 {tables}
 {"<h2>Schedules that broke the invariant</h2>" + findings if findings else ""}
@@ -187,6 +189,27 @@ def _coverage(report: Proof) -> str:
     return f"<p>RAPID lines that the cases reached: {reached} of {of}, {reached / of:.1%}.</p>" + (
         f"<details><summary>lines that none did</summary><ul>{rows}</ul></details>" if rows else ""
     )
+
+
+def met(report: Proof) -> str:
+    """How many pairs of statements the schedules met, and whether there still were new ones."""
+    if not report.curve:
+        return ""
+    late = sum(1 for number, _ in report.curve if number > 0.9 * report.schedules)
+    at, pairs = report.curve[-1]
+    return (
+        f"{pairs} pairs of statements of two tasks met in {report.schedules} schedules, the last "
+        f"new one in schedule {at}; {late} of the last tenth brought new ones"
+    )
+
+
+def _pairs(report: Proof) -> str:
+    """The curve of pairs over schedules."""
+    if len(report.curve) < 2:
+        return ""
+    times = tuple(float(number) for number, _ in report.curve)
+    values = tuple((float(pairs),) for _, pairs in report.curve)
+    return f"<p>{met(report)}.</p>" + _drawn((Series("pairs", times, values),))
 
 
 def missed(report: Proof) -> list[tuple[str, str]]:
@@ -267,7 +290,17 @@ def series(bench: "Bench") -> tuple[Series, ...]:
     return tuple(found)
 
 
-def _plot(series: tuple[Series, ...], width: int = 900, height: int = 260) -> str:
+def _plot(series: tuple[Series, ...]) -> str:
+    drawing = _drawn(series)
+    values = [v for s in series for row in s.values for v in row]
+    times = [t for s in series for t in s.times]
+    return drawing and (
+        f"{drawing}<p>solid: executed, dashed: commanded; one colour a joint; {min(values):.3f} "
+        f"to {max(values):.3f} rad (m) over {max(times) - min(times):.2f} s</p>"
+    )
+
+
+def _drawn(series: tuple[Series, ...], width: int = 900, height: int = 260) -> str:
     times = [t for s in series for t in s.times]
     values = [v for s in series for row in s.values for v in row]
     if not values or max(times) <= min(times):
@@ -286,6 +319,5 @@ def _plot(series: tuple[Series, ...], width: int = 900, height: int = 260) -> st
             lines.append(f'<polyline fill="none" stroke="{colour}"{dash} points="{points}"/>')
     return (
         f'<svg viewBox="0 0 {width} {height}" width="{width}" height="{height}">'
-        f"{''.join(lines)}</svg><p>solid: executed, dashed: commanded; one colour a joint; "
-        f"{low:.3f} to {low + up:.3f} rad (m) over {across:.2f} s</p>"
+        f"{''.join(lines)}</svg>"
     )

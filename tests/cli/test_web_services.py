@@ -12,6 +12,7 @@ from served import make_cabinet
 
 from rapidgen.cli.app import main
 from rapidgen.faces.rws.server import serve_rws
+from rapidgen.machine.operator import Answer
 from rapidgen.system import read_backup
 from rapidgen.wire.rws.bodies import Generation
 
@@ -72,6 +73,24 @@ def test_signals_and_symbols_are_shown_and_set(host, capsys):
     assert told["T_ROB1/MainModule/list"]["dims"] == [3]
     assert main(["symbols", host, "T_ROB1/MainModule/list", "--json"]) == 0
     assert json.loads(said(capsys))["value"] == "[4,5,6]"
+
+
+@pytest.mark.parametrize(("answer", "code"), [("Grant", 0), ("Deny", 1)])
+def test_in_manual_mode_the_pendant_is_asked_and_that_is_announced(
+    answer, code, tmp_path, monkeypatch, capsys
+):
+    monkeypatch.setenv("RAPIDGEN_PASSWORD", "robotics")
+    script = [Answer(answer, dialog="RMMP")]
+    with make_cabinet(tmp_path, clock="real", speed=60, answers=script) as cabinet:
+        cabinet.controller.set_mode("manual_reduced")
+        cabinet.start()
+        service = serve_rws(cabinet, Generation.ONE)
+        where = f"rws://{service.host}:{service.port}"
+        assert main(["symbols", where, "T_ROB1/MainModule/x", "7"]) == code
+        output = capsys.readouterr()
+        assert "Press Grant there within 10 s" in output.err
+        assert output.out == ("7\n" if code == 0 else "")
+        service.close()
 
 
 def test_a_backup_comes_here_and_boots(host, capsys, tmp_path):

@@ -5,7 +5,6 @@ import json
 import re
 import struct
 from datetime import UTC, datetime
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -189,47 +188,12 @@ def test_record(controller, tmp_path):
 
 
 def test_plot(points, tmp_path, capsys):
-    assert main(["plot", str(points), str(points), "--linear", "joint_6"]) == 0
-    png, html = capsys.readouterr().out.split()
-    assert Path(png).read_bytes().startswith(b"\x89PNG\r\n\x1a\n")
-    text = Path(html).read_text()
-    assert "joint_6 [mm]" in text
-    assert "joint_1 [deg]" in text
-    assert "http" not in text.replace("http://www.w3.org/2000/svg", "")
-    assert text.count("<polyline") > 12
-
-
-def test_plot_of_names_that_want_out(tmp_path):
-    path = tmp_path / "p.csv"
-    path.write_text("time,</script><b>\n0,1\n1,nan\n2,2\n")
-    assert main(["plot", str(path), "-o", str(tmp_path / "p")]) == 0
-    text = (tmp_path / "p.html").read_text()
-    assert "</script><b>" not in text
-
-
-def test_plot_thins_long_recordings(tmp_path):
-    from rapidgen.view.plot import PlottedCurve, write_plot
-
-    times = np.arange(200_000) * 0.01
-    values = np.sin(times)[:, None]
-    values[123_456] = 9.0
-    html = tmp_path / "long.html"
-    write_plot(
-        None, html, [PlottedCurve("executed", Trajectory(times, values, ("a",)))], title="long"
-    )
-    assert html.stat().st_size < 200_000
-    # the one outlier is still there: 9 rad in degrees
-    assert "515.662" in html.read_text()
-
-
-def test_plot_without_points(tmp_path):
-    from rapidgen.view.plot import PlottedCurve, write_plot
-
-    empty = Trajectory(np.zeros(0), np.zeros((0, 2)), ("a", "b"))
-    write_plot(
-        tmp_path / "e.png", tmp_path / "e.html", [PlottedCurve("nothing", empty)], title="empty"
-    )
-    assert (tmp_path / "e.png").stat().st_size > 500
+    out = tmp_path / "both.svg"
+    assert main(["plot", str(points), str(points), "--robot", "irb120", "-o", str(out)]) == 0
+    assert capsys.readouterr().out.split() == [str(out)]
+    assert "<svg" in out.read_text()
+    assert main(["plot", str(points), "-o", str(tmp_path / "both.pdf")]) == 2
+    assert "RG626" in capsys.readouterr().err
 
 
 @pytest.fixture

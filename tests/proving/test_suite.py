@@ -136,7 +136,7 @@ def test_the_exploration_replays_exactly():
     config, system = generated()
     logs = []
     for _ in range(2):
-        bench_log = explore(config, system, 5)
+        bench_log = explore(config, system, "5")
         logs.append(bench_log)
     assert logs[0] == logs[1]
 
