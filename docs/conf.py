@@ -17,7 +17,7 @@ author = project_copyright = "the authors of rapidgen"
 release = version = __version__
 
 extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx_copybutton"]
-exclude_patterns = ["_build"]
+exclude_patterns = ["changes"]
 
 html_theme = "furo"
 html_title = f"rapidgen {release}"

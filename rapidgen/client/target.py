@@ -34,7 +34,9 @@ def resolve(
                     suggest(text, shipped_names()) or "`rapidgen robots` lists the names",
                     exit_code=2,
                 )
-            return find_simulator() if text == SIMULATOR else parse_address(text), None
+            if text == SIMULATOR:
+                return find_simulator(), None
+            return _by_name(text), None
         try:
             config = load_config(text)
         except DiagnosticError as error:
@@ -45,6 +47,22 @@ def resolve(
     if address == SIMULATOR:
         return find_simulator(config.name, chosen.name), Group.of(config, chosen)
     return parse_address(address or LOOPBACK, chosen.ports), Group.of(config, chosen)
+
+
+def _by_name(text: str) -> Address:
+    """An address that is no configuration; a name like that of a model is asked about.
+
+    Raises InvalidTarget RG607.
+    """
+    meant = suggest(text, shipped_names()) if "." not in text and ":" not in text else ""
+    if meant:
+        raise InvalidTarget.because(
+            "RG607",
+            f"'{text}' is no configuration and no shipped name",
+            f"{meant}; a host of this name is {text}:11000",
+            exit_code=2,
+        )
+    return parse_address(text)
 
 
 def groups_of(target: str) -> list[str]:

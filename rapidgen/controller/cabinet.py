@@ -15,6 +15,7 @@ from typing import Self, Unpack
 
 from rapidgen.controller.booting import Bootable
 from rapidgen.controller.controller import Choices, VirtualController
+from rapidgen.controller.debugger.breakpoints import Breakpoint
 from rapidgen.controller.programs import Programs
 from rapidgen.controller.rebooting import boot
 from rapidgen.system.compose import eio_cfg, sys_cfg
@@ -48,6 +49,8 @@ class Cabinet:
         self.id = str(uuid.uuid5(uuid.NAMESPACE_DNS, system.name)).upper()
         """What tells this controller from others, in every run the same."""
         self.restarts = 0
+        self.breakpoints: list[Breakpoint] = []
+        """Those that whoever debugs has set: they are for the controller after a restart, too."""
         self.on_restart: list[Callable[[], None]] = []
         """Called on the controller's thread before a restart: everything about it ends."""
         self.on_boot: list[Callable[[], None]] = []

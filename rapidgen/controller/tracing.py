@@ -98,6 +98,10 @@ class Coverage:
         self._hits: Counter[int] = Counter()
         controller.statements.tracers.append(self._statement)
 
+    def stop(self) -> None:
+        """Count no more."""
+        self._controller.statements.tracers.remove(self._statement)
+
     def _statement(self, task: str, routine: Routine, node: n.Statement) -> None:
         self._hits[id(node)] += 1
 

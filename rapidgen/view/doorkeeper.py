@@ -7,10 +7,14 @@ Origin; a name that somebody lets point to this machine (DNS rebinding) is no ad
 
 import hmac
 import ipaddress
+import os
+import re
 import secrets
 from dataclasses import dataclass, field
 
 from aiohttp import web
+
+from rapidgen.diagnostics import refusal
 
 HEADERS = {
     "Content-Security-Policy": "default-src 'none'; script-src 'self'; style-src 'self'; "
@@ -26,10 +30,14 @@ HEADERS = {
 
 @dataclass(frozen=True)
 class Doorkeeper:
-    """The token of one server, and what it changes a good one into."""
+    """The token of one server, and what it changes a good one into. DiagnosticError RG922."""
 
-    token: str = field(default_factory=lambda: secrets.token_urlsafe(24))
-    _session: str = field(default_factory=lambda: secrets.token_urlsafe(24), repr=False)
+    token: str = field(default_factory=lambda: _given() or secrets.token_urlsafe(24), repr=False)
+
+    @property
+    def _session(self) -> str:
+        """What the cookie holds: a server that comes back with the same token knows it again."""
+        return hmac.new(self.token.encode(), b"rapidgen view", "sha256").hexdigest()
 
     def addressed(self, request: web.Request, port: int) -> bool:
         """Whether the Host is this machine by a number of it, or by `localhost`."""
@@ -61,6 +69,18 @@ class Doorkeeper:
         """Whether a request has the cookie."""
         given = request.cookies.get(_cookie(port), "")
         return hmac.compare_digest(given.encode(), self._session.encode())
+
+
+def _given() -> str:
+    token = os.environ.get("RAPIDGEN_VIEW_TOKEN", "")
+    if token and not re.fullmatch(r"[\w-]{16,}", token, re.ASCII):
+        raise refusal(
+            "RG922",
+            None,
+            "RAPIDGEN_VIEW_TOKEN is no token",
+            "16 or more letters, digits, `-` or `_`; without it each run makes a new one",
+        )
+    return token
 
 
 def _cookie(port: int) -> str:

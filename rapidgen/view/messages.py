@@ -8,15 +8,12 @@ belongs to the union of its direction at the end of this file.
 from collections.abc import Mapping
 from typing import Annotated, Literal, TypeAlias
 
-from pydantic import BaseModel, ConfigDict, Field, TypeAdapter
+from pydantic import Field, TypeAdapter
+
+from rapidgen.view import program_messages as p
+from rapidgen.view.spoken import Spoken
 
 Finite = Annotated[float, Field(allow_inf_nan=False)]
-
-
-class Spoken(BaseModel):
-    """What is inside of messages."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid")
 
 
 class Pose(Spoken):
@@ -129,6 +126,8 @@ class Log(Spoken):
 
     type: Literal["log"] = "log"
     entries: tuple[LogEntry, ...]
+    fresh: bool = False
+    """Those that were told before are not of this moment."""
 
 
 class Screen(Spoken):
@@ -153,6 +152,47 @@ class Dialogs(Spoken):
 
     type: Literal["dialogs"] = "dialogs"
     waiting: tuple[Dialog, ...]
+
+
+class ShownSignal(Spoken):
+    """A signal; `largest` is None where nothing bounds it."""
+
+    name: str
+    kind: Literal["DI", "DO", "GI", "GO", "AI", "AO"]
+    device: str
+    value: float
+    largest: float | None
+
+
+class Signals(Spoken):
+    """All signals."""
+
+    type: Literal["signals"] = "signals"
+    signals: tuple[ShownSignal, ...]
+
+
+class SignalValues(Spoken):
+    """Signals that have changed."""
+
+    type: Literal["values"] = "values"
+    values: Mapping[str, float]
+
+
+class ShownSocket(Spoken):
+    """A socket of a task. Addresses are empty where there is none."""
+
+    number: int
+    task: str
+    status: str
+    local: str
+    peer: str
+
+
+class Connections(Spoken):
+    """All sockets in use."""
+
+    type: Literal["connections"] = "connections"
+    sockets: tuple[ShownSocket, ...]
 
 
 class Replied(Spoken):
@@ -204,6 +244,21 @@ class SetPace(Spoken):
     value: Annotated[float, Field(ge=0, le=100)]
 
 
+class SetSignal(Spoken):
+    """Give a signal a value."""
+
+    do: Literal["signal"] = "signal"
+    name: str
+    value: Finite
+
+
+class Cut(Spoken):
+    """Cut a connection: the task's socket is reset, and so is the other end."""
+
+    do: Literal["cut"] = "cut"
+    number: int
+
+
 class AnswerQuestion(Spoken):
     """What the operator chose or typed."""
 
@@ -230,8 +285,49 @@ class Copy(Spoken):
 
 # -- both ways ------------------------------------------------------------------------------------
 
-ToPage: TypeAlias = Scene | Positions | PanelState | Log | Screen | Dialogs | Replied
-Request: TypeAlias = Act | SetMode | SetOverride | SetPace | AnswerQuestion | Jog | Copy
+ToPage: TypeAlias = (
+    Scene
+    | Positions
+    | PanelState
+    | Log
+    | Screen
+    | Dialogs
+    | Signals
+    | SignalValues
+    | Connections
+    | p.LoadedPrograms
+    | p.Pointers
+    | p.Debugging
+    | p.HeldValues
+    | p.Covered
+    | p.Playback
+    | Replied
+)
+Request: TypeAlias = (
+    Act
+    | SetMode
+    | SetOverride
+    | SetPace
+    | AnswerQuestion
+    | Jog
+    | Copy
+    | SetSignal
+    | Cut
+    | p.ReadSource
+    | p.SetBreakpoint
+    | p.RemoveBreakpoint
+    | p.Drive
+    | p.RunTo
+    | p.StopOnErrors
+    | p.LookAt
+    | p.Evaluate
+    | p.Assign
+    | p.SetWatch
+    | p.Cover
+    | p.Seek
+    | p.Play
+    | p.ReadCurves
+)
 
 
 class FromPage(Spoken):

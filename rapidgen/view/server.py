@@ -51,7 +51,10 @@ class Page:
 
 
 def serve_page(watched: Subject, host: str = "127.0.0.1", port: int = 0) -> Page:
-    """Serve the page of what is watched. DiagnosticError RG920 (it is not built), RG921 (port)."""
+    """Serve the page of what is watched.
+
+    DiagnosticError RG920 (not built), RG921 (port), RG922 (token).
+    """
     server = _Server(watched, _assets())
     server.start(host, port)
     shown = "127.0.0.1" if host == "0.0.0.0" else host

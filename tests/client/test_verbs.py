@@ -4,6 +4,7 @@ import io
 import json
 import re
 import struct
+from datetime import UTC, datetime
 
 import numpy as np
 import pytest
@@ -142,6 +143,9 @@ def test_monitor(controller, capsys):
     told = [json.loads(line) for line in capsys.readouterr().out.splitlines()]
     assert told[-1]["joints"]["joint_1"] == 0.0
     assert told[-1]["error_code"] == 7
+    assert (told[-1]["in_error"], told[0]["in_motion"]) == (True, False)
+    when = datetime.fromisoformat(told[-1]["time"])
+    assert abs((datetime.now(UTC) - when).total_seconds()) < 3600
     assert 0 < told[-1]["jitter_p50"] <= told[-1]["jitter_p99"] < 1
 
 
@@ -157,12 +161,17 @@ def test_the_live_table(controller):
             watcher.take(state)
             if state.number > 5:
                 break
-        console = Console(width=100, record=True, file=io.StringIO())
-        console.print(as_table(state, watcher, robot.group, "here"))
-    text = console.export_text()
-    assert "joint_6" in text
-    assert "states/s" in text
-    assert "-|-" in text
+    for width in (100, 60):
+        console = Console(width=width, record=True, file=io.StringIO())
+        console.print(as_table(state, watcher, robot.group, "here", width))
+        text = console.export_text()
+        print(text)
+        assert "joint_6" in text
+        assert "states/s" in text
+        assert "-|-" in text
+        assert "…" not in text
+        assert "0.0 deg/s" in text
+        assert max(map(len, text.splitlines())) <= width
 
 
 def test_record(controller, tmp_path):
@@ -276,7 +285,7 @@ def test_monitor_tells_what_a_stream_is_at(streaming, capsys):
         feed = robot.stream()
         feed.append([0, 0.6], [[0.0] * 6, [0.01] * 6])
         robot.wait_until(lambda s: s.trajectory is not None and s.trajectory.name == "STARVED", 60)
-        data = struct.pack("<3i80s", 5, 24, 3, b"Corner path failure")
+        data = struct.pack("<3i80s160x", 5, 24, 3, b"Corner path failure")
         words = ["monitor", streaming.address, "--plain", "--count", "3"]
         streaming.extra = frame(1308, 1, 0, data)
         assert robot.next_event(60).code == 50024

@@ -1,5 +1,7 @@
 """Breakpoints, steps, stacks and values; all time stands while it is paused."""
 
+import threading
+
 import pytest
 
 from rapidgen.controller import VirtualController
@@ -296,3 +298,112 @@ def test_a_debugger_changes_no_time(boot):
                 debugger.resume()
         times.append((controller.now, controller.task("T_ROB1")["m:total"]))
     assert times[0] == times[1]
+
+
+def test_in_real_time_requests_are_served_and_nothing_is_caught_up(boot):
+    controller, debugger = boot(clock="real")
+    halted = threading.Event()
+    debugger.changed.add(lambda: halted.set() if debugger.halt is not None else None)
+    debugger.add(Breakpoint("m", 9, hits=">=2"))
+    controller.start()
+    assert halted.wait(30)
+    held = controller.call(lambda: controller.now)
+    for _ in range(20):
+        assert controller.call(lambda: debugger.evaluate("T_ROB1", "i").text) == "1"
+    assert controller.call(lambda: controller.now) == held
+    halted.clear()
+    controller.call(debugger.resume)
+    assert halted.wait(30)
+    assert controller.call(lambda: controller.now) == pytest.approx(held + 0.5, abs=0.01)
+    controller.stop()
+
+
+JUMPS = """MODULE m
+  PERS num n := 0;
+  PROC main()
+  again:
+    n := n + 1;
+    WaitTime 0.1;
+    work;
+    GOTO again;
+  ENDPROC
+  PROC work()
+    n := n + 10;
+  ENDPROC
+ENDMODULE
+"""
+
+
+def test_a_routine_that_cannot_be_reached_is_told(boot):
+    controller, debugger = boot(JUMPS)
+    controller.run_for(0.55)
+    assert "GOTO" in debugger.add(Breakpoint("m", 5)).doubt
+    debugger.add(Breakpoint("m", 11))
+    controller.run_for(1.0)
+    assert line(debugger) == 11, "routines that it calls are noticed"
+    assert controller.task("T_ROB1")["m:n"] == 56
+
+
+NESTED = """MODULE m
+  PERS num n := 0;
+  PROC main()
+    FOR i FROM 1 TO 3 DO
+      outer i;
+    ENDFOR
+  ENDPROC
+  PROC outer(num a)
+    VAR num sum := 0;
+    WHILE sum < 20 DO
+      IF added(a) > 0 THEN
+        sum := sum + a + 5;
+      ELSE
+        n := -1000;
+      ENDIF
+    ENDWHILE
+  ENDPROC
+  FUNC num added(num a)
+    FOR k FROM 1 TO 40 DO
+      n := n + 1;
+    ENDFOR
+    RETURN a;
+  ENDFUNC
+ENDMODULE
+"""
+
+
+@pytest.mark.parametrize("moment", [0.0001, 0.0004, 0.0007, 0.0011, 0.0016, 0.0023, 0.0031])
+def test_going_on_in_other_code_executes_nothing_twice(boot, moment):
+    """Wherever the program is when the first breakpoint comes, deep in loops and calls."""
+    results = []
+    for debugged in (False, True):
+        controller, debugger = boot(NESTED, cycle="once")
+        controller.run_for(moment)
+        assert controller.task("T_ROB1").state == "running"
+        if debugged:
+            debugger.add(Breakpoint("m", 14))
+        controller.run(max_time=1.0)
+        results.append(controller.task("T_ROB1")["m:n"])
+    assert results[0] == results[1] == 400
+
+
+HIDDEN = """MODULE m(NOSTEPIN)
+  PERS num n := 0;
+  PROC main()
+    n := 1;
+    inner;
+    n := 3;
+  ENDPROC
+  PROC inner()
+    n := 2;
+  ENDPROC
+ENDMODULE
+"""
+
+
+def test_steps_stay_in_a_module_that_is_executed_as_a_whole_only_if_they_began_there(boot):
+    controller, debugger = boot(HIDDEN, cycle="once")
+    debugger.add(Breakpoint("m", 5))
+    controller.run_for(1.0)
+    debugger.step("T_ROB1", "in")
+    controller.run_for(1.0)
+    assert line(debugger) == 9

@@ -94,6 +94,8 @@ def test_commands(path, tmp_path, environment):
 
 @pytest.mark.parametrize("path", [p for p in PAGES if blocks(p, "python")], ids=lambda p: p.name)
 def test_python(path, tmp_path, environment):
+    for name, text in files(path):
+        (tmp_path / name).write_text(text, encoding="utf-8")
     program = "\n".join(blocks(path, "python"))
     done = subprocess.run(
         [sys.executable, "-W", "error", "-c", program],

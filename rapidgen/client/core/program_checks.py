@@ -75,6 +75,8 @@ class _Walk:
         self.group = group
         self.here = start
         self.index = 0
+        self.singular = self.any_posture = False
+        """Whether singularities and other configurations are allowed."""
         self.chosen = (0, 0)
         """Numbers of the tool and of the work object."""
         self.found: list[Diagnostic] = []
@@ -239,6 +241,11 @@ def _wait(walk: _Walk, step: ProgramStep) -> tuple[Sequence[float], float]:
 def _wait_signal(walk: _Walk, step: ProgramStep) -> tuple[Sequence[float], float]:
     number = _signal(walk, step.signal, step.value, sets=False)
     return (number, step.value, _seconds(walk, step)), step.seconds
+
+
+def _settings(walk: _Walk, step: ProgramStep) -> tuple[Sequence[float], float]:
+    walk.singular, walk.any_posture = bool(int(step.value) & 1), bool(int(step.value) & 2)
+    return (step.value,), 0.0
 
 
 def _set(walk: _Walk, step: ProgramStep) -> tuple[Sequence[float], float]:
@@ -410,6 +417,7 @@ _MAKERS: dict[Instruction, Callable[[_Walk, ProgramStep], tuple[Sequence[float],
     Instruction.WAIT_SIGNAL: _wait_signal,
     Instruction.SET: _set,
     Instruction.CALL: _call,
+    Instruction.SETTINGS: _settings,
 }
 
 
@@ -517,13 +525,17 @@ def _along(walk: _Walk, step: ProgramStep, robot: Frames, way: _Way, outer: Post
                 "RG672",
                 f"the way passes a singularity after {share:.0%}: {joint.name} would turn "
                 f"{most:.2f} rad at once",
-                "another way, or joints",
+                "" if walk.singular else "another way, joints, or `allow(singularities=True)`",
+                severity=Severity.WARNING if walk.singular else Severity.ERROR,
             )
-            return seconds
+            if not walk.singular:
+                return seconds
         nodes.append(posture)
     walk.here = nodes[-1]
-    if step.configuration is not None and not robot.kinematics.matches(
-        walk.here, step.configuration
+    if (
+        step.configuration is not None
+        and not walk.any_posture
+        and not robot.kinematics.matches(walk.here, step.configuration)
     ):
         walk.say(
             "RG671",

@@ -1,11 +1,18 @@
 """Sockets as a program holds them, and the controller's table of those that are in use."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from enum import IntEnum
+from types import MappingProxyType
 from typing import Literal
 
-from rapidgen.machine.network.interface import Endpoint, Network, SocketAddress
+from rapidgen.machine.network.interface import (
+    Endpoint,
+    Network,
+    NetworkFault,
+    NetworkReason,
+    SocketAddress,
+)
 
 MAX_SOCKETS = 32
 """Sockets of one controller at a time (switch `sockets_limited`)."""
@@ -65,6 +72,17 @@ class SocketTable:
     def add(self, device: SocketDevice, task: str) -> None:
         """A socket comes into use."""
         self._owners[device] = task
+
+    @property
+    def in_use(self) -> Mapping[SocketDevice, str]:
+        """Sockets and the tasks that have them."""
+        return MappingProxyType(self._owners)
+
+    def cut(self, device: SocketDevice) -> None:
+        """The connection is reset, as a peer that has crashed does; the program finds out."""
+        if device.endpoint is not None:
+            device.endpoint.fault = NetworkFault(NetworkReason.RESET, "by hand")
+            self._network.close(device.endpoint, abort=True)
 
     def release(self, device: SocketDevice, *, abort: bool = False) -> None:
         """Close a socket; harmless when it is closed."""

@@ -17,6 +17,8 @@ METADATA: Final = "rapidgen"
 """Name of the metadata: format, title, version."""
 ROBOTS: Final = "robots.json"
 """Attachment: the configured groups."""
+SIGNALS: Final = "signals.json"
+"""Attachment: what each signal is, `RecordedSignal` by name."""
 OVERVIEW: Final = "overview.json"
 """Attachment at the end: positions of each robot once a second, `[[time s, [..], [..]], ..]`."""
 SOURCES: Final = "source/"
@@ -45,7 +47,7 @@ class RecordedFrame(Recorded):
     orientation: tuple[float, float, float, float]
 
 
-class Carried(Recorded):
+class CarriedFrames(Recorded):
     """Tool (in the flange, or in the world where it is stationary) and work object."""
 
     tool: RecordedFrame
@@ -77,7 +79,7 @@ class TaskPointers(Recorded):
     fault: str = ""
 
 
-class PanelState(Recorded):
+class RecordedPanel(Recorded):
     """The controller as a whole."""
 
     mode: str
@@ -88,10 +90,18 @@ class PanelState(Recorded):
     override: float
 
 
-class SignalValues(Recorded):
+class RecordedSignals(Recorded):
     """Signals that have changed."""
 
     values: dict[str, float]
+
+
+class RecordedSignal(Recorded):
+    """What a signal is."""
+
+    kind: Literal["DI", "DO", "GI", "GO", "AI", "AO"]
+    device: str
+    largest: float | None
 
 
 class LogLine(Recorded):
@@ -129,9 +139,9 @@ class Snapshot(Recorded):
     """All of it at once."""
 
     joints: dict[str, Joints]
-    carried: dict[str, Carried]
+    carried: dict[str, CarriedFrames]
     tasks: dict[str, TaskPointers]
-    panel: PanelState
+    panel: RecordedPanel
     signals: dict[str, float]
     watch: tuple[WatchedValue, ...]
     connections: tuple[SocketFrame, ...]
@@ -141,10 +151,10 @@ class Snapshot(Recorded):
 
 CHANNELS: Final[Mapping[str, type[Recorded]]] = {
     "joints": Joints,
-    "carried": Carried,
+    "carried": CarriedFrames,
     "task": TaskPointers,
-    "panel": PanelState,
-    "signals": SignalValues,
+    "panel": RecordedPanel,
+    "signals": RecordedSignals,
     "log": LogLine,
     "sockets": SocketFrame,
     "watch": WatchedValue,

@@ -25,7 +25,9 @@ from rapidgen.view.recording.chunks import (
 
 _NS = 1_000_000_000
 _M = TypeVar("_M", bound=m.Recorded)
+_T = TypeVar("_T")
 EVENTS_KEPT = 50
+_SIGNALS: TypeAdapter[dict[str, m.RecordedSignal]] = TypeAdapter(dict[str, m.RecordedSignal])
 _Row = tuple[float, tuple[float, ...], tuple[float, ...]]
 _OVERVIEW: TypeAdapter[dict[str, list[_Row]]] = TypeAdapter(dict[str, list[_Row]])
 
@@ -37,9 +39,9 @@ class Moment:
     time: float
     """s from the controller's start."""
     joints: dict[str, m.Joints] = field(default_factory=dict)
-    carried: dict[str, m.Carried] = field(default_factory=dict)
+    carried: dict[str, m.CarriedFrames] = field(default_factory=dict)
     tasks: dict[str, m.TaskPointers] = field(default_factory=dict)
-    panel: m.PanelState | None = None
+    panel: m.RecordedPanel | None = None
     signals: dict[str, float] = field(default_factory=dict)
     watch: dict[tuple[str, str], m.WatchedValue] = field(default_factory=dict)
     """By task and expression."""
@@ -86,7 +88,9 @@ class RecordingFile:
         self.begin = min(piece.begin for piece in pieces) / _NS
         self.end = max(piece.end for piece in pieces) / _NS
         self.robots = self._robots()
-        self._overview = self._samples_a_second()
+        self.signals = self._attached(m.SIGNALS, _SIGNALS, {})
+        """What each signal is, by name."""
+        self._overview = self._attached(m.OVERVIEW, _OVERVIEW, {})
 
     def _refused(self, why: str) -> Exception:
         return refusal(
@@ -106,14 +110,15 @@ class RecordingFile:
                     raise self._refused(f"its robots cannot be read: {error}") from error
         raise self._refused("it tells of no robots")
 
-    def _samples_a_second(self) -> dict[str, list[_Row]]:
-        for name, _, data in self._contents.attachments:
-            if name == m.OVERVIEW:
+    def _attached(self, name: str, kind: TypeAdapter[_T], otherwise: _T) -> _T:
+        """What an attachment holds, where there is one."""
+        for own, _, data in self._contents.attachments:
+            if own == name:
                 try:
-                    return _OVERVIEW.validate_json(data)
+                    return kind.validate_json(data)
                 except ValidationError as error:
-                    raise self._refused("its overview cannot be read") from error
-        return {}
+                    raise self._refused(f"its {name} cannot be read") from error
+        return otherwise
 
     def sources(self, time: float) -> dict[tuple[str, str], str]:
         """By task and module: the text that was loaded at a time."""
@@ -150,13 +155,13 @@ class RecordingFile:
             case "joints":
                 moment.joints[name] = self._decoded(m.Joints, message)
             case "carried":
-                moment.carried[name] = self._decoded(m.Carried, message)
+                moment.carried[name] = self._decoded(m.CarriedFrames, message)
             case "task":
                 moment.tasks[name] = self._decoded(m.TaskPointers, message)
             case "panel":
-                moment.panel = self._decoded(m.PanelState, message)
+                moment.panel = self._decoded(m.RecordedPanel, message)
             case "signals":
-                moment.signals |= self._decoded(m.SignalValues, message).values
+                moment.signals |= self._decoded(m.RecordedSignals, message).values
             case "log":
                 moment.log = [*moment.log, self._decoded(m.LogLine, message)][-EVENTS_KEPT:]
             case "sockets":
@@ -205,7 +210,7 @@ class RecordingFile:
         """Times and values of a signal: at the beginning, and each change until the end, s."""
         found = [(begin, self.at(begin).signals[name])] if name in self.at(begin).signals else []
         for message in self._messages(round(begin * _NS) + 1, round(end * _NS), "signals"):
-            values = self._decoded(m.SignalValues, message).values
+            values = self._decoded(m.RecordedSignals, message).values
             if name in values:
                 found.append((message.time / _NS, values[name]))
         return found

@@ -4,11 +4,21 @@ from collections.abc import Callable
 
 from rapidgen.controller.cabinet import Cabinet
 from rapidgen.view.aspect import Aspect
+from rapidgen.view.simulator.connections import ConnectionsAspect
 from rapidgen.view.simulator.motion import MotionAspect
 from rapidgen.view.simulator.pendant import PendantAspect
+from rapidgen.view.simulator.program import ProgramAspect
+from rapidgen.view.simulator.signals import SignalsAspect
 from rapidgen.view.simulator.telling import TellingAspect
 
-ASPECTS: tuple[Callable[[Cabinet], Aspect], ...] = (MotionAspect, PendantAspect, TellingAspect)
+ASPECTS: tuple[Callable[[Cabinet], Aspect], ...] = (
+    MotionAspect,
+    PendantAspect,
+    TellingAspect,
+    SignalsAspect,
+    ConnectionsAspect,
+    ProgramAspect,
+)
 """What is told of a virtual controller; the scene comes first."""
 
 

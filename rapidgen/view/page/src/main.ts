@@ -93,7 +93,8 @@ if (stage) {
 
 // -- all ------------------------------------------------------------------------------------------
 
-const tabs = new Tabs(PANELS.map((make) => make(view)));
+const panels = PANELS.map((make) => make(view));
+const tabs = new Tabs(panels);
 document.body.append(bar, banner, h("div", { class: "whole" }, space, tabs.element), notices);
 
 let state: Positions | null = null;
@@ -120,4 +121,6 @@ addEventListener("hashchange", () => location.reload());
 void link.open();
 
 // For tests, and for whoever is curious in the browser's console.
-Object.assign(window, { rapidgen: { link, stage, state: () => state } });
+Object.assign(window, {
+  rapidgen: { link, stage, state: () => state, panels: Object.fromEntries(panels.map((panel) => [panel.id, panel])) },
+});

@@ -13,6 +13,13 @@ export interface AnswerQuestion {
   readonly value: string;
 }
 
+/** Set a datum, an element or a component where it is looked at. */
+export interface Assign {
+  readonly do: "assign";
+  readonly target: string;
+  readonly value: string;
+}
+
 /** A joint and the controller axis that it drives; limits and speed are the axis' (rad, m). */
 export interface Axis {
   readonly name: string;
@@ -23,11 +30,45 @@ export interface Axis {
   readonly speed: number;
 }
 
+/** All sockets in use. */
+export interface Connections {
+  readonly type: "connections";
+  readonly sockets: readonly ShownSocket[];
+}
+
 /** Where a robot is, as text for a program; it is the reply's. */
 export interface Copy {
   readonly do: "copy";
   readonly group: string;
   readonly form: "jointtarget" | "robtarget" | "python";
+}
+
+/** Count how often lines are reached from now on, or no more. */
+export interface Cover {
+  readonly do: "cover";
+  readonly on: boolean;
+}
+
+/** How often the lines of a text were reached; only where a statement begins. */
+export interface Covered {
+  readonly type: "covered";
+  readonly source: number;
+  readonly lines: Readonly<Record<string, number>>;
+}
+
+/** Cut a connection: the task's socket is reset, and so is the other end. */
+export interface Cut {
+  readonly do: "cut";
+  readonly number: number;
+}
+
+/** Breakpoints, the pause, lines of log points, the latest last. */
+export interface Debugging {
+  readonly type: "debugging";
+  readonly halt: SeenHalt | null;
+  readonly breakpoints: readonly SeenBreakpoint[];
+  readonly errors: "never" | "unhandled" | "all";
+  readonly output: readonly string[];
 }
 
 /** A dialog that waits; without choices a text or number is typed. */
@@ -45,10 +86,32 @@ export interface Dialogs {
   readonly waiting: readonly Dialog[];
 }
 
+/** Pause, go on, step a task. */
+export interface Drive {
+  readonly do: "drive";
+  readonly how: "pause" | "resume" | "in" | "over" | "out";
+  readonly task: string;
+}
+
+/** The reply's text is the value of an expression where it is looked at. */
+export interface Evaluate {
+  readonly do: "evaluate";
+  readonly expression: string;
+}
+
 /** A request and the number that its reply will have. */
 export interface FromPage {
   readonly id: number;
-  readonly request: Act | SetMode | SetOverride | SetPace | AnswerQuestion | Jog | Copy;
+  readonly request: Act | SetMode | SetOverride | SetPace | AnswerQuestion | Jog | Copy | SetSignal | Cut | ReadSource | SetBreakpoint | RemoveBreakpoint | Drive | RunTo | StopOnErrors | LookAt | Evaluate | Assign | SetWatch | Cover | Seek | Play | ReadCurves;
+}
+
+/** What the routine that is looked at holds, and the watch list. */
+export interface HeldValues {
+  readonly type: "held";
+  readonly task: string;
+  readonly level: number;
+  readonly variables: readonly SeenValue[];
+  readonly watch: readonly SeenValue[];
 }
 
 /** Put a standing robot elsewhere: controller axes in wire order. */
@@ -58,10 +121,23 @@ export interface Jog {
   readonly axes: readonly number[];
 }
 
+/** Modules of a task. A text that two tasks share has one number. */
+export interface LoadedModules {
+  readonly task: string;
+  readonly modules: Readonly<Record<string, number>>;
+}
+
+/** What is loaded; texts are asked for (ReadSource). */
+export interface LoadedPrograms {
+  readonly type: "loaded";
+  readonly tasks: readonly LoadedModules[];
+}
+
 /** Events that are new, oldest first. */
 export interface Log {
   readonly type: "log";
   readonly entries: readonly LogEntry[];
+  readonly fresh: boolean;
 }
 
 /** One event with ABB's number. */
@@ -73,6 +149,13 @@ export interface LogEntry {
   readonly title: string;
   readonly texts: readonly string[];
   readonly task: string;
+}
+
+/** Show the values of a routine of a call stack from now on; -1: the innermost. */
+export interface LookAt {
+  readonly do: "look";
+  readonly task: string;
+  readonly level: number;
 }
 
 /** What the pendant's status bar says. */
@@ -90,6 +173,29 @@ export interface PanelState {
   readonly pace: number;
 }
 
+/** Let it run, at so many seconds in a second; 0 stops. */
+export interface Play {
+  readonly do: "play";
+  readonly rate: number;
+}
+
+/** Where a recording is looked at; times in s. `rate` 0: it stands. */
+export interface Playback {
+  readonly type: "playback";
+  readonly begin: number;
+  readonly end: number;
+  readonly time: number;
+  readonly rate: number;
+  readonly cut: boolean;
+}
+
+/** Program pointers and motion pointers. */
+export interface Pointers {
+  readonly type: "pointers";
+  readonly time: number;
+  readonly tasks: readonly SeenTask[];
+}
+
 /** A frame: position m, orientation q1..q4. */
 export interface Pose {
   readonly position: readonly [number, number, number];
@@ -101,6 +207,27 @@ export interface Positions {
   readonly type: "positions";
   readonly time: number;
   readonly groups: readonly RobotPlace[];
+}
+
+/** The reply's text is PlotData (JSON) of a robot's axes or of a signal. */
+export interface ReadCurves {
+  readonly do: "curves";
+  readonly robot: string;
+  readonly signal: string;
+  readonly begin: number;
+  readonly end: number;
+}
+
+/** The reply's text is a source. */
+export interface ReadSource {
+  readonly do: "source";
+  readonly number: number;
+}
+
+/** Take one away. */
+export interface RemoveBreakpoint {
+  readonly do: "unbreak";
+  readonly number: number;
 }
 
 /** The answer to a request; `error` is empty when it was carried out. */
@@ -123,6 +250,14 @@ export interface RobotPlace {
   readonly standing: boolean;
 }
 
+/** Go on to a line. */
+export interface RunTo {
+  readonly do: "run-to";
+  readonly task: string;
+  readonly module: string;
+  readonly line: number;
+}
+
 /** The first message of a connection, and of a controller that has restarted. */
 export interface Scene {
   readonly type: "scene";
@@ -138,6 +273,42 @@ export interface Screen {
   readonly rows: readonly string[];
 }
 
+/** Go to a moment. */
+export interface Seek {
+  readonly do: "seek";
+  readonly time: number;
+}
+
+/** A breakpoint, and in which line it lies (0: nowhere, `doubt` says why). */
+export interface SeenBreakpoint {
+  readonly number: number;
+  readonly task: string;
+  readonly module: string;
+  readonly line: number;
+  readonly condition: string;
+  readonly hits: string;
+  readonly log: string;
+  readonly count: number;
+  readonly doubt: string;
+}
+
+/** Why everything is paused. */
+export interface SeenHalt {
+  readonly reason: "breakpoint" | "step" | "cursor" | "error" | "pause";
+  readonly task: string;
+  readonly place: SeenPlace | null;
+  readonly text: string;
+}
+
+/** Where in a program. `made` is the template's line of a generated one. */
+export interface SeenPlace {
+  readonly module: string;
+  readonly routine: string;
+  readonly line: number;
+  readonly made: string;
+  readonly level: "program" | "trap" | "event";
+}
+
 /** A robot. `urdf` is its description, whose meshes are paths of this server. */
 export interface SeenRobot {
   readonly name: string;
@@ -148,6 +319,33 @@ export interface SeenRobot {
   readonly movable: readonly string[];
   readonly axes: readonly Axis[];
   readonly has_geometry: boolean;
+}
+
+/** A task: what it executes, outermost routine first, and what its robot executes. */
+export interface SeenTask {
+  readonly name: string;
+  readonly state: string;
+  readonly stack: readonly SeenPlace[];
+  readonly motion: SeenPlace | null;
+}
+
+/** A value in RAPID's own words. */
+export interface SeenValue {
+  readonly name: string;
+  readonly kind: string;
+  readonly text: string;
+  readonly settable: boolean;
+}
+
+/** A new one; the reply's text is its number. */
+export interface SetBreakpoint {
+  readonly do: "break";
+  readonly module: string;
+  readonly line: number;
+  readonly task: string;
+  readonly condition: string;
+  readonly hits: string;
+  readonly log: string;
 }
 
 /** Turn the key. */
@@ -168,6 +366,55 @@ export interface SetPace {
   readonly value: number;
 }
 
-export type ToPage = Dialogs | Log | PanelState | Positions | Replied | Scene | Screen;
+/** Give a signal a value. */
+export interface SetSignal {
+  readonly do: "signal";
+  readonly name: string;
+  readonly value: number;
+}
 
-export type Request = Act | AnswerQuestion | Copy | Jog | SetMode | SetOverride | SetPace;
+/** The watch list. */
+export interface SetWatch {
+  readonly do: "watch";
+  readonly expressions: readonly string[];
+}
+
+/** A signal; `largest` is None where nothing bounds it. */
+export interface ShownSignal {
+  readonly name: string;
+  readonly kind: "DI" | "DO" | "GI" | "GO" | "AI" | "AO";
+  readonly device: string;
+  readonly value: number;
+  readonly largest: number | null;
+}
+
+/** A socket of a task. Addresses are empty where there is none. */
+export interface ShownSocket {
+  readonly number: number;
+  readonly task: string;
+  readonly status: string;
+  readonly local: string;
+  readonly peer: string;
+}
+
+/** Signals that have changed. */
+export interface SignalValues {
+  readonly type: "values";
+  readonly values: Readonly<Record<string, number>>;
+}
+
+/** All signals. */
+export interface Signals {
+  readonly type: "signals";
+  readonly signals: readonly ShownSignal[];
+}
+
+/** At which errors everything pauses. */
+export interface StopOnErrors {
+  readonly do: "errors";
+  readonly errors: "never" | "unhandled" | "all";
+}
+
+export type ToPage = Connections | Covered | Debugging | Dialogs | HeldValues | LoadedPrograms | Log | PanelState | Playback | Pointers | Positions | Replied | Scene | Screen | SignalValues | Signals;
+
+export type Request = Act | AnswerQuestion | Assign | Copy | Cover | Cut | Drive | Evaluate | Jog | LookAt | Play | ReadCurves | ReadSource | RemoveBreakpoint | RunTo | Seek | SetBreakpoint | SetMode | SetOverride | SetPace | SetSignal | SetWatch | StopOnErrors;

@@ -2,7 +2,11 @@
 
 import type { MakePanel } from "../panel";
 import { axesPanel } from "./axes";
+import { connectionsPanel } from "./connections";
 import { logPanel } from "./log";
 import { pendantPanel } from "./pendant";
+import { programPanel } from "./program";
+import { recordingPanel } from "./recording";
+import { signalsPanel } from "./signals";
 
-export const PANELS: readonly MakePanel[] = [pendantPanel, axesPanel, logPanel];
+export const PANELS: readonly MakePanel[] = [pendantPanel, recordingPanel, programPanel, axesPanel, signalsPanel, logPanel, connectionsPanel];

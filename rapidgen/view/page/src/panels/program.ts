@@ -1,0 +1,275 @@
+// Programs: their sources with pointers and breakpoints, steps, call stack, values.
+
+import { h, say, section } from "../dom";
+import type { Debugging, Drive, Pointers, SeenBreakpoint, SeenPlace, SeenValue } from "../messages";
+import type { MakePanel, View } from "../panel";
+import { SourceEditor } from "../program/editor";
+import { Sources } from "../program/sources";
+
+const REASONS = { breakpoint: "At a breakpoint", step: "Stepped", cursor: "At the cursor", error: "Error", pause: "Paused" };
+const KEYS: Record<string, Drive["how"]> = { F5: "resume", F6: "pause", F10: "over", F11: "in" };
+
+export const programPanel: MakePanel = (view) => new ProgramPanel(view);
+
+/** What a recording has not. */
+function live(element: HTMLElement): HTMLElement {
+  element.classList.add("live");
+  return element;
+}
+
+class ProgramPanel {
+  readonly id = "program";
+  readonly title = "Program";
+  readonly element: HTMLElement;
+  private readonly sources: Sources;
+  private readonly editor: SourceEditor;
+  private task = "";
+  private module = "";
+  private level = -1;
+  private visible = false;
+  private pointers: Pointers | null = null;
+  private debugging: Debugging | null = null;
+  private readonly covered = new Map<number, Readonly<Record<string, number>>>();
+  private expressions: string[] = [];
+
+  private readonly tasks = h("select", { "aria-label": "Task", onchange: () => this.choose(this.tasks.value) });
+  private readonly modules = h("select", { "aria-label": "Module", onchange: () => {
+    this.follow.checked = false;
+    void this.open(this.modules.value);
+  } });
+  private readonly follow = h("input", { type: "checkbox", id: "follow", checked: true });
+  private readonly go = h("button", { type: "button", class: "primary", title: "F5, F6",
+    onclick: () => this.drive(this.debugging?.halt ? "resume" : "pause") }, "Pause");
+  private readonly steps = (["over", "in", "out"] as const).map((how) =>
+    h("button", { type: "button", "data-step": how, title: { over: "F10", in: "F11", out: "Shift F11" }[how],
+      onclick: () => this.drive(how) }, { over: "Step over", in: "Step in", out: "Step out" }[how]));
+  private readonly cursor = h("button", { type: "button", onclick: () => this.view.order(
+    { do: "run-to", task: this.task, module: this.module, line: this.editor.line }) }, "To cursor");
+  private readonly errors = h("select", { "aria-label": "Pause at errors", onchange: () => this.view.order(
+    { do: "errors", errors: this.errors.value as Debugging["errors"] }) },
+    h("option", { value: "never" }, "Errors do not pause"),
+    h("option", { value: "unhandled" }, "Pause at errors that stop a task"),
+    h("option", { value: "all" }, "Pause at handled errors, too"));
+  private readonly counts = h("input", { type: "checkbox", id: "counts",
+    onchange: () => this.view.order({ do: "cover", on: this.counts.checked }) });
+  private readonly halt = h("p", { class: "halt", role: "status", hidden: true });
+  private readonly stack = h("ol", { class: "stack" });
+  private readonly variables = h("table", { class: "values" });
+  private readonly watch = h("table", { class: "values" });
+  private readonly points = h("ul", { class: "points" });
+  private readonly output = h("pre", { class: "screen", "aria-label": "Log points", tabindex: 0 });
+
+  constructor(private readonly view: View) {
+    const { link } = view;
+    this.sources = new Sources(link);
+    this.editor = new SourceEditor({
+      toggle: (line) => this.toggle(line),
+      value: (expression) => link.ask({ do: "evaluate", expression }).catch(() => null),
+    });
+    const added = h("input", { type: "text", placeholder: "Expression", "aria-label": "Watch an expression", maxlength: 1000 });
+    const add = h("form", { class: "row", onsubmit: (event) => {
+      event.preventDefault();
+      if (added.value.trim()) this.watchAll([...this.expressions, added.value.trim()]);
+      added.value = "";
+    } }, added, h("button", {}, "Watch"));
+    this.element = h("div", { class: "panel program", onkeydown: (event) => this.key(event as KeyboardEvent) },
+      h("div", { class: "tools" },
+        h("div", { class: "row" }, this.tasks, this.modules, h("label", {}, this.follow, " Follow")),
+        h("div", { class: "row commands" }, this.go, ...this.steps, this.cursor),
+        this.halt),
+      this.editor.element,
+      section("Call stack", this.stack),
+      live(section("Values", this.variables)),
+      section("Watch list", this.watch, live(add)),
+      live(section("Breakpoints", this.points, h("div", { class: "row" }, this.errors),
+        h("label", { class: "row" }, this.counts, "Count how often lines are reached"))),
+      live(section("Log points", this.output)),
+      live(h("p", { class: "soft" }, "Everything pauses, time and robots included. A step does not enter traps, event routines and " +
+        "modules with NOSTEPIN: a breakpoint in one is noticed.")));
+    link.on("loaded", (loaded) => {
+      this.sources.take(loaded);
+      this.tasks.replaceChildren(...this.sources.tasks.map((name) => h("option", { value: name }, name)));
+      this.choose(this.sources.tasks.includes(this.task) ? this.task : this.sources.tasks[0] ?? "");
+    });
+    link.on("pointers", (pointers) => {
+      this.pointers = pointers;
+      this.showStack();
+      this.point();
+    });
+    link.on("debugging", (debugging) => this.showDebugging(debugging));
+    link.on("held", (held) => {
+      if (held.task !== this.task) return;
+      this.level = held.level;
+      this.variables.replaceChildren(...held.variables.map((value) => this.row(value)));
+      this.expressions = held.watch.map((value) => value.name);
+      this.watch.replaceChildren(...held.watch.map((value) => this.row(value, () =>
+        this.watchAll(this.expressions.filter((own) => own !== value.name)))));
+      this.showStack();
+      this.point();
+    });
+    link.on("covered", ({ source, lines }) => {
+      this.covered.set(source, lines);
+      this.mark();
+    });
+    link.on("scene", () => this.covered.clear());
+  }
+
+  shown(visible: boolean): void {
+    this.visible = visible;
+    document.body.classList.toggle("programs", visible);
+    if (visible) this.point();
+  }
+
+  /** For tests: what the editor shows. */
+  get seen(): SourceEditor["seen"] & { module: string } {
+    return { ...this.editor.seen, module: this.module };
+  }
+
+  private drive(how: Drive["how"]): void {
+    this.follow.checked = true;
+    this.view.order({ do: "drive", how, task: this.task });
+  }
+
+  private key(event: KeyboardEvent): void {
+    const how = event.key === "F11" && event.shiftKey ? "out" : KEYS[event.key];
+    if (!how) return;
+    event.preventDefault();
+    this.drive(how);
+  }
+
+  private choose(task: string): void {
+    this.task = this.tasks.value = task;
+    const names = this.sources.modules(task);
+    this.modules.replaceChildren(...names.map((name) => h("option", { value: name }, name)));
+    if (task) this.view.order({ do: "look", task, level: -1 });
+    void this.open(names.includes(this.module) ? this.module : names[0] ?? "", true).then(() => this.point());
+  }
+
+  private async open(module: string, again = false): Promise<void> {
+    if ((module === this.module && !again) || !module) return;
+    this.module = this.modules.value = module;
+    const text = await this.sources.text(this.task, module).catch((why: Error) => `! ${why.message}`);
+    if (module !== this.module) return;
+    this.editor.open(text);
+    this.mark();
+  }
+
+  private get seenTask(): Pointers["tasks"][number] | undefined {
+    return this.pointers?.tasks.find((own) => own.name === this.task);
+  }
+
+  private get place(): SeenPlace | undefined {
+    const stack = this.seenTask?.stack ?? [];
+    return this.debugging?.halt && this.level >= 0 ? stack[this.level] : stack.at(-1);
+  }
+
+  /** Go where the program is. */
+  private point(): void {
+    if (!this.visible) return;
+    const place = this.place;
+    if (place && this.follow.checked) {
+      void this.open(place.module).then(() => {
+        if (this.editor.seen.program !== place.line || this.debugging?.halt) this.editor.go(place.line);
+        this.mark();
+      });
+    } else {
+      this.mark();
+    }
+  }
+
+  private mark(): void {
+    const at = (place: SeenPlace | null | undefined): number | null =>
+      place && place.module === this.module ? place.line : null;
+    const own = this.debugging?.breakpoints.filter((point) => point.module.toLowerCase() === this.module.toLowerCase()) ?? [];
+    const number = this.sources.number(this.task, this.module);
+    this.editor.mark({
+      breakpoints: new Map(own.map((point) =>
+        [point.line, point.log ? "log" : point.condition || point.hits ? "conditional" : "plain"])),
+      program: at(this.place), motion: at(this.seenTask?.motion),
+      covered: (number === undefined ? undefined : this.covered.get(number)) ?? {},
+    });
+  }
+
+  private toggle(line: number): void {
+    const there = this.debugging?.breakpoints.find((point) => point.line === line && point.module === this.module);
+    if (there) this.view.order({ do: "unbreak", number: there.number });
+    else this.set({ module: this.module, line });
+  }
+
+  private set(point: { module: string; line: number; task?: string; condition?: string; hits?: string; log?: string }): void {
+    this.view.order({ do: "break", task: "", condition: "", hits: "", log: "", ...point });
+  }
+
+  private watchAll(expressions: readonly string[]): void {
+    this.view.order({ do: "watch", expressions });
+  }
+
+  private showDebugging(debugging: Debugging): void {
+    const before = this.debugging;
+    this.debugging = debugging;
+    const halt = debugging.halt;
+    say(this.go, halt ? "Go on" : "Pause");
+    for (const button of [...this.steps, this.cursor]) button.disabled = !halt;
+    this.halt.hidden = !halt;
+    if (halt) {
+      const place = halt.place ? `${halt.task} · ${halt.place.module}, line ${halt.place.line}` : halt.task;
+      say(this.halt, [REASONS[halt.reason], place, halt.text, halt.place?.made].filter(Boolean).join(" · "));
+      if (halt.task && halt.task !== this.task && halt !== before?.halt) this.choose(halt.task);
+    }
+    this.errors.value = debugging.errors;
+    this.points.replaceChildren(...debugging.breakpoints.map((point) => this.pointRow(point)));
+    say(this.output, debugging.output.join("\n"));
+    this.point();
+  }
+
+  private showStack(): void {
+    const stack = this.seenTask?.stack ?? [];
+    const chosen = this.debugging?.halt ? this.level : -1;
+    this.stack.replaceChildren(...stack.map((place, i) => {
+      const where = `${place.module}, line ${place.line}${place.level === "program" ? "" : ` · ${place.level}`}`;
+      return h("li", {}, h("button", {
+        type: "button", class: "quiet", "aria-pressed": String(i === chosen), title: place.made,
+        onclick: () => {
+          this.follow.checked = true;
+          this.view.order({ do: "look", task: this.task, level: i });
+          this.level = i;
+          this.point();
+        },
+      }, h("b", {}, place.routine), ` ${where}`));
+    }).reverse());
+  }
+
+  private row(value: SeenValue, remove?: () => void): HTMLElement {
+    const text = value.settable
+      ? h("input", { type: "text", value: value.text, "aria-label": `Value of ${value.name}`, onchange: () =>
+          void this.view.link.ask({ do: "assign", target: value.name, value: text instanceof HTMLInputElement ? text.value : "" })
+            .catch((why: Error) => {
+              if (text instanceof HTMLInputElement) text.value = value.text;
+              this.view.notice(why.message, "fault");
+            }) })
+      : h("span", { class: "soft" }, value.text);
+    return h("tr", {}, h("th", { scope: "row", title: value.kind }, value.name), h("td", {}, text),
+      remove ? h("td", {}, h("button", { type: "button", class: "quiet", "aria-label": `Do not watch ${value.name}`, onclick: remove }, "×")) : null);
+  }
+
+  private pointRow(point: SeenBreakpoint): HTMLElement {
+    const field = (name: "condition" | "hits" | "log", hint: string): HTMLInputElement => {
+      const input: HTMLInputElement = h("input", {
+        type: "text", value: point[name], placeholder: hint, "aria-label": `${hint} of line ${point.line}`,
+        onchange: () => {
+          this.view.order({ do: "unbreak", number: point.number });
+          this.set({ module: point.module, line: point.line, task: point.task, condition: point.condition,
+            hits: point.hits, log: point.log, [name]: input.value });
+        },
+      });
+      return input;
+    };
+    return h("li", {},
+      h("div", { class: "row" }, h("b", {}, `${point.module}, line ${point.line}`), h("small", { class: "soft" }, `reached ${point.count} ×`),
+        h("span", { class: "space" }),
+        h("button", { type: "button", class: "quiet", "aria-label": `Remove the breakpoint of line ${point.line}`,
+          onclick: () => this.view.order({ do: "unbreak", number: point.number }) }, "×")),
+      h("div", { class: "row" }, field("condition", "Condition"), field("hits", "Pass"), field("log", "Tell, do not pause")),
+      point.doubt ? h("p", { class: "soft" }, point.doubt) : null);
+  }
+}

@@ -1,0 +1,69 @@
+// Signals by name: searched, and set where the page may.
+
+import { h, say } from "../dom";
+import type { ShownSignal } from "../messages";
+import type { MakePanel, View } from "../panel";
+
+export const signalsPanel: MakePanel = (view) => {
+  const rows = new Map<string, SignalRow>();
+  const words = h("input", { type: "search", placeholder: "Name", "aria-label": "Search signals" });
+  const body = h("tbody", {});
+  const none = h("p", { class: "soft", hidden: true }, "No signal is called so.");
+  let commands = false;
+
+  const filter = (): void => {
+    const wanted = words.value.trim().toLowerCase();
+    let found = 0;
+    for (const [name, row] of rows) {
+      row.element.hidden = !name.toLowerCase().includes(wanted);
+      found += Number(!row.element.hidden);
+    }
+    none.hidden = found > 0;
+  };
+  words.addEventListener("input", filter);
+
+  view.link.on("scene", (scene) => { commands = scene.may_command; });
+  view.link.on("signals", ({ signals }) => {
+    rows.clear();
+    for (const signal of [...signals].sort((a, b) => a.name.localeCompare(b.name)))
+      rows.set(signal.name, new SignalRow(signal, commands, view));
+    body.replaceChildren(...[...rows.values()].map((row) => row.element));
+    filter();
+  });
+  view.link.on("values", ({ values }) => {
+    for (const [name, value] of Object.entries(values)) rows.get(name)?.show(value);
+  });
+  return {
+    id: "signals", title: "Signals",
+    element: h("div", { class: "panel" }, h("div", { class: "row filter" }, words),
+      h("table", { class: "signals" }, body), none),
+  };
+};
+
+class SignalRow {
+  readonly element: HTMLElement;
+  private readonly control: HTMLButtonElement | HTMLInputElement;
+  private now = 0;
+
+  constructor(signal: ShownSignal, commands: boolean, view: View) {
+    const set = (value: number): void => view.order({ do: "signal", name: signal.name, value });
+    const label = `Set ${signal.name}`;
+    this.control = signal.largest === 1
+      ? h("button", { type: "button", "aria-label": label, class: "lamp", disabled: !commands, onclick: () => set(this.now ? 0 : 1) })
+      : h("input", { type: "number", step: "any", "aria-label": label, disabled: !commands,
+          onchange: () => set(Number(this.control.value)) });
+    this.element = h("tr", {}, h("th", { scope: "row", title: signal.device }, signal.name),
+      h("td", { class: "soft" }, signal.kind), h("td", {}, this.control));
+    this.show(signal.value);
+  }
+
+  show(value: number): void {
+    this.now = value;
+    if (this.control instanceof HTMLButtonElement) {
+      say(this.control, String(value));
+      this.control.setAttribute("aria-pressed", String(value !== 0));
+    } else if (document.activeElement !== this.control) {
+      this.control.value = String(value);
+    }
+  }
+}

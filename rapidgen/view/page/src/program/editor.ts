@@ -1,0 +1,201 @@
+// A source that is read: pointers and breakpoints in it, values under the mouse.
+//
+// It lives in a shadow root: there CodeMirror's styles are constructed, which the page's policy allows.
+
+import { EditorState, RangeSet, StateEffect, StateField, type Extension } from "@codemirror/state";
+import {
+  Decoration, EditorView, GutterMarker, gutter, highlightActiveLine, hoverTooltip, keymap, lineNumbers,
+  type BlockInfo, type ViewUpdate,
+} from "@codemirror/view";
+import { h } from "../dom";
+import { rapid } from "./rapid";
+
+/** What is shown of a source beside its text; lines from 1. */
+export interface Marks {
+  /** Breakpoints: whether one pauses always, on a condition, or only tells. */
+  readonly breakpoints: ReadonlyMap<number, "plain" | "conditional" | "log">;
+  readonly program: number | null;
+  readonly motion: number | null;
+  /** How often lines were reached; empty: nobody counts. */
+  readonly covered: Readonly<Record<number, number>>;
+}
+
+export interface EditorActions {
+  /** Set or take away a breakpoint. */
+  toggle(line: number): void;
+  /** The value of an expression as text, or null. */
+  value(expression: string): Promise<string | null>;
+}
+
+const NONE: Marks = { breakpoints: new Map(), program: null, motion: null, covered: {} };
+const setMarks = StateEffect.define<Marks>();
+const marksOf = StateField.define<Marks>({
+  create: () => NONE,
+  update: (marks, change) => change.effects.reduce((now, e) => (e.is(setMarks) ? e.value : now), marks),
+  provide: (field) => EditorView.decorations.compute([field], (state) => {
+    const { program, motion } = state.field(field);
+    const found = [[program, "program"], [motion, "motion"]]
+      .filter((pair): pair is [number, string] => pair[0] !== null && (pair[0] as number) <= state.doc.lines)
+      .map(([line, kind]) => Decoration.line({ class: `cm-at-${kind}` }).range(state.doc.line(line).from));
+    return RangeSet.of(found, true);
+  }),
+});
+
+class Sign extends GutterMarker {
+  constructor(private readonly text: string, private readonly kind: string, private readonly title: string) {
+    super();
+  }
+  override eq(other: Sign): boolean {
+    return other.kind === this.kind && other.text === this.text;
+  }
+  override toDOM(): Node {
+    return h("span", { class: this.kind, title: this.title }, this.text);
+  }
+}
+
+const SIGNS = {
+  plain: new Sign("●", "cm-break", "Breakpoint"),
+  conditional: new Sign("◆", "cm-break", "Breakpoint with a condition"),
+  log: new Sign("▤", "cm-break", "Log point"),
+};
+const PROGRAM = new Sign("▶", "cm-pointer-program", "Program pointer");
+const MOTION = new Sign("➤", "cm-pointer-motion", "Motion pointer");
+
+const changed = (update: ViewUpdate): boolean =>
+  update.startState.field(marksOf) !== update.state.field(marksOf);
+const lineOf = (view: EditorView, block: BlockInfo): number => view.state.doc.lineAt(block.from).number;
+
+function signs(actions: EditorActions): Extension {
+  return [
+    gutter({
+      class: "cm-breaks",
+      lineMarker: (view, block) => {
+        const kind = view.state.field(marksOf).breakpoints.get(lineOf(view, block));
+        return kind ? SIGNS[kind] : null;
+      },
+      lineMarkerChange: changed,
+      initialSpacer: () => SIGNS.plain,
+      domEventHandlers: {
+        mousedown(view, block) {
+          actions.toggle(lineOf(view, block));
+          return true;
+        },
+      },
+    }),
+    lineNumbers({ domEventHandlers: { mousedown(view, block) {
+      actions.toggle(lineOf(view, block));
+      return true;
+    } } }),
+    gutter({
+      class: "cm-pointers",
+      lineMarker: (view, block) => {
+        const { program, motion } = view.state.field(marksOf);
+        const line = lineOf(view, block);
+        return line === program ? PROGRAM : line === motion ? MOTION : null;
+      },
+      lineMarkerChange: changed,
+      initialSpacer: () => PROGRAM,
+    }),
+    gutter({
+      class: "cm-covered",
+      lineMarker: (view, block) => {
+        const hits = view.state.field(marksOf).covered[lineOf(view, block)];
+        if (hits === undefined) return null;
+        return new Sign(hits ? String(hits) : "–", hits ? "cm-reached" : "cm-missed",
+          hits ? `Reached ${hits} times` : "Not reached");
+      },
+      lineMarkerChange: changed,
+    }),
+  ];
+}
+
+const WORD = /[A-Za-z_]\w*(?:\.[A-Za-z_]\w*|\{[\w,\s]+\})*/g;
+
+function values(actions: EditorActions): Extension {
+  return hoverTooltip(async (view, at) => {
+    const line = view.state.doc.lineAt(at);
+    for (const match of line.text.matchAll(WORD)) {
+      const from = line.from + match.index;
+      if (from <= at && at <= from + match[0].length) {
+        const text = await actions.value(match[0]);
+        if (text === null) return null;
+        return { pos: from, above: true, create: () => ({ dom: h("div", { class: "cm-value" }, `${match[0]} = ${text}`) }) };
+      }
+    }
+    return null;
+  }, { hoverTime: 250 });
+}
+
+const theme = EditorView.theme({
+  "&": { height: "100%", fontSize: "12px", color: "var(--ink)", backgroundColor: "var(--ground)" },
+  ".cm-scroller": { fontFamily: "ui-monospace, 'DejaVu Sans Mono', monospace", lineHeight: "1.5" },
+  ".cm-gutters": { backgroundColor: "var(--paper)", color: "var(--soft)", borderRight: "1px solid var(--line)" },
+  ".cm-breaks": { cursor: "pointer", width: "1.3em", textAlign: "center" },
+  ".cm-lineNumbers": { cursor: "pointer" },
+  ".cm-break": { color: "var(--bad)" },
+  ".cm-pointers": { width: "1.2em" },
+  ".cm-pointer-program": { color: "var(--accent)" },
+  ".cm-pointer-motion": { color: "var(--good)" },
+  ".cm-at-program": { backgroundColor: "color-mix(in srgb, var(--accent) 20%, transparent)" },
+  ".cm-at-motion": { boxShadow: "inset 3px 0 var(--good)" },
+  ".cm-reached": { color: "var(--good)" },
+  ".cm-missed": { color: "var(--bad)" },
+  ".cm-activeLine": { outline: "1px dotted var(--line)", backgroundColor: "transparent" },
+  ".cm-at-program.cm-activeLine": { backgroundColor: "color-mix(in srgb, var(--accent) 20%, transparent)" },
+  ".cm-tooltip": { backgroundColor: "var(--paper)", border: "1px solid var(--line)", borderRadius: "6px" },
+  ".cm-value": { padding: ".2rem .5rem", maxWidth: "30rem", overflowWrap: "anywhere" },
+  "&.cm-focused": { outline: "none" },
+});
+
+export class SourceEditor {
+  readonly element = h("div", { class: "source" });
+  private readonly view: EditorView;
+  private readonly extensions: Extension;
+  private marks = NONE;
+
+  constructor(actions: EditorActions) {
+    const root = this.element.attachShadow({ mode: "open" });
+    this.extensions = [
+      signs(actions), values(actions), marksOf, rapid, theme, highlightActiveLine(),
+      EditorState.readOnly.of(true),
+      EditorView.contentAttributes.of({ "aria-label": "Source", "aria-readonly": "true" }),
+      keymap.of([{ key: "F9", run: () => {
+        actions.toggle(this.line);
+        return true;
+      } }]),
+    ];
+    this.view = new EditorView({ root, parent: root, state: this.state("") });
+  }
+
+  private state(text: string): EditorState {
+    return EditorState.create({ doc: text, extensions: this.extensions });
+  }
+
+  /** The line of the cursor. */
+  get line(): number {
+    return this.view.state.doc.lineAt(this.view.state.selection.main.head).number;
+  }
+
+  open(text: string): void {
+    this.view.setState(this.state(text));
+    this.mark(this.marks);
+  }
+
+  mark(marks: Marks): void {
+    this.marks = marks;
+    this.view.dispatch({ effects: setMarks.of(marks) });
+  }
+
+  /** Bring a line into view, and the cursor into it. */
+  go(line: number): void {
+    const doc = this.view.state.doc;
+    const { from } = doc.line(Math.min(Math.max(line, 1), doc.lines));
+    this.view.dispatch({ selection: { anchor: from }, effects: EditorView.scrollIntoView(from, { y: "center" }) });
+  }
+
+  /** For tests: what is written and marked. */
+  get seen(): { text: string; program: number | null; motion: number | null; breakpoints: number[] } {
+    const { program, motion, breakpoints } = this.marks;
+    return { text: this.view.state.doc.toString(), program, motion, breakpoints: [...breakpoints.keys()] };
+  }
+}

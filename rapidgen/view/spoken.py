@@ -1,0 +1,9 @@
+"""What all messages of the page have in common."""
+
+from pydantic import BaseModel, ConfigDict
+
+
+class Spoken(BaseModel):
+    """What is inside of messages."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")

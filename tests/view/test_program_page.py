@@ -1,0 +1,138 @@
+"""Programs in the page: a breakpoint that the pointer does not pass, steps, values, call stack."""
+
+import pytest
+
+from tests.view.bench import simulator, until
+
+pytestmark = pytest.mark.browser
+
+PROGRAM = """MODULE work
+  PERS num total := 0;
+  VAR pos corner := [1, 2, 3];
+  CONST jointtarget a := [[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+  CONST jointtarget b := [[40,10,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+  PROC main()
+    VAR num i := 0;
+    WHILE TRUE DO
+      i := i + 1;
+      MoveAbsJ a, v1000, fine, tool0;
+      there i;
+      WaitTime 0.2;
+    ENDWHILE
+  ENDPROC
+  PROC there(num n)
+    MoveAbsJ b, v1000, fine, tool0;
+    total := total + n;  ! <img src=x onerror=alert(1)>
+    corner.x := n / 2;
+  ENDPROC
+ENDMODULE
+"""
+SEEN = "rapidgen.panels.program.seen"
+HALTED = "(at => !at.hidden && at.textContent)(document.querySelector('.halt'))"
+
+
+@pytest.fixture
+def address(tmp_path):
+    module = tmp_path / "work.mod"
+    module.write_text(PROGRAM)
+    with simulator(str(module)) as (ready, _):
+        yield ready["view"]
+
+
+@pytest.fixture
+def page(address, open_page):
+    page = open_page(address)
+    page.get_by_role("tab", name="Program").click()
+    until(page, f"window.rapidgen && {SEEN}.text", lambda text: text and "MODULE work" in text)
+    return page
+
+
+def set_breakpoint(page, line):
+    page.locator(".cm-lineNumbers .cm-gutterElement", has_text=f"{line}").first.click()
+    return until(page, f"{SEEN}.breakpoints", lambda lines: line in lines)
+
+
+def halted(page, line):
+    until(page, HALTED, lambda text: text and f"line {line}" in text)
+    until(page, f"{SEEN}.program", lambda at: at == line)
+
+
+def values(page, label):
+    return page.get_by_label(f"Value of {label}", exact=True).input_value()
+
+
+def test_the_pointer_does_not_pass_a_breakpoint(page):
+    until(page, f"{SEEN}.motion", lambda line: line in (10, 16))
+    set_breakpoint(page, 17)
+    halted(page, 17)
+    time = page.evaluate("rapidgen.state().time")
+    total = page.get_by_placeholder("Expression")
+    total.fill("total * 2")
+    total.press("Enter")
+    page.get_by_role("row", name="total * 2").wait_for()
+    before = values(page, "n")
+    page.wait_for_timeout(700)
+    assert page.evaluate(f"{SEEN}.program") == 17
+    assert page.evaluate("rapidgen.state().time") == time
+    page.get_by_role("button", name="Go on").click()
+    until(
+        page,
+        f"({HALTED}) && document.querySelector('[aria-label=\"Value of n\"]').value",
+        lambda value: value and value != before,
+    )
+    halted(page, 17)
+
+
+def test_steps_stack_and_setting_a_value(page):
+    set_breakpoint(page, 11)
+    halted(page, 11)
+    page.get_by_role("button", name="Step in").click()
+    halted(page, 16)
+    assert page.locator(".stack li").count() == 2
+    page.get_by_label("Value of n", exact=True).fill("41.5")
+    page.get_by_label("Value of n", exact=True).press("Tab")
+    page.keyboard.press("F10")
+    halted(page, 17)
+    assert values(page, "n") == "41.5"
+    page.locator(".stack button", has_text="main").click()
+    until(page, f"{SEEN}.program", lambda line: line == 11)
+    page.get_by_label("Value of i", exact=True).wait_for()
+    page.get_by_role("button", name="Step out").click()
+    halted(page, 12)
+    page.get_by_placeholder("Expression").fill("total")
+    page.get_by_placeholder("Expression").press("Enter")
+    page.get_by_label("Value of total", exact=True).wait_for()
+    assert float(values(page, "total")) >= 41.5
+    page.get_by_label("Value of total", exact=True).fill("nobody")
+    page.get_by_label("Value of total", exact=True).press("Tab")
+    page.get_by_text("not known here").wait_for()
+
+
+def test_a_condition_a_hover_and_a_log_point(page):
+    set_breakpoint(page, 11)
+    halted(page, 11)
+    condition = page.get_by_placeholder("Condition")
+    condition.fill("i MOD 3 = 0")
+    condition.press("Enter")
+    page.get_by_role("button", name="Go on").click()
+    until(
+        page,
+        f"({HALTED}) && document.querySelector('[aria-label=\"Value of i\"]').value",
+        lambda value: value and int(value) % 3 == 0,
+    )
+    page.locator(".cm-content").get_by_text("i := i + 1").hover(position={"x": 52, "y": 8})
+    page.locator(".cm-value").wait_for()
+    tell = page.get_by_placeholder("Tell, do not pause")
+    tell.fill("i is {i}")
+    tell.press("Enter")
+    page.get_by_role("button", name="Go on").click()
+    until(
+        page,
+        "document.querySelector('[aria-label=\"Log points\"]').textContent",
+        lambda text: "i is " in text,
+    )
+
+
+def test_lines_are_counted(page):
+    page.get_by_text("Count how often lines are reached").click()
+    page.locator(".cm-covered .cm-reached").first.wait_for()
