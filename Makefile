@@ -131,6 +131,9 @@ driver-mutants: $(STAMP) ## 12 min: which mutants of the generated modules the s
 program-mutants: $(STAMP) ## 15 min: the same for the modules of motion programs, in a cell with signals, tools, routines and data
 	$(BIN)/python benchmarks/mutation.py --jobs 2 --budget 8 --output build/program-mutation.jsonl --themes programs "own routines" "own data" --only ROS_programs ROS_execution ROS_data -- benchmarks/cell.yaml
 
+program-campaign: $(STAMP) ## 5 min: random motion programs beside the same ones written in RAPID
+	$(BIN)/python benchmarks/program_campaign.py
+
 motion-campaign: $(STAMP) ## 10 min: 10,000 random programs with random stops
 	$(BIN)/python -m tests.motion.campaign
 
@@ -173,7 +176,7 @@ endurance: $(STAMP) ## 2 min: memory of an idle driver that is watched for ten s
 many-controllers: $(STAMP) ## 2 min: 50 controllers in real time, how late their states come
 	$(BIN)/python benchmarks/many_controllers.py
 
-BENCHES := startup start_of_run programs parsing kernels backup motion state client deploy driver streaming rws recording
+BENCHES := startup start_of_run programs parsing kernels backup motion state client deploy driver streaming rws recording ready stop_start
 bench: $(STAMP) ## 10 min: the figures of docs/develop/performance.md that need no argument
 	for name in $(BENCHES); do $(BIN)/python benchmarks/$$name.py || exit 1; done
 
