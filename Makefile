@@ -16,8 +16,8 @@ demo: $(if $(wildcard $(STAMP)),$(STAMP),$(RUNS))
 
 $(RUNS): pyproject.toml
 	@echo "setup    an environment in $(VENV) with what rapidgen needs: once, half a minute"
-	@test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
 	@(while sleep 4; do echo "         $$SECONDS s"; done) & beat=$$!; trap "kill $$beat" EXIT; \
+		(test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)) && \
 		$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-compile --editable '.[plot]'
 	@touch $@
 
