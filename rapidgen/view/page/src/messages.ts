@@ -186,7 +186,7 @@ export interface Playback {
   readonly end: number;
   readonly time: number;
   readonly rate: number;
-  readonly cut: boolean;
+  readonly fault: string;
 }
 
 /** Program pointers and motion pointers. */
