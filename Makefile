@@ -9,8 +9,17 @@ export TIMEFORMAT = %U s of CPU, %R s
 
 .PHONY: demo test lint types contract unit wheel page driver-hours site release-lint changelog room picture foreign campaigns clean
 
-demo: $(STAMP)
-	$(BIN)/rapidgen demo
+# Needs no more than rapidgen itself, which comes with a line every few seconds; `make test` adds the rest.
+RUNS := $(VENV)/.runs
+demo: $(if $(wildcard $(STAMP)),$(STAMP),$(RUNS))
+	@$(BIN)/rapidgen demo
+
+$(RUNS): pyproject.toml
+	@echo "setup    an environment in $(VENV) with what rapidgen needs: once, half a minute"
+	@test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
+	@(while sleep 4; do echo "         $$SECONDS s"; done) & beat=$$!; trap "kill $$beat" EXIT; \
+		$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-compile --editable '.[plot]'
+	@touch $@
 
 test: lint types contract wheel driver-hours site release-lint unit
 
@@ -122,6 +131,9 @@ driver-mutants: $(STAMP) ## 12 min: which mutants of the generated modules the s
 program-mutants: $(STAMP) ## 15 min: the same for the modules of motion programs, in a cell with signals, tools, routines and data
 	$(BIN)/python benchmarks/mutation.py --jobs 2 --budget 8 --output build/program-mutation.jsonl --themes programs "own routines" "own data" --only ROS_programs ROS_execution ROS_data -- benchmarks/cell.yaml
 
+program-campaign: $(STAMP) ## 5 min: random motion programs beside the same ones written in RAPID
+	$(BIN)/python benchmarks/program_campaign.py
+
 motion-campaign: $(STAMP) ## 10 min: 10,000 random programs with random stops
 	$(BIN)/python -m tests.motion.campaign
 
@@ -164,7 +176,7 @@ endurance: $(STAMP) ## 2 min: memory of an idle driver that is watched for ten s
 many-controllers: $(STAMP) ## 2 min: 50 controllers in real time, how late their states come
 	$(BIN)/python benchmarks/many_controllers.py
 
-BENCHES := startup start_of_run programs parsing kernels backup motion state client deploy driver streaming rws recording
+BENCHES := startup start_of_run programs parsing kernels backup motion state client deploy driver streaming rws recording ready stop_start
 bench: $(STAMP) ## 10 min: the figures of docs/develop/performance.md that need no argument
 	for name in $(BENCHES); do $(BIN)/python benchmarks/$$name.py || exit 1; done
 

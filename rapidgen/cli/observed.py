@@ -40,7 +40,11 @@ class Outputs:
 
     def refuse_unwritable(self) -> None:
         """Refuse, before anything runs, a file that cannot be written behind it."""
-        files = [*self.coverage, *(pictures(self.plot) if self.plot else ())]
+        files = list(self.coverage)
+        if self.plot is not None:
+            from rapidgen.view.plotting import files_of
+
+            files += files_of(self.plot)
         if self.profile not in ("", "-"):
             files.append(Path(self.profile))
         twice = next((file for file in files if files.count(file) > 1), None)
@@ -84,15 +88,17 @@ class Observed:
             self._draw(self.wanted.plot)
 
     def _draw(self, plot: Path) -> None:
-        from rapidgen.cli.plot import draw_recording
         from rapidgen.motion.recorder import PERIOD
+        from rapidgen.view import plot as draw
+        from rapidgen.view.plotting import files_of
 
         period = max(PERIOD, self.controller.now / _SAMPLES)
         several = len(self._recorders) > 1
         for group, recorder in self._recorders.items():
-            paths = pictures(plot, f"_{group}" if several else "")
             title = f"{self.controller.system.name}, {group}"
-            draw_recording(recorder.recording(period), paths, title=title)
+            made = draw(recorder.recording(period), title=title)
+            for path in files_of(plot.with_stem(f"{plot.stem}_{group}") if several else plot):
+                made.save(path)
 
 
 @contextmanager
@@ -134,12 +140,6 @@ def refuse_unwritable(files: "Sequence[Path]") -> None:
                 f"cannot write {path}: {fault.strerror}",
                 "name a file in a folder that exists and may be written",
             ) from fault
-
-
-def pictures(plot: Path, more: str = "") -> tuple[Path, Path]:
-    """PNG and HTML of a plot, whatever suffix it was given."""
-    base = plot.with_suffix("") if plot.suffix.lower() in (".png", ".html") else plot
-    return base.with_name(f"{base.name}{more}.png"), base.with_name(f"{base.name}{more}.html")
 
 
 def _page(controller: "VirtualController", coverage: "Coverage") -> str:

@@ -50,7 +50,7 @@ Coverage = Annotated[
 ]
 Plot = Annotated[
     Path | None,
-    typer.Option("--plot", metavar="F", help="F.png and F.html of what the robots did."),
+    typer.Option("--plot", metavar="F", help="What the robots did: .html, .png, .svg."),
 ]
 Entry = Annotated[str, typer.Option("--entry", help="Procedure that tasks start in, not main.")]
 RobotModel = Annotated[

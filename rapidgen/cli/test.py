@@ -23,6 +23,12 @@ def test(
     case: Annotated[
         list[str] | None, typer.Option(help="Only this case (repeatable).", metavar="NAME")
     ] = None,
+    list_cases: Annotated[
+        bool, typer.Option("--list", help="List the cases by group; prove nothing.")
+    ] = False,
+    durations: Annotated[
+        int, typer.Option(help="Tell the N cases that took longest.", min=0, metavar="N")
+    ] = 0,
     quick: Annotated[
         bool, typer.Option("--quick", help="Only the default of every assumption.")
     ] = False,
@@ -88,6 +94,8 @@ def test(
     model = load_config(config, overrides=overrides or ())
     if backup is not None:
         model = _fitted(model, backup)
+    if list_cases:
+        return _list(as_json)
     if replay is not None:
         return _replay(model, replay, trace)
     _check_names(case or [])
@@ -118,7 +126,7 @@ def test(
     if as_json:
         typer.echo(json.dumps(report_as_json(report), indent=1))
     else:
-        _show(report, uncovered)
+        _show(report, uncovered, durations)
     if report.broken_off:
         raise KeyboardInterrupt
     return 0 if report.passed else 1
@@ -190,11 +198,30 @@ def _resumes_nothing() -> DiagnosticError:
     return refusal("RG805", None, "--resume goes on with results, and no file was named", mend)
 
 
-def _show(report: "Proof", uncovered: bool) -> None:
+def _list(as_json: bool) -> int:
+    """What there is to prove, by group."""
+    import json
+
+    from rapidgen.proving.suite import CASES
+
+    if as_json:
+        rows = [{"case": c.name, "group": c.group, "title": c.title} for c in CASES]
+        typer.echo(json.dumps(rows, indent=1))
+        return 0
+    width = max(len(case.name) for case in CASES)
+    for group in dict.fromkeys(case.group for case in CASES):
+        typer.echo(f"{group}:")
+        for case in CASES:
+            if case.group == group:
+                typer.echo(f"  {case.name:<{width}}  {case.title}")
+    return 0
+
+
+def _show(report: "Proof", uncovered: bool, durations: int) -> None:
     from rich.console import Console
     from rich.table import Table
 
-    from rapidgen.proving.report import complaint, met, missed
+    from rapidgen.proving.report import complaint, met, missed, slowest
 
     console = Console(highlight=False)
     table = Table("group", "held", "of", "answers", box=None)
@@ -213,6 +240,8 @@ def _show(report: "Proof", uncovered: bool) -> None:
     if uncovered:
         for path, lines in missed(report):
             console.print(f"not reached: {path}: {lines}", markup=False, soft_wrap=True)
+    for case, seconds, times in slowest(report, durations):
+        console.print(f"{seconds:8.2f} s  {case} ({times} times)", markup=False)
     for outcome in report.outcomes:
         if not outcome.passed:
             console.print(f"failed: {complaint(outcome)}", markup=False)

@@ -1,10 +1,14 @@
 """A report as JSON, as JUnit XML and as one self-contained HTML page."""
 
 import html
+import platform
+from collections.abc import Sequence
+from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 from xml.etree import ElementTree
 
+from rapidgen import __version__
 from rapidgen._json import Json
 from rapidgen.proving.model import Proof, Series, Verdict
 
@@ -23,6 +27,23 @@ td, th { border-bottom: 1px solid #ddd }
 .ok { color: #007a33 } .bad { color: #b00020; font-weight: 600 }
 pre { background: #f6f6f6; padding: .6rem; overflow-x: auto }
 svg { background: #fafafa; border: 1px solid #ddd }
+summary { cursor: pointer; padding: .3rem 0 } input { font: inherit; width: 20rem; padding: .2rem }
+"""
+_SEARCH = """
+const groups = [...document.querySelectorAll("details.group")];
+const first = groups.map(group => group.open);
+document.getElementById("search").addEventListener("input", event => {
+  const wanted = event.target.value.toLowerCase();
+  groups.forEach((group, number) => {
+    let any = false;
+    for (const row of [...group.querySelectorAll("tr")].slice(1)) {
+      row.hidden = !row.textContent.toLowerCase().includes(wanted);
+      any ||= !row.hidden;
+    }
+    group.hidden = !any;
+    group.open = wanted ? any : first[number];
+  });
+});
 """
 
 
@@ -36,6 +57,7 @@ def as_json(report: Proof) -> dict[str, Json]:
         "broken_off": report.broken_off,
         "left": report.left,
         "elapsed": round(report.elapsed, 3),
+        "version": __version__,
         "lines": {"reached": reached, "of": of},
         "settings": {name: list(texts) for name, texts in report.rows.items()},
         "outcomes": [
@@ -45,6 +67,7 @@ def as_json(report: Proof) -> dict[str, Json]:
                 "setting": outcome.setting,
                 "passed": outcome.passed,
                 "detail": outcome.detail,
+                "elapsed": round(outcome.elapsed, 3),
                 "blamed": list(outcome.blamed),
             }
             for outcome in report.outcomes
@@ -97,9 +120,13 @@ def write_junit(report: Proof, path: Path) -> None:
 
 
 def write_html(report: Proof, path: Path) -> None:
-    """One page: verdict, table, plots of commanded and executed joints, logs of failures."""
+    """One page: verdict, versions, a table for each group with a search over all of them, plots of
+    commanded and executed joints, logs of failures."""
     verdict = "everything held" if report.passed else "something did not hold"
-    rows = "".join(_row(outcome) for outcome in report.outcomes)
+    groups = dict.fromkeys(outcome.group for outcome in report.outcomes)
+    tables = "".join(
+        _group(name, [o for o in report.outcomes if o.group == name]) for name in groups
+    )
     details = "".join(_details(o) for o in report.outcomes if o.series or not o.passed)
     findings = "".join(
         f"<h3>schedule {f.schedule}</h3><p>{html.escape(f.detail)}</p>"
@@ -113,16 +140,45 @@ def write_html(report: Proof, path: Path) -> None:
 <h1>{html.escape(report.name)}: {verdict}</h1>
 <p>BUILD_ID {html.escape(report.build_id)} · {len(report.outcomes)} cases ·
 {report.schedules} schedules explored · on the virtual controller; no real controller was asked.</p>
+<p>{html.escape(_versions())}</p>
 {_coverage(report)}
 {_pairs(report)}
-<table><tr><th>case<th>what must hold<th>answers<th>simulated<th>verdict</tr>
-{rows}</table>
+<p><input id="search" type="search" placeholder="search cases" aria-label="search cases"></p>
+{tables}
 {"<h2>Schedules that broke the invariant</h2>" + findings if findings else ""}
 {details}
+<script>{_SEARCH}</script>
 </html>
 """,
         encoding="utf-8",
     )
+
+
+def _versions() -> str:
+    when = datetime.now(UTC).isoformat(" ", "minutes")
+    return f"rapidgen {__version__} · Python {platform.python_version()} · {when}"
+
+
+def _group(name: str, outcomes: Sequence[Verdict]) -> str:
+    """Its cases, open where one did not hold."""
+    held = sum(outcome.passed for outcome in outcomes)
+    mark, state = ("ok", "") if held == len(outcomes) else ("bad", " open")
+    simulated = sum(outcome.simulated for outcome in outcomes)
+    return (
+        f'<details class="group"{state}><summary>{html.escape(name)}: <span class="{mark}">{held} '
+        f"of {len(outcomes)} held</span>, {simulated:.0f} s simulated</summary>\n"
+        "<table><tr><th>case<th>what must hold<th>answers<th>simulated<th>verdict</tr>\n"
+        f"{''.join(map(_row, outcomes))}</table></details>\n"
+    )
+
+
+def slowest(report: Proof, count: int) -> list[tuple[str, float, int]]:
+    """Cases that took most: name, s of CPU in all settings together, and in how many."""
+    taken: dict[str, list[float]] = {}
+    for outcome in report.outcomes:
+        taken.setdefault(outcome.case, []).append(outcome.elapsed)
+    rows = sorted(((sum(s), case, len(s)) for case, s in taken.items()), reverse=True)
+    return [(case, seconds, times) for seconds, case, times in rows[:count]]
 
 
 def _coverage(report: Proof) -> str:

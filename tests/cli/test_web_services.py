@@ -44,7 +44,7 @@ def test_a_controller_is_shown_started_and_halted(host, capsys):
     assert main(["status", host, "--json"]) == 0
     told = json.loads(said(capsys))
     assert (told["state"], told["mode"], told["running"]) == ("motoron", "AUTO", False)
-    assert main(["start", host]) == 1  # nobody is there to answer
+    assert main(["start", host]) == 2  # nobody is there to answer
     assert main(["start", host, "--yes", "--main"]) == 0
     assert f"{host}: the program runs" in said(capsys)
     assert main(["halt", host, "--motors-off"]) == 0
@@ -52,6 +52,9 @@ def test_a_controller_is_shown_started_and_halted(host, capsys):
     assert "motoroff" in said(capsys)
     assert main(["log", host, "--count", "3"]) == 0
     assert "Motors OFF state" in said(capsys)
+    assert main(["log", host, "--count", "3", "--json"]) == 0
+    titles = [json.loads(line)["title"] for line in said(capsys).splitlines()]
+    assert "Motors OFF state" in titles
 
 
 def test_signals_and_symbols_are_shown_and_set(host, capsys):
@@ -65,6 +68,11 @@ def test_signals_and_symbols_are_shown_and_set(host, capsys):
     assert main(["symbols", host, "T_ROB1/MainModule/list", "[4,5"]) == 2
     assert main(["symbols", host]) == 0
     assert "T_ROB1/MainModule/list  per  num{3}" in said(capsys)
+    assert main(["symbols", host, "--json"]) == 0
+    told = {one["path"]: one for one in json.loads(said(capsys))}
+    assert told["T_ROB1/MainModule/list"]["dims"] == [3]
+    assert main(["symbols", host, "T_ROB1/MainModule/list", "--json"]) == 0
+    assert json.loads(said(capsys))["value"] == "[4,5,6]"
 
 
 @pytest.mark.parametrize(("answer", "code"), [("Grant", 0), ("Deny", 1)])
@@ -100,7 +108,7 @@ def test_a_backup_comes_here_and_boots(host, capsys, tmp_path):
     [
         (["status", "ftp://h"], "RG657", 2),
         (["status", "rws://u:p@h"], "RG657", 2),
-        (["status", "rws://127.0.0.1:1"], "RG651", 1),
+        (["status", "rws://127.0.0.1:1"], "RG512", 2),
     ],
 )
 def test_wrong_words_are_explained(words, code, exit_code, capsys, monkeypatch):

@@ -29,7 +29,9 @@ def absent(what):
     pytest.skip(f"this machine has no {what}")
 
 
-@pytest.fixture(scope="session")
+# Of a module, not of the session: while the driver runs, no other test of this process can have an
+# event loop.
+@pytest.fixture(scope="module")
 def browser():
     path = shutil.which("chromium")
     if path is None:
@@ -48,9 +50,11 @@ def open_page(browser):
     """Opens an address in a window of its own; what the page complains of is a fault at the end."""
     contexts, faults = [], []
 
-    def opened(url, **options):
+    def opened(url, before="", **options):
         context = browser.new_context(viewport={"width": 1280, "height": 720}, **options)
         contexts.append(context)
+        if before:
+            context.add_init_script(before)
         page = context.new_page()
         page.on("pageerror", lambda error: faults.append(str(error)))
         page.on("console", lambda told: faults.append(told.text) if told.type == "error" else None)

@@ -19,6 +19,7 @@ from rapidgen.client.core.frames import Frames
 from rapidgen.client.core.group import Group
 from rapidgen.client.errors import InvalidProgram
 from rapidgen.client.program import Argument, Program, ProgramStep, Speed, Trigger, Zone, pose_of
+from rapidgen.client.trajectory import Trajectory
 from rapidgen.config.model import OwnParameter
 from rapidgen.diagnostics import Diagnostic, Severity, error, suggest
 from rapidgen.wire.simple_message import instructions
@@ -40,6 +41,19 @@ _MOVES = frozenset(
     (Instruction.MOVE_ABSJ, Instruction.MOVE_J, Instruction.MOVE_L, Instruction.MOVE_C)
 )
 _Way = Line | Arc
+
+
+def require_program(given: object) -> None:
+    """Raise InvalidProgram for anything else."""
+    if not isinstance(given, Program):
+        mend = (
+            "`robot.execute(trajectory)` executes a trajectory"
+            if isinstance(given, Trajectory)
+            else "`Program().move_joints(joints).move_linear(pose)` is one"
+        )
+        raise InvalidProgram.because(
+            "RG670", f"this takes a Program, and was given {type(given).__name__}", mend
+        )
 
 
 @dataclass(frozen=True, slots=True)

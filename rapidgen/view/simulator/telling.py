@@ -29,6 +29,8 @@ class TellingAspect:
 
     def __init__(self, cabinet: Cabinet) -> None:
         self._controller = cabinet.controller
+        # Whoever opens the page can answer: dialogs wait for that.
+        cabinet.controller.operator.attach()
         self._sequence = 0
         self._rows: tuple[str, ...] = ()
         self._waiting: tuple[Dialog, ...] = ()

@@ -64,6 +64,11 @@ export class Robot {
     }
   }
 
+  /** Hide the links, not what they carry. */
+  bare(alone: boolean): void {
+    for (const material of [this.skin, ...this.housings.values()]) material.visible = !alone;
+  }
+
   /** New colours. */
   paint(): void {
     this.skin.color.set(this.palette.body);

@@ -121,6 +121,18 @@ export class Stage {
     this.element.toBlob((blob) => { if (blob) taken(blob); });
   }
 
+  /** Show markers alone, without the robots that are around them. */
+  bare(alone: boolean): void {
+    for (const robot of this.robots.values()) robot.bare(alone);
+    this.draw();
+  }
+
+  /** Where the camera stands, what it looks at, and how wide (degrees, upright). */
+  eye(): { position: number[]; target: number[]; angle: number } {
+    const { position, fov } = this.camera;
+    return { position: position.toArray(), target: this.controls.target.toArray(), angle: fov };
+  }
+
   /** Where a point of the world is on the picture, in CSS pixels. */
   pixel(point: readonly number[]): [number, number] {
     this.camera.updateMatrixWorld();

@@ -1,0 +1,112 @@
+"""The page commands a simulator: pendant, dialogs, two viewers, a restart; hostile texts."""
+
+import signal
+
+import pytest
+
+from tests.view.bench import STATE, simulator, until
+
+pytestmark = pytest.mark.browser
+HOSTILE = "<img src=x onerror=window.hacked=1><b>bold</b>"
+MODULE = f"""MODULE Hostile
+  PROC main()
+    VAR num answer;
+    TPWrite "{HOSTILE}";
+    answer := UIMessageBox(\\Header:="{HOSTILE}" \\Message:="{HOSTILE}" \\Buttons:=btnYesNo);
+    ErrWrite "{HOSTILE}", "{HOSTILE}";
+    TPWrite "answered";
+    WaitTime 100000;
+  ENDPROC
+ENDMODULE
+"""
+
+
+def text(page, selector):
+    return page.locator(selector).inner_text()
+
+
+def test_two_pages_see_one_emergency_stop(irb120, open_page):
+    one, two = open_page(irb120["view"]), open_page(irb120["view"], color_scheme="dark")
+    for page in (one, two):
+        until(page, STATE)
+    one.get_by_role("button", name="Emergency stop").first.click()
+    for page in (one, two):
+        until(page, "document.querySelector('header').innerText", lambda t: "Emergency stop" in t)
+        page.get_by_role("tab", name="Log").click()
+        until(page, "document.querySelector('.log').innerText", lambda t: "10013" in t)
+    two.get_by_role("tab", name="Pendant").click()
+    two.get_by_role("button", name="Reset emergency stop").click()
+    two.get_by_role("button", name="On", exact=True).click()
+    two.get_by_role("button", name="Start").click()
+    one_bar = "document.querySelector('header').innerText"
+    until(one, one_bar, lambda t: "Motors on" in t and "Running" in t)
+
+
+def test_a_refusal_is_told_and_an_axis_is_jogged(irb120, open_page):
+    page = open_page(irb120["view"])
+    until(page, STATE)
+    page.get_by_role("tab", name="Axes").click()
+    slider = page.get_by_role("slider").first
+    slider.fill("0.5")
+    until(page, "document.querySelector('.notices').innerText", lambda t: "stop it first" in t)
+    page.get_by_role("tab", name="Pendant").click()
+    page.get_by_role("button", name="Stop", exact=True).click()
+    until(page, "document.querySelector('header').innerText", lambda t: "Stopped" in t)
+    page.get_by_role("tab", name="Axes").click()
+    slider.fill("0.5")
+    until(page, f"{STATE}.groups[0].axes[0]", lambda value: value == 0.5)
+    slider.fill("0")
+    until(page, f"{STATE}.groups[0].axes[0]", lambda value: value == 0)
+    page.get_by_role("tab", name="Pendant").click()
+    page.get_by_role("button", name="Start").click()
+    until(page, "document.querySelector('header').innerText", lambda t: "Running" in t)
+
+
+def test_hostile_texts_stay_texts(tmp_path, open_page):
+    program = tmp_path / "Hostile.mod"
+    program.write_text(MODULE)
+    with simulator(str(program)) as (ready, _):
+        page = open_page(ready["view"])
+        dialog = until(page, "document.querySelector('.dialogs')?.innerText")
+        assert HOSTILE in dialog
+        page.get_by_role("button", name="Yes").click()
+        screen = until(
+            page, "document.querySelector('.screen').textContent", lambda t: "answered" in t
+        )
+        assert HOSTILE in screen.replace("\n", "")
+        page.get_by_role("tab", name="Log").click()
+        log = until(page, "document.querySelector('.log').innerText", lambda t: "<img" in t)
+        assert HOSTILE in log
+        hacked = page.evaluate("[window.hacked, document.querySelectorAll('img, b b').length]")
+        assert hacked == [None, 0]
+        page.close()
+
+
+def test_a_simulator_that_comes_back_is_found_again(open_page, monkeypatch):
+    token = {"RAPIDGEN_VIEW_TOKEN": "0123456789abcdef-test"}
+    with simulator("irb120", environment=token) as (ready, process):
+        page = open_page(ready["view"])
+        until(page, STATE)
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+        until(page, "document.querySelector('.banner').innerText", lambda t: "lost" in t)
+    port = ready["view"].split(":")[2].split("/")[0]
+    open_page.faults.clear()
+    with simulator("irb120", "--view-port", port, environment=token):
+        until(page, "document.querySelector('.banner').hidden")
+        until(page, STATE)
+        open_page.faults.clear()
+    other = {"RAPIDGEN_VIEW_TOKEN": "fedcba9876543210-test"}
+    with simulator("irb120", "--view-port", port, environment=other):
+        until(page, "document.querySelector('.banner').innerText", lambda t: "no access" in t)
+        page.close()
+        open_page.faults.clear()
+
+
+def test_a_browser_without_webgl_is_told(irb120, open_page):
+    blind = "HTMLCanvasElement.prototype.getContext = () => null"
+    page = open_page(irb120["view"], before=blind)
+    until(page, STATE)
+    assert "no WebGL" in text(page, "main")
+    until(page, "document.querySelector('header').innerText", lambda t: "Motors on" in t)
+    open_page.faults.clear()
