@@ -14,6 +14,7 @@ export const programPanel: MakePanel = (view) => new ProgramPanel(view);
 class ProgramPanel {
   readonly id = "program";
   readonly title = "Program";
+  readonly kinds = ["simulation", "recording"] as const;
   readonly element: HTMLElement;
   private readonly sources: Sources;
   private readonly editor: SourceEditor;
