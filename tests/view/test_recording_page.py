@@ -1,5 +1,6 @@
 """A recording in the page: scrubbed there and back, program, signals and robot are as they were."""
 
+import json
 import subprocess
 import sys
 
@@ -39,7 +40,8 @@ def page(recorded, open_page):
         text=True,
     ) as process:
         try:
-            page = open_page(process.stdout.readline().strip())
+            ready = process.stdout.readline().removeprefix("ready ")
+            page = open_page(json.loads(ready)["view"])
             page.get_by_role("tab", name="Recording").click()
             until(page, f"window.rapidgen && {SEEN}.time !== undefined")
             yield page

@@ -11,7 +11,7 @@ from rapidgen.config.model import GroupConfig
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.view import messages as v
 from rapidgen.view import program_messages as p
-from rapidgen.view.aspect import Aspect, Handler, NotDone
+from rapidgen.view.aspect import Aspect, Declined, Handler
 from rapidgen.view.drawing import described
 from rapidgen.view.messages import Request, ToPage
 from rapidgen.view.recording import messages as m
@@ -131,7 +131,7 @@ class RecordedAspect:
         if moment.panel is not None:
             yield self._panel(moment, moment.panel)
         yield v.Log(entries=tuple(map(_entry, moment.log)), fresh=True)
-        yield v.Signals(
+        yield v.AllSignals(
             signals=tuple(
                 v.ShownSignal(name=name, value=moment.signals[name], **known.model_dump())
                 for name, known in self._file.signals.items()
@@ -214,7 +214,7 @@ class RecordedAspect:
         assert isinstance(request, p.ReadSource)
         found = next((t for t, number in self._sources.items() if number == request.number), None)
         if found is None:
-            raise NotDone("it is not in the recording")
+            raise Declined("it is not in the recording")
         return found
 
     def _curves(self, request: Request) -> str:
@@ -240,7 +240,7 @@ class RecordedAspect:
             curves = [{"name": request.signal, "values": values}]
             charts = [{"title": request.signal, "curves": curves}]
         else:
-            raise NotDone("there is nothing of that name in the recording")
+            raise Declined("there is nothing of that name in the recording")
         return json.dumps({"time": times, "charts": charts})
 
 
@@ -251,7 +251,7 @@ def _read(handler: Handler) -> Handler:
         try:
             return handler(request)
         except DiagnosticError as error:
-            raise NotDone(error.diagnostics[0].message) from error
+            raise Declined(error.diagnostics[0].message) from error
 
     return carried_out
 

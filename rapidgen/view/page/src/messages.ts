@@ -6,6 +6,12 @@ export interface Act {
   readonly action: "e-stop" | "reset-e-stop" | "motors-on" | "motors-off" | "start" | "stop" | "pp-to-main" | "power-loss";
 }
 
+/** All signals. */
+export interface AllSignals {
+  readonly type: "signals";
+  readonly signals: readonly ShownSignal[];
+}
+
 /** What the operator chose or typed. */
 export interface AnswerQuestion {
   readonly do: "answer";
@@ -167,10 +173,11 @@ export interface PanelState {
   readonly e_stop: boolean | null;
   readonly execution_error: boolean;
   readonly failed: boolean;
-  readonly running: boolean;
+  readonly running: boolean | null;
+  readonly connected: boolean;
   readonly tasks: Readonly<Record<string, string>>;
-  readonly override: number;
-  readonly pace: number;
+  readonly override: number | null;
+  readonly pace: number | null;
 }
 
 /** Let it run, at so many seconds in a second; 0 stops. */
@@ -397,16 +404,10 @@ export interface ShownSocket {
   readonly peer: string;
 }
 
-/** Signals that have changed. */
+/** AllSignals that have changed. */
 export interface SignalValues {
   readonly type: "values";
   readonly values: Readonly<Record<string, number>>;
-}
-
-/** All signals. */
-export interface Signals {
-  readonly type: "signals";
-  readonly signals: readonly ShownSignal[];
 }
 
 /** At which errors everything pauses. */
@@ -415,6 +416,6 @@ export interface StopOnErrors {
   readonly errors: "never" | "unhandled" | "all";
 }
 
-export type ToPage = Connections | Covered | Debugging | Dialogs | HeldValues | LoadedPrograms | Log | PanelState | Playback | Pointers | Positions | Replied | Scene | Screen | SignalValues | Signals;
+export type ToPage = AllSignals | Connections | Covered | Debugging | Dialogs | HeldValues | LoadedPrograms | Log | PanelState | Playback | Pointers | Positions | Replied | Scene | Screen | SignalValues;
 
 export type Request = Act | AnswerQuestion | Assign | Copy | Cover | Cut | Drive | Evaluate | Jog | LookAt | Play | ReadCurves | ReadSource | RemoveBreakpoint | RunTo | Seek | SetBreakpoint | SetMode | SetOverride | SetPace | SetSignal | SetWatch | StopOnErrors;

@@ -20,6 +20,7 @@ function live(element: HTMLElement): HTMLElement {
 class ProgramPanel {
   readonly id = "program";
   readonly title = "Program";
+  readonly kinds = ["simulation", "recording"] as const;
   readonly element: HTMLElement;
   private readonly sources: Sources;
   private readonly editor: SourceEditor;
