@@ -143,7 +143,7 @@ class RemoveBreakpoint(Spoken):
     number: int
 
 
-class Drive(Spoken):
+class Proceed(Spoken):
     """Pause, go on, step a task."""
 
     do: Literal["drive"] = "drive"

@@ -92,13 +92,6 @@ export interface Dialogs {
   readonly waiting: readonly Dialog[];
 }
 
-/** Pause, go on, step a task. */
-export interface Drive {
-  readonly do: "drive";
-  readonly how: "pause" | "resume" | "in" | "over" | "out";
-  readonly task: string;
-}
-
 /** The reply's text is the value of an expression where it is looked at. */
 export interface Evaluate {
   readonly do: "evaluate";
@@ -108,7 +101,7 @@ export interface Evaluate {
 /** A request and the number that its reply will have. */
 export interface FromPage {
   readonly id: number;
-  readonly request: Act | SetMode | SetOverride | SetPace | AnswerQuestion | Jog | Copy | SetSignal | Cut | ReadSource | SetBreakpoint | RemoveBreakpoint | Drive | RunTo | StopOnErrors | LookAt | Evaluate | Assign | SetWatch | Cover | Seek | Play | ReadCurves;
+  readonly request: Act | SetMode | SetOverride | SetPace | AnswerQuestion | Jog | Copy | SetSignal | Cut | ReadSource | SetBreakpoint | RemoveBreakpoint | Proceed | RunTo | StopOnErrors | LookAt | Evaluate | Assign | SetWatch | Cover | Seek | Play | ReadCurves;
 }
 
 /** What the routine that is looked at holds, and the watch list. */
@@ -214,6 +207,13 @@ export interface Positions {
   readonly type: "positions";
   readonly time: number;
   readonly groups: readonly RobotPlace[];
+}
+
+/** Pause, go on, step a task. */
+export interface Proceed {
+  readonly do: "drive";
+  readonly how: "pause" | "resume" | "in" | "over" | "out";
+  readonly task: string;
 }
 
 /** The reply's text is PlotData (JSON) of a robot's axes or of a signal. */
@@ -418,4 +418,4 @@ export interface StopOnErrors {
 
 export type ToPage = AllSignals | Connections | Covered | Debugging | Dialogs | HeldValues | LoadedPrograms | Log | PanelState | Playback | Pointers | Positions | Replied | Scene | Screen | SignalValues;
 
-export type Request = Act | AnswerQuestion | Assign | Copy | Cover | Cut | Drive | Evaluate | Jog | LookAt | Play | ReadCurves | ReadSource | RemoveBreakpoint | RunTo | Seek | SetBreakpoint | SetMode | SetOverride | SetPace | SetSignal | SetWatch | StopOnErrors;
+export type Request = Act | AnswerQuestion | Assign | Copy | Cover | Cut | Evaluate | Jog | LookAt | Play | Proceed | ReadCurves | ReadSource | RemoveBreakpoint | RunTo | Seek | SetBreakpoint | SetMode | SetOverride | SetPace | SetSignal | SetWatch | StopOnErrors;
