@@ -40,6 +40,7 @@ VERBS = {
     "pose": "Show where the tool is in the work object, and the joints; as `move` takes them.",
     "stop": "Stop the robot: every motion group, or one.",
     "monitor": "Watch a robot: joints against limits, mode, rate, jitter, last event.",
+    "view": "Show a robot or a recording in the browser, read only.",
     "record": "Write every joint message to a CSV: `time,<joint names>` in s and rad (m).",
     "status": "Show a controller: mode, motors, speed, tasks, pointers.",
     "log": "Show a controller's event log; follow it.",
