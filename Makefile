@@ -9,8 +9,17 @@ export TIMEFORMAT = %U s of CPU, %R s
 
 .PHONY: demo test lint types contract unit wheel page driver-hours site release-lint changelog room picture foreign campaigns clean
 
-demo: $(STAMP)
-	$(BIN)/rapidgen demo
+# Needs no more than rapidgen itself, which comes with a line every few seconds; `make test` adds the rest.
+RUNS := $(VENV)/.runs
+demo: $(if $(wildcard $(STAMP)),$(STAMP),$(RUNS))
+	@$(BIN)/rapidgen demo
+
+$(RUNS): pyproject.toml
+	@echo "setup    an environment in $(VENV) with what rapidgen needs: once, half a minute"
+	@test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
+	@(while sleep 4; do echo "         $$SECONDS s"; done) & beat=$$!; trap "kill $$beat" EXIT; \
+		$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-compile --editable '.[plot]'
+	@touch $@
 
 test: lint types contract wheel driver-hours site release-lint unit
 
@@ -88,7 +97,7 @@ picture: $(STAMP)
 	$(BIN)/python -m tests.docs.robots_picture
 
 # Trials of programs that are no part of this project: FOREIGN is the folder that holds them,
-# PROGRAM the trial (abb_driver, backups, deployed, descriptions, godel, irb140, keyence, motion_program_exec, open_abb, rfl, ros_nodes, text_servers; default: any).
+# PROGRAM the trial (abb_driver, backups, deployed, descriptions, godel, irb140, keyence, motion_program_exec, open_abb, rfl, ros_nodes, rws_suites, text_servers; default: any).
 PROGRAM = trial
 foreign: $(STAMP)
 	$(BIN)/python -m tests.foreign.$(PROGRAM) $(FOREIGN)
@@ -119,6 +128,9 @@ runtime-mutants: $(STAMP) ## 15 min: the same for the conformance files of the r
 driver-mutants: $(STAMP) ## 12 min: which mutants of the generated modules the suite notices
 	$(BIN)/python benchmarks/mutation.py --jobs 2 --budget 4 --output build/mutation.jsonl irb120
 
+program-mutants: $(STAMP) ## 15 min: the same for the modules of motion programs, in a cell with signals, tools, routines and data
+	$(BIN)/python benchmarks/mutation.py --jobs 2 --budget 8 --output build/program-mutation.jsonl --themes programs "own routines" "own data" --only ROS_programs ROS_execution ROS_data -- benchmarks/cell.yaml
+
 motion-campaign: $(STAMP) ## 10 min: 10,000 random programs with random stops
 	$(BIN)/python -m tests.motion.campaign
 
@@ -148,6 +160,12 @@ driver-days: $(STAMP) ## 2 h: 30 simulated days, the state read all the time
 
 deploy-cuts: $(STAMP) ## 10 min: every cut of every deployment, garbled answers of servers
 	$(BIN)/python benchmarks/deploy.py --cuts
+
+rws-answers: $(STAMP) ## 1 min: 10,000 flows of the web services' client with hostile answers
+	$(BIN)/python -m tests.faces.rws.campaign answers 10000
+
+rws-requests: $(STAMP) ## 1 min: 100,000 hostile requests to the face, a good client after each thousand
+	$(BIN)/python -m tests.faces.rws.campaign requests 100000
 
 endurance: $(STAMP) ## 2 min: memory of an idle driver that is watched for ten simulated hours
 	$(BIN)/python benchmarks/endurance.py

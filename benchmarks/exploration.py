@@ -1,26 +1,30 @@
 """How many schedules does the exploration need to find what is known of drivers in use?
 
-    python benchmarks/exploration.py [--seeds N] [--jobs N] [FOLDER with abb_driver's six modules]
+    python benchmarks/exploration.py [--campaigns N] [--seeds N] [--jobs N] [FOLDER]
 
 R1, R5, R7a, R7b and R12 (tests/proving/defective says what they are), each in a small driver of
-our own that has nothing else wrong; the same driver without a defect, and the generated one, where
-nothing may be found. With FOLDER also abb_driver's own modules, unchanged: a finding there is
-counted for what its story and the places of the tasks show.
+our own that has nothing else wrong: of N campaigns from other seeds, schedules until the first
+finding, the median and all. The same driver without a defect, and the generated one, where nothing
+may be found; and how many pairs of statements of two tasks they have met. With FOLDER,
+which has abb_driver's six modules, also these, unchanged: a finding there is counted for what its
+story and the places of the tasks show.
 """
 
 import argparse
+import statistics
 import sys
 import time
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import replace
-from multiprocessing import get_context
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from rapidgen.config import load_config
 from rapidgen.generate import build, make_system
-from rapidgen.proving.explore import explore
+from rapidgen.proving.explore import ground_of
+from rapidgen.proving.guide import Guide
+from rapidgen.proving.run import Subject, schedules
+from rapidgen.proving.workers import Call, Local, in_order
 from tests.foreign.abb_driver import read_system
 from tests.proving.defective import CAPACITY, DEFECTS, small_driver
 
@@ -41,57 +45,64 @@ def kind_of(finding):
     return "other"
 
 
-def run(seed):
-    return explore(CONFIG, SYSTEM, seed)
-
-
-def explored(config, system, seeds, jobs, enough=None):
-    """Findings by seed, until `enough(finding)`; how many schedules; s."""
-    global CONFIG, SYSTEM
-    CONFIG, SYSTEM = config, system
+def explored(config, system, seeds, workers, first=0, enough=lambda found: False):
+    """Findings by number, until `enough` of them; how many schedules; s; the guide."""
+    guide = Guide(ground_of(config, system), first)
     started, found, count = time.monotonic(), {}, 0
-    with ProcessPoolExecutor(jobs, mp_context=get_context("fork")) as pool:
-        for first in range(0, seeds, 16):
-            for one in pool.map(run, range(first, min(first + 16, seeds))):
-                count += 1
-                if one.finding is not None:
-                    found[one.seed] = one.finding
-            if enough is not None and enough(found):
-                break
-    return found, count, time.monotonic() - started
+    work = schedules(seeds, guide)
+
+    def make(number):
+        return Call(number, work.function, work.item(number))
+
+    for result in in_order(workers, seeds, make, work.needs, lambda: enough(found)):
+        guide.take(result)
+        if enough(found):
+            continue
+        if result.finding is not None:
+            found[count] = result.finding
+        count += 1
+    return found, count, time.monotonic() - started, guide
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("folder", nargs="?", type=Path)
     parser.add_argument("--seeds", type=int, default=300)
+    parser.add_argument("--campaigns", type=int, default=9)
     parser.add_argument("--jobs", type=int, default=2)
     given = parser.parse_args()
     config = load_config("irb120")
     small = replace(config, trajectory=replace(config.trajectory, capacity=CAPACITY))
     for defect in DEFECTS:
-        found, _, seconds = explored(small, small_driver(defect), given.seeds, given.jobs, bool)
-        if not found:
-            print(f"{defect:10} not found in {given.seeds} schedules, {seconds:.0f} s", flush=True)
-            continue
-        first = min(found)
+        system, firsts, seconds = small_driver(defect), [], 0.0
+        with Local(Subject(small, system), given.jobs) as workers:
+            for campaign in range(given.campaigns):
+                found, count, spent, _ = explored(
+                    small, system, given.seeds, workers, 10_000 * campaign, bool
+                )
+                firsts.append(min(found, default=count) + 1)
+                seconds += spent
+        each_one = " ".join(str(first) for first in sorted(firsts))
         print(
-            f"{defect:10} schedule {first + 1:4}, {seconds:5.1f} s: {found[first].detail}",
+            f"{defect:10} schedule {statistics.median(firsts):4g} in the median, "
+            f"{seconds / given.campaigns:.1f} s: {each_one}",
             flush=True,
         )
     for name, own, system in (
         ("no defect", small, small_driver()),
         ("generated", config, make_system(config, build(config))),
     ):
-        found, count, seconds = explored(own, system, given.seeds, given.jobs)
+        with Local(Subject(own, system), given.jobs) as workers:
+            found, count, seconds, guide = explored(own, system, given.seeds, workers)
         print(f"{name:10} {len(found)} findings in {count} schedules, {seconds:.0f} s", flush=True)
-        for seed, finding in found.items():
-            print(f"           seed {seed}: {finding.detail}")
+        print(f"           pairs: {' '.join(f'{n}:{pairs}' for n, pairs in guide.curve[::10])}")
+        for finding in found.values():
+            print(f"           --replay {finding.schedule}: {finding.detail}")
     if given.folder is not None:
         foreign = replace(config, trajectory=replace(config.trajectory, capacity=ABB_CAPACITY))
-        found, count, seconds = explored(
-            foreign, read_system(given.folder), given.seeds, given.jobs
-        )
+        system = read_system(given.folder)
+        with Local(Subject(foreign, system), given.jobs) as workers:
+            found, count, seconds, _ = explored(foreign, system, given.seeds, workers)
         print(f"abb_driver {len(found)} findings in {count} schedules, {seconds:.0f} s")
         for kind in (*DEFECTS, "other"):
             own = {seed: f for seed, f in found.items() if kind_of(f) == kind}

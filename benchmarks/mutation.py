@@ -1,7 +1,7 @@
 """Which share of all mutants of the generated modules does the suite notice?
 
     python benchmarks/mutation.py [--every N] [--offset N] [--jobs N] [--budget S] [--output FILE]
-        [--again] [--only MODULE ...] [ROBOT]
+        [--again] [--only MODULE ...] [--themes THEME ...] [ROBOT]
 
 One fixed operator list (tests/proving/mutation.py); every place in a routine where an operator
 fits is a mutant, equivalent ones included. `--every N` takes each N-th, from `--offset` on. A
@@ -10,7 +10,9 @@ or `--budget` s of CPU are spent: what no case has noticed by then counts as a s
 
 Verdicts go to FILE (JSON lines) as they come; a run that was broken off goes on there, as long as
 nothing but the modules' build id has changed. Survivors are listed by module, with their lines:
-each is a missing case, or the same program in other words. `--only` looks at some modules alone.
+each is a missing case, or the same program in other words. `--only` looks at some modules alone,
+`--themes` judges by the cases of some themes alone; benchmarks/cell.yaml is a ROBOT with signals,
+tools, routines and data.
 `--again` goes on with the survivors of FILE, with cases that were not tried or did not exist.
 """
 
@@ -28,6 +30,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from rapidgen.config import load_config
+from rapidgen.controller.cell import in_its_cell
 from rapidgen.generate import build, make_system
 from rapidgen.proving.suite import CASES
 from tests.proving.judging import HANGS, Judge
@@ -130,10 +133,12 @@ if __name__ == "__main__":
     parser.add_argument("--output", type=Path)
     parser.add_argument("--again", action="store_true")
     parser.add_argument("--only", nargs="*", default=(), metavar="MODULE")
+    parser.add_argument("--themes", nargs="*", default=(), metavar="THEME")
     ARGUMENTS = parser.parse_args()
     CONFIG = load_config(ARGUMENTS.robot)
-    SYSTEM = make_system(CONFIG, build(CONFIG))
+    SYSTEM = in_its_cell(make_system(CONFIG, build(CONFIG)), CONFIG)
     FILES = {m.path: m.data for t in SYSTEM.tasks for m in t.modules}
     FOUND = [mutant for path, data in sorted(FILES.items()) for mutant in mutants(data, path)]
-    JUDGE = Judge(CONFIG, SYSTEM, CASES, jobs=ARGUMENTS.jobs)
+    CHOSEN = [c for c in CASES if not ARGUMENTS.themes or c.group in ARGUMENTS.themes]
+    JUDGE = Judge(CONFIG, SYSTEM, CHOSEN, jobs=ARGUMENTS.jobs)
     main()

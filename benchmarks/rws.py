@@ -1,4 +1,4 @@
-"""Web services: requests an operation takes, CPU of a request, events over websockets.
+"""Web services: requests an operation takes, CPU of one, threads at the ceiling, websockets.
 
     python benchmarks/rws.py [--sockets 19] [--seconds 5]
 
@@ -160,6 +160,38 @@ def cpu(generation, count=2000):
     return 1000 * spent / count, count / took
 
 
+def ceiling(generation, threads=8, seconds=10.0):
+    """Requests of threads that share a client: most in any second, by the client's clock, and how
+    many the controller found too many (503)."""
+    process = Process(generation)
+    sent, refused = [], []
+    with process.client() as client:
+        carrier = client._carrier
+        exchange = carrier._exchange
+
+        def counted_exchange(effect):
+            reply = exchange(effect)
+            sent.append(time.monotonic())
+            refused.extend([effect.target] * (reply.status == 503))
+            return reply
+
+        carrier._exchange = counted_exchange
+        end = time.monotonic() + seconds
+
+        def ask():
+            while time.monotonic() < end:
+                client.signal("do0")
+
+        running = [threading.Thread(target=ask) for _ in range(threads)]
+        for thread in running:
+            thread.start()
+        for thread in running:
+            thread.join()
+    process.end()
+    most = max(sum(at <= other < at + 1 for other in sent) for at in sent)
+    return {"requests": len(sent), "most in a second": most, "503": len(refused)}
+
+
 def events(generation, sockets, seconds):
     """ms that a websocket adds (p50, p99, most) to a change, events told, events lost."""
     process = Process(generation, strict=False)
@@ -182,7 +214,7 @@ def events(generation, sockets, seconds):
             assert answer.status_code == 201, answer.text
             number = answer.headers["location"].rpartition("/")[2]
             base = carrier._base.replace("http", "ws", 1)
-            options = socket_options(client._core, carrier._client.cookies)
+            options = socket_options(client._core, carrier._client.cookies, threads=True)
             assert options["ssl"] is None or isinstance(options["ssl"], ssl.SSLContext)
             with connect(f"{base}/poll/{number}", **options) as socket:
                 ready.wait()
@@ -228,6 +260,7 @@ def main():
     for generation in Generation:
         print(f"RWS {generation.value}: requests {json.dumps(requests(generation))}")
         each, rate = cpu(generation)
+        print(f"RWS {generation.value}, 8 threads: {json.dumps(ceiling(generation))}")
         print(f"RWS {generation.value}: {each:.2f} ms of CPU a request, {rate:.0f} a second")
     for generation in (Generation.ONE, Generation.TWO):
         told = events(generation, chosen.sockets, chosen.seconds)

@@ -5,6 +5,7 @@ Exit codes: 0 done or clean, 1 findings, failed or refused, 2 bad input or usage
 
 import errno
 import gc
+import json
 import os
 import signal
 import sys
@@ -18,7 +19,7 @@ from typer.exceptions import TyperException
 from rapidgen import __version__
 from rapidgen.cli.loudness import set_up
 from rapidgen.cli.terminal import use_colour
-from rapidgen.diagnostics import Diagnostic, DiagnosticError, Format, error, render
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, as_data, error, render
 
 # Each verb is a file of its own, imported when it is asked for; its help begins with the
 # sentence that stands here (a test compares).
@@ -39,7 +40,7 @@ VERBS = {
     "pose": "Show where the tool is in the work object, and the joints; as `move` takes them.",
     "stop": "Stop the robot: every motion group, or one.",
     "monitor": "Watch a robot: joints against limits, mode, rate, jitter, last event.",
-    "view": "Show a robot in the browser, read only.",
+    "view": "Show a robot or a recording in the browser, read only.",
     "record": "Write every joint message to a CSV: `time,<joint names>` in s and rad (m).",
     "status": "Show a controller: mode, motors, speed, tasks, pointers.",
     "log": "Show a controller's event log; follow it.",
@@ -65,7 +66,8 @@ _MACHINE = {
     errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EROFS, errno.EMFILE, errno.ENFILE
 }  # fmt: skip
 _BAD_PATH = {
-    errno.ENOENT, errno.ENOTDIR, errno.EISDIR, errno.ENAMETOOLONG, errno.ELOOP, errno.EACCES
+    errno.ENOENT, errno.ENOTDIR, errno.EISDIR, errno.ENAMETOOLONG, errno.ELOOP, errno.EACCES,
+    errno.EEXIST
 }  # fmt: skip
 
 # Options that may stand without a value.
@@ -225,7 +227,7 @@ def asks_json(words: Sequence[str]) -> bool:
 
 def _show(found: tuple[Diagnostic, ...], as_json: bool) -> None:
     if as_json:
-        sys.stdout.write(f'{{"errors": {render(found, Format.JSON).rstrip()}}}\n')
+        sys.stdout.write(json.dumps({"errors": as_data(found)}, ensure_ascii=False) + "\n")
     else:
         sys.stderr.write(render(found, colour=use_colour()))
 
@@ -233,7 +235,9 @@ def _show(found: tuple[Diagnostic, ...], as_json: bool) -> None:
 def _usage(fault: TyperException) -> Diagnostic:
     context = getattr(fault, "ctx", None)
     path = context.command_path if context is not None else "rapidgen"
-    message = (fault.format_message() or "nothing to do").rstrip(".")
+    # pydantic's words where a type is checked; they are no user's.
+    message = (fault.format_message() or "nothing to do").rstrip(".").replace("Value error, ", "")
+    message = message.replace("Input should be", "it must be").replace("invalid value: ", "")
     return error(
         "RG901",
         None,

@@ -10,9 +10,9 @@ from rapidgen.cli.terminal import use_colour
 from rapidgen.diagnostics import DiagnosticError, Severity, refusal, render
 
 if TYPE_CHECKING:
+    from rapidgen.controller.answering import Said
     from rapidgen.controller.booting import Bootable
     from rapidgen.controller.guessing import Named
-    from rapidgen.controller.surroundings import Said
 
 
 def chosen(
@@ -45,6 +45,10 @@ def chosen(
     found = load_target(targets, wishes)
     if found.notes:
         sys.stderr.write(render(found.notes, colour=use_colour()))
+    if found.likely is not None:
+        one = found.likely
+        reach = f"reaches {one.reached} of {one.targets} targets that its program names"
+        sys.stderr.write(f"guessed robot: {one.model}, which {reach}\n")
     if found.guessed is not None:
         sys.stderr.write(_table("guessed", found.guessed.named))
         sys.stderr.write(_table("nobody declares, and it was not guessed", found.guessed.unknown))

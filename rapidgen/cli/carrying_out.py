@@ -1,5 +1,6 @@
 """What `deploy`, `rollback` and `uninstall` do alike: show plans, ask, work, tell what became."""
 
+import json
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
@@ -26,24 +27,31 @@ def make_sure(question: str, *, yes: bool) -> None:
     confirm(question, yes=yes, ask=lambda text: typer.confirm(text, err=True))
 
 
-def carry_out(job: "FleetJob", plans: "Sequence[Plan]") -> int:
-    """Do what was planned; a table of the controllers. Raises DiagnosticError where one failed,
-    KeyboardInterrupt behind the table when somebody has given up."""
+def carry_out(job: "FleetJob", plans: "Sequence[Plan]", *, as_json: bool = False) -> int:
+    """Do what was planned; a table of the controllers, or JSON with their errors; the exit code.
+
+    Raises DiagnosticError where one failed and that was not told in JSON, KeyboardInterrupt behind
+    the table when somebody has given up."""
     from dataclasses import replace
 
     from rapidgen.deploy.fleet import GivingUp
     from rapidgen.deploy.session import apply_all
-    from rapidgen.deploy.show import table
+    from rapidgen.deploy.show import outcomes_json, table
 
     def say(line: str) -> None:
         typer.echo(line, err=True)
 
     giving_up = GivingUp(say)
     outcomes = apply_all(replace(job, giving_up=giving_up), plans, say)
-    typer.echo(table(outcomes), nl=False)
+    if as_json:
+        typer.echo(json.dumps(outcomes_json(outcomes), indent=2))
+    else:
+        typer.echo(table(outcomes), nl=False)
     if giving_up:
         raise KeyboardInterrupt
     failures = [o.error for o in outcomes if o.error is not None]
+    if failures and as_json:
+        return 1
     if failures:
         raise DiagnosticError([d for f in failures for d in f.diagnostics], exit_code=1)
     return 0

@@ -48,6 +48,7 @@ def check(
         ),
     ] = None,
     format: Annotated[Format, typer.Option(help="How findings are shown.")] = Format.FULL,
+    as_json: Annotated[bool, typer.Option("--json", help="As --format json.")] = False,
 ) -> int:
     """Say everything that is wrong with configurations and RAPID.
 
@@ -55,6 +56,7 @@ def check(
     not there, a backup may not. With --backup a configuration is built for that controller, and a
     generated folder is loaded onto it; nothing is written.
     """
+    format = Format.JSON if as_json else format
     dialect = _dialect(robotware)
     cell = _cell(backup)
     found: list[Diagnostic] = []

@@ -1,18 +1,22 @@
 """`rapidgen demo`: build, boot, move, report — the main job in one command, without a robot."""
 
+import math
 import sys
 from pathlib import Path
+from shutil import which
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 if TYPE_CHECKING:
-    from rapidgen.client import Result, Robot, Trajectory
+    from rapidgen.client import Execution, Result, Robot, Trajectory
     from rapidgen.client.recording import JointRecording
     from rapidgen.config.model import GroupConfig
 
 _SERVERS = 10.0
 """s within which the driver's servers must listen."""
+_SAID = 2.0
+"""s after which a line says how far the motion is."""
 
 
 def demo(
@@ -28,31 +32,63 @@ def demo(
     from rapidgen.generate import build, write
     from rapidgen.wire.simple_message.spec import TriState
 
+    _say(f"build    the driver of {config}: RAPID modules and controller configuration")
     model = load_config(config)
     folder = output / model.name
     driver = build(model)
     write(driver, folder)
-    _say(f"built   {folder}: {len(driver.files)} files, build {driver.build_id}")
+    _say(f"         {folder}: {len(driver.files)} files, build {driver.build_id}")
+    _say("boot     a virtual controller, which executes these files")
     with VirtualController.from_folder(folder, clock="real", ports="auto") as controller:
         group = model.groups[0]
         controller.start()
         address = controller.address(group.name, timeout=_SERVERS)
-        _say(f"booted  {len(controller.tasks)} tasks, RobotWare {model.robotware[0]}, at {address}")
-        with Robot(model, address=address, group=group.name) as robot:
+        tasks = len(controller.tasks)
+        _say(f"         {tasks} tasks, RobotWare {model.robotware[0]}, at {address}")
+        _say("connect  a Python client, as to a robot")
+        # By the controller's own clock: stamps of reception are as late as this machine is busy.
+        with Robot(model, address=address, group=group.name, feedback=True) as robot:
             robot.wait_until(lambda s: s.status.motion_possible is TriState.TRUE, _SERVERS)
             trajectory = _trajectory(robot)
+            _say(f"         rapidgen {robot.driver.version}, {robot.state.status}")
+            _say(f"move     {len(trajectory)} points in {trajectory.duration:.0f} s")
             with robot.recording() as recording:
-                from rapidgen.cli.following import follow
-
-                result = follow(robot.execute(trajectory))
+                result = _followed(robot, robot.execute(trajectory))
             reached = controller.call(controller.motion.group(group.name).positions)
             _report(robot, trajectory, recording, result, reached)
     _draw(output, trajectory, recording, group)
+    _next(model.name, output)
     return 0
 
 
 def _say(text: str) -> None:
     sys.stderr.write(text + "\n")
+    sys.stderr.flush()
+
+
+def _followed(robot: "Robot", execution: "Execution") -> "Result":
+    """The end of a motion, and meanwhile a line now and then."""
+    from rapidgen.client import RobotTimeout
+
+    while True:
+        try:
+            return execution.result(timeout=_SAID)
+        except RobotTimeout:
+            if execution.is_over:
+                raise
+            joints = ", ".join(f"{math.degrees(value):.0f}" for value in robot.state.joints)
+            _say(f"         {execution.progress.fraction:4.0%}, joints at {joints} degrees")
+
+
+def _next(name: str, output: Path) -> None:
+    command = "rapidgen" if which("rapidgen") else sys.argv[0]
+    _say(
+        f"next:    look at the pictures and at {output / name}/README.md, then\n"
+        f"           {command} new cell.yaml --robot irb120     a configuration of your own\n"
+        f"           {command} sim cell.yaml &                  its driver, running\n"
+        f"           {command} move cell.yaml --joints 10,0,0,0,30,0 --to sim\n"
+        "         README.md and docs/use/client.md go on from there"
+    )
 
 
 def _trajectory(robot: "Robot") -> "Trajectory":
@@ -101,14 +137,11 @@ def _report(
 def _draw(
     output: Path, trajectory: "Trajectory", recording: "JointRecording", group: "GroupConfig"
 ) -> None:
-    from rapidgen.view.plot import PlottedCurve, write_plot
+    _say("draw     what was commanded and executed")
+    from rapidgen.view import plot
+    from rapidgen.view.plotting import files_of
 
-    png, html = output / "demo.png", output / "demo.html"
-    write_plot(
-        png,
-        html,
-        [PlottedCurve("commanded", trajectory), PlottedCurve("executed", recording.trajectory())],
-        title=f"{group.model or group.name}: commanded and executed joints",
-        prismatic=[j.name for j in group.joints if j.kind == "prismatic"],
-    )
-    _say(f"drew    {png} and {html}")
+    title = f"{group.model or group.name}: commanded and executed joints"
+    made = plot(trajectory, recording, title=title)
+    written = [str(made.save(path)) for path in files_of(output / "demo")]
+    _say(f"         {' and '.join(written)}")

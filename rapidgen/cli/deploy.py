@@ -18,6 +18,7 @@ def deploy(
     restart: options.Restart = False,
     wait: options.WaitForPeople = 0.0,
     yes: options.Yes = False,
+    as_json: options.AsJson = False,
     overrides: options.Overrides = None,
     user: options.User = "",
     secrets: options.Secrets = None,
@@ -74,6 +75,6 @@ def deploy(
         typer.echo(f"kept a copy of what loads the other driver: {path}", err=True)
     refuse_conflicts(job, plans)
     if all(made.is_empty for made in plans):
-        return 0
+        return carry_out(job, plans, as_json=True) if as_json else 0
     make_sure(f"Change {sum(not p.is_empty for p in plans)} controller(s)?", yes=yes)
-    return carry_out(job, plans)
+    return carry_out(job, plans, as_json=as_json)

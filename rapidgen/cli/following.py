@@ -1,7 +1,9 @@
-"""A motion under way, with a progress bar on a terminal."""
+"""A motion under way: a progress bar on a terminal, a line every 10 s elsewhere."""
 
 import sys
 from typing import TYPE_CHECKING
+
+from rapidgen.cli.loudness import is_quiet
 
 if TYPE_CHECKING:
     from rich.progress import Progress, TaskID
@@ -9,10 +11,14 @@ if TYPE_CHECKING:
     from rapidgen.client import Execution, Result
 
 
+EVERY = 10.0
+"""s between two lines."""
+
+
 def follow(execution: "Execution") -> "Result":
     """Wait for the end of a motion. Raises what `Execution.result` raises; Ctrl-C stops."""
     if not sys.stderr.isatty():
-        return execution.result()
+        return _told_in_lines(execution)
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
@@ -35,6 +41,21 @@ def follow(execution: "Execution") -> "Result":
             _show(bar, task, execution)
         _show(bar, task, execution)
     return execution.result()
+
+
+def _told_in_lines(execution: "Execution") -> "Result":
+    from rapidgen.client import RobotTimeout
+
+    while True:
+        try:
+            return execution.result(timeout=EVERY)
+        except RobotTimeout:
+            if execution.is_over:
+                raise
+        progress = execution.progress
+        if not is_quiet():
+            state = progress.state.name.lower()
+            sys.stderr.write(f"{state}: {progress.reached} of {progress.total} points\n")
 
 
 def _show(bar: "Progress", task: "TaskID", execution: "Execution") -> None:

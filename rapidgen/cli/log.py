@@ -17,12 +17,15 @@ def log(
     user: options.User = "",
     secrets: options.Secrets = None,
     fingerprint: options.Fingerprint = "",
+    as_json: Annotated[bool, typer.Option("--json", help="One JSON object a line.")] = False,
 ) -> int:
     """Show a controller's event log; follow it.
 
     Oldest first, with arguments. Ctrl-C ends `--follow`.
     """
+    import json
     import time
+    from dataclasses import asdict
 
     from rapidgen.cli.web_services import controller
     from rapidgen.client.errors import ConnectionFailed, ConnectionLost
@@ -32,7 +35,7 @@ def log(
         events = found.log(domain=domain, count=count)
         while True:
             for event in events:
-                typer.echo(event)
+                typer.echo(json.dumps(asdict(event)) if as_json else event)
                 last = event.number
             if not follow:
                 return 0

@@ -40,7 +40,8 @@ def monitor(
         for number, state in enumerate(robot.states(), 1):
             watcher.take(state, robot.events[-1] if robot.events else None)
             if screen is not None:
-                screen.update(live.as_table(state, watcher, robot.group, str(robot.address)))
+                width, place = screen.console.width, str(robot.address)
+                screen.update(live.as_table(state, watcher, robot.group, place, width))
             else:
                 typer.echo((live.as_json if as_json else live.as_line)(state, watcher))
             if number == count:

@@ -61,7 +61,7 @@ def move(
     ] = None,
     plot: Annotated[
         Path | None,
-        typer.Option(help="Draw commanded and executed joints: PNG and HTML.", metavar="FILE"),
+        typer.Option(help="Draw commanded and executed joints: .html, .png, .svg.", metavar="FILE"),
     ] = None,
     rad: options.InRad = False,
     as_json: options.AsJson = False,
@@ -110,7 +110,7 @@ def move(
         _show_plan(robot, trajectory, f"{used:.0%} of {whose} speed", way, units)
         sys.stderr.write(render(warnings, colour=use_colour()))
         if dry_run:
-            if files is not None:
+            if files:
                 draw_motion(files, robot, trajectory, None)
             _report_dry(trajectory, way, as_json)
             return 0
@@ -122,7 +122,7 @@ def move(
             finally:
                 if record is not None:
                     recording.to_csv(record)
-                if files is not None:
+                if files:
                     draw_motion(files, robot, trajectory, recording)
     if asked is not None and not robot.address.is_loopback:
         remember(robot.address, asked)
@@ -144,12 +144,13 @@ def _one_goal(points: Path | None, joints: str, pose: str, approach: float | Non
         raise typer.BadParameter(f"{given[0]} begins where the robot is", param_hint="--approach")
 
 
-def _writable(record: Path | None, plot: Path | None) -> "tuple[Path, Path] | None":
-    """The pictures' files; all that is to be written is refused now where it cannot be."""
-    from rapidgen.cli.observed import pictures, refuse_unwritable
+def _writable(record: Path | None, plot: Path | None) -> list[Path]:
+    """The plot's files; all that is to be written is refused now where it cannot be."""
+    from rapidgen.cli.observed import refuse_unwritable
+    from rapidgen.view.plotting import files_of
 
-    files = pictures(plot) if plot is not None else None
-    refuse_unwritable([path for path in (record, *(files or ())) if path is not None])
+    files = files_of(plot) if plot is not None else []
+    refuse_unwritable([*([record] if record is not None else []), *files])
     return files
 
 

@@ -64,6 +64,13 @@ def new(
 
     if robot is None and urdf is None and is_terminal():
         robot, urdf = ask_source()
+    if file.suffix not in (".yaml", ".yml"):
+        raise refusal(
+            "RG020",
+            None,
+            f"{file} would not be known as a configuration",
+            f"by its suffix: {file.with_suffix('.yaml')}",
+        )
     if (robot is None) == (urdf is None):
         raise refusal(
             "RG020",
@@ -103,8 +110,9 @@ def new(
         text = make(said)
     try:
         notes = write_new(file, text, package_paths=package_path or (), force=force)
-    except DiagnosticError:
-        if file.exists():
+    except DiagnosticError as found:
+        # It is there as it is meant, or it was there before (RG020).
+        if file.exists() and all(d.code != "RG020" for d in found.diagnostics):
             typer.echo(f"wrote {file}, which is not complete:", err=True)
         raise
     for note in notes:

@@ -1,7 +1,9 @@
-"""What `run` writes of a run beside its output: trace, profile, coverage, a plot of the motion."""
+"""What `run` and `sim` write of a run beside its output: trace, profile, coverage, a plot of the
+motion."""
 
 import sys
-from dataclasses import dataclass, field
+from contextlib import contextmanager
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -9,8 +11,9 @@ from rapidgen._writing import check_writable, write_whole
 from rapidgen.diagnostics import refusal
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
 
+    from rapidgen.controller.cabinet import Cabinet
     from rapidgen.controller.controller import VirtualController
     from rapidgen.controller.tracing import Coverage, Profile
     from rapidgen.motion.recorder import Recorder
@@ -37,9 +40,16 @@ class Outputs:
 
     def refuse_unwritable(self) -> None:
         """Refuse, before anything runs, a file that cannot be written behind it."""
-        files = [*self.coverage, *(pictures(self.plot) if self.plot else ())]
+        files = list(self.coverage)
+        if self.plot is not None:
+            from rapidgen.view.plotting import files_of
+
+            files += files_of(self.plot)
         if self.profile not in ("", "-"):
             files.append(Path(self.profile))
+        twice = next((file for file in files if files.count(file) > 1), None)
+        if twice is not None:
+            raise refusal("RG901", None, f"{twice} would be written twice", "name another file")
         refuse_unwritable(files)
 
 
@@ -78,15 +88,44 @@ class Observed:
             self._draw(self.wanted.plot)
 
     def _draw(self, plot: Path) -> None:
-        from rapidgen.cli.plot import draw_recording
         from rapidgen.motion.recorder import PERIOD
+        from rapidgen.view import plot as draw
+        from rapidgen.view.plotting import files_of
 
         period = max(PERIOD, self.controller.now / _SAMPLES)
         several = len(self._recorders) > 1
         for group, recorder in self._recorders.items():
-            paths = pictures(plot, f"_{group}" if several else "")
             title = f"{self.controller.system.name}, {group}"
-            draw_recording(recorder.recording(period), paths, title=title)
+            made = draw(recorder.recording(period), title=title)
+            for path in files_of(plot.with_stem(f"{plot.stem}_{group}") if several else plot):
+                made.save(path)
+
+
+@contextmanager
+def observing(cabinet: "Cabinet", wanted: Outputs) -> "Iterator[None]":
+    """Write what was asked for when a controller is switched off, and when it restarts: then under
+    names of their own, `F-1.html`, since nothing of before is in it any more."""
+    now = Observed(cabinet.controller, wanted)
+
+    def before() -> None:
+        number = cabinet.restarts + 1
+        now.wanted = replace(
+            wanted,
+            coverage=tuple(path.with_stem(f"{path.stem}-{number}") for path in wanted.coverage),
+            plot=wanted.plot and wanted.plot.with_stem(f"{wanted.plot.stem}-{number}"),
+        )
+        now.write()
+
+    def again() -> None:
+        nonlocal now
+        now = Observed(cabinet.controller, wanted)
+
+    cabinet.on_restart.append(before)
+    cabinet.on_boot.append(again)
+    try:
+        yield
+    finally:
+        now.write()
 
 
 def refuse_unwritable(files: "Sequence[Path]") -> None:
@@ -101,12 +140,6 @@ def refuse_unwritable(files: "Sequence[Path]") -> None:
                 f"cannot write {path}: {fault.strerror}",
                 "name a file in a folder that exists and may be written",
             ) from fault
-
-
-def pictures(plot: Path, more: str = "") -> tuple[Path, Path]:
-    """PNG and HTML of a plot, whatever suffix it was given."""
-    base = plot.with_suffix("") if plot.suffix.lower() in (".png", ".html") else plot
-    return base.with_name(f"{base.name}{more}.png"), base.with_name(f"{base.name}{more}.html")
 
 
 def _page(controller: "VirtualController", coverage: "Coverage") -> str:

@@ -40,6 +40,18 @@ Tasks = Annotated[
     list[str] | None,
     typer.Option("--task", metavar="NAME=FILE,FILE", help="A task of its own with these modules."),
 ]
+Coverage = Annotated[
+    list[Path] | None,
+    typer.Option(
+        "--coverage",
+        metavar="F.lcov|F.html",
+        help="Lines and branches, or the source with hits; may be repeated.",
+    ),
+]
+Plot = Annotated[
+    Path | None,
+    typer.Option("--plot", metavar="F", help="What the robots did: .html, .png, .svg."),
+]
 Entry = Annotated[str, typer.Option("--entry", help="Procedure that tasks start in, not main.")]
 RobotModel = Annotated[
     str, typer.Option("--robot", metavar="NAME", help="Shipped robot or configuration.")

@@ -20,6 +20,7 @@ def rollback(
     restart: options.Restart = False,
     wait: options.WaitForPeople = 0.0,
     yes: options.Yes = False,
+    as_json: options.AsJson = False,
     user: options.User = "",
     secrets: options.Secrets = None,
     identity: options.Identity = "",
@@ -35,6 +36,8 @@ def rollback(
 
     rapidgen rollback cell1.yaml --to "ftp://192.168.125.1/hd0a/SYSTEM/HOME" --list
     """
+    import json
+
     from rapidgen.cli.carrying_out import carry_out, make_sure, show_plans
     from rapidgen.cli.hello import hello
     from rapidgen.cli.web_services import agree
@@ -55,9 +58,15 @@ def rollback(
         user, secrets, identity, known_hosts, ask=True, fingerprint=fingerprint, agree=agree()
     )
     if list_backups:
-        for target in targets:
-            for past in history(target, access, name):
-                typer.echo(f"{target.shown}  {past.id}  {past.time}  build {past.build_id}")
+        rows = [
+            {"target": target.shown, "id": past.id, "time": past.time, "build_id": past.build_id}
+            for target in targets
+            for past in history(target, access, name)
+        ]
+        if as_json:
+            typer.echo(json.dumps(rows))
+        for row in () if as_json else rows:
+            typer.echo("{target}  {id}  {time}  build {build_id}".format(**row))
         return 0
     job = FleetJob(
         "rollback",
@@ -75,4 +84,4 @@ def rollback(
     show_plans(plans)
     refuse_conflicts(job, plans)
     make_sure(f"Roll back {len(plans)} controller(s)?", yes=yes)
-    return carry_out(job, plans)
+    return carry_out(job, plans, as_json=as_json)

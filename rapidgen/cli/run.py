@@ -66,18 +66,8 @@ def run(
         str,
         typer.Option("--profile", metavar="[=F.json]", help="Time by line, on stderr or as JSON."),
     ] = "",
-    coverage: Annotated[
-        list[Path] | None,
-        typer.Option(
-            "--coverage",
-            metavar="F.lcov|F.html",
-            help="Lines and branches, or the source with hits; may be repeated.",
-        ),
-    ] = None,
-    plot: Annotated[
-        Path | None,
-        typer.Option("--plot", metavar="F", help="F.png and F.html of what the robots did."),
-    ] = None,
+    coverage: options.Coverage = None,
+    plot: options.Plot = None,
     backup: options.Backup = None,
     check: options.LoadCheck = True,
 ) -> None:

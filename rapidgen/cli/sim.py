@@ -88,6 +88,8 @@ def sim(
     answers: Annotated[
         Path | None, typer.Option(help="The operator's answers: `rapidgen explain RG420`.")
     ] = None,
+    coverage: options.Coverage = None,
+    plot: options.Plot = None,
     overrides: options.Overrides = None,
     backup: options.Backup = None,
     check: options.LoadCheck = True,
@@ -101,12 +103,15 @@ def sim(
     by `--to sim`.
     """
     from rapidgen.cli.bootable import chosen
+    from rapidgen.cli.observed import Outputs, observing
     from rapidgen.controller.cabinet import Cabinet
     from rapidgen.controller.faults import read_plan
     from rapidgen.machine.operator import read_answers
 
     if ports is not None and port_offset:
         raise typer.BadParameter("either --port-offset or --ports auto")
+    wanted = Outputs(coverage=tuple(coverage or ()), plot=plot)
+    wanted.refuse_unwritable()
     found = chosen(
         targets or (),
         tasks=task,
@@ -133,6 +138,7 @@ def sim(
         ports=ports or port_offset,
         faults=plan,
         answers=script,
+        tracing=wanted.tracing,
         autostart=not cold,
     ) as cabinet:
         _tell(cabinet.controller.diagnostics)
@@ -143,6 +149,7 @@ def sim(
             _faces(cabinet, host, ftp, sftp, (rws, rws_port, not rws_lenient, denied)) as faces,
             _page(cabinet, host, view_port if view else None) as page,
             _recording(cabinet, record, watch or ()),
+            observing(cabinet, wanted),
         ):
             return _serve(cabinet, found, host, speed, {"control": control, **faces, **page})
 

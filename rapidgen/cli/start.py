@@ -27,13 +27,14 @@ def start(
     """
     from rapidgen.cli.carrying_out import make_sure
     from rapidgen.cli.status import show, state
-    from rapidgen.cli.web_services import controller
+    from rapidgen.cli.web_services import ask_pendant, controller
 
     with controller(host, user, secrets, fingerprint) as found:
         told = state(found)
         show(told)
         first = " with all program pointers at main" if main else ""
         make_sure(f"THE ROBOT MAY MOVE: start the program at {host}{first}?", yes=yes)
+        ask_pendant(found, "exec", str(told["mode"]))
         if main:
             found.pp_to_main()
         if told["state"] != "motoron":

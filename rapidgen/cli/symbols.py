@@ -18,13 +18,17 @@ def symbols(
     user: options.User = "",
     secrets: options.Secrets = None,
     fingerprint: options.Fingerprint = "",
+    as_json: Annotated[bool, typer.Option("--json", help="JSON on stdout.")] = False,
 ) -> int:
     """Show a controller's RAPID data, or set one.
 
     A write is asked about, unless the controller is a virtual one, and read back.
     """
+    import json
+    from dataclasses import asdict
+
     from rapidgen.cli.carrying_out import make_sure
-    from rapidgen.cli.web_services import controller
+    from rapidgen.cli.web_services import ask_pendant, controller
     from rapidgen.client.rws.values import read
 
     parts = name.split("/") if name else []
@@ -36,14 +40,19 @@ def symbols(
         if literal is not None:
             if not found.identity().is_virtual:
                 make_sure(f"set {name} to {value} at {host}?", yes=yes)
+            ask_pendant(found, "modify", found.panel().mode)
             found.set_symbol(name, literal)
         if len(parts) == 3:
-            typer.echo(found.symbol_text(name))
+            text = found.symbol_text(name)
+            typer.echo(json.dumps({"path": name, "value": text}) if as_json else text)
             return 0
         tasks = parts[:1] or [task.name for task in found.tasks()]
         module = parts[1] if len(parts) == 2 else ""
-        for task in tasks:
-            for one in found.symbols(task, module=module, kind=kind):
-                dims = "{" + ",".join(map(str, one.dims)) + "}" if one.dims else ""
-                typer.echo(f"{one.path}  {one.kind}  {one.type}{dims}")
+        all_of = [s for t in tasks for s in found.symbols(t, module=module, kind=kind)]
+    if as_json:
+        typer.echo(json.dumps([asdict(one) for one in all_of], indent=2))
+        return 0
+    for one in all_of:
+        dims = "{" + ",".join(map(str, one.dims)) + "}" if one.dims else ""
+        typer.echo(f"{one.path}  {one.kind}  {one.type}{dims}")
     return 0

@@ -23,6 +23,12 @@ def test(
     case: Annotated[
         list[str] | None, typer.Option(help="Only this case (repeatable).", metavar="NAME")
     ] = None,
+    list_cases: Annotated[
+        bool, typer.Option("--list", help="List the cases by group; prove nothing.")
+    ] = False,
+    durations: Annotated[
+        int, typer.Option(help="Tell the N cases that took longest.", min=0, metavar="N")
+    ] = 0,
     quick: Annotated[
         bool, typer.Option("--quick", help="Only the default of every assumption.")
     ] = False,
@@ -34,8 +40,8 @@ def test(
         typer.Option(help="Only this setting (repeatable).", metavar="NAME=ANSWER,..."),
     ] = None,
     replay: Annotated[
-        int | None,
-        typer.Option(help="One schedule again, exactly; its story on stdout.", metavar="SEED"),
+        str | None,
+        typer.Option(help="One schedule again, exactly; its story on stdout.", metavar="SCHEDULE"),
     ] = None,
     trace: Annotated[
         Path | None,
@@ -88,6 +94,8 @@ def test(
     model = load_config(config, overrides=overrides or ())
     if backup is not None:
         model = _fitted(model, backup)
+    if list_cases:
+        return _list(as_json)
     if replay is not None:
         return _replay(model, replay, trace)
     _check_names(case or [])
@@ -118,7 +126,7 @@ def test(
     if as_json:
         typer.echo(json.dumps(report_as_json(report), indent=1))
     else:
-        _show(report, uncovered)
+        _show(report, uncovered, durations)
     if report.broken_off:
         raise KeyboardInterrupt
     return 0 if report.passed else 1
@@ -190,11 +198,30 @@ def _resumes_nothing() -> DiagnosticError:
     return refusal("RG805", None, "--resume goes on with results, and no file was named", mend)
 
 
-def _show(report: "Proof", uncovered: bool) -> None:
+def _list(as_json: bool) -> int:
+    """What there is to prove, by group."""
+    import json
+
+    from rapidgen.proving.suite import CASES
+
+    if as_json:
+        rows = [{"case": c.name, "group": c.group, "title": c.title} for c in CASES]
+        typer.echo(json.dumps(rows, indent=1))
+        return 0
+    width = max(len(case.name) for case in CASES)
+    for group in dict.fromkeys(case.group for case in CASES):
+        typer.echo(f"{group}:")
+        for case in CASES:
+            if case.group == group:
+                typer.echo(f"  {case.name:<{width}}  {case.title}")
+    return 0
+
+
+def _show(report: "Proof", uncovered: bool, durations: int) -> None:
     from rich.console import Console
     from rich.table import Table
 
-    from rapidgen.proving.report import complaint, missed
+    from rapidgen.proving.report import complaint, met, missed, slowest
 
     console = Console(highlight=False)
     table = Table("group", "held", "of", "answers", box=None)
@@ -213,11 +240,15 @@ def _show(report: "Proof", uncovered: bool) -> None:
     if uncovered:
         for path, lines in missed(report):
             console.print(f"not reached: {path}: {lines}", markup=False, soft_wrap=True)
+    for case, seconds, times in slowest(report, durations):
+        console.print(f"{seconds:8.2f} s  {case} ({times} times)", markup=False)
     for outcome in report.outcomes:
         if not outcome.passed:
             console.print(f"failed: {complaint(outcome)}", markup=False)
     for finding in report.findings:
-        console.print(f"failed: --replay {finding.seed}: {finding.detail}", markup=False)
+        console.print(f"failed: --replay {finding.schedule}: {finding.detail}", markup=False)
+    if report.curve:
+        console.print(met(report), markup=False)
     verdict = "everything held" if report.passed else "something did not hold"
     if report.left:
         verdict += f", {report.left} were not tried"
@@ -230,19 +261,19 @@ def _show(report: "Proof", uncovered: bool) -> None:
     )
 
 
-def _replay(config: "RobotConfig", seed: int, trace: Path | None) -> int:
+def _replay(config: "RobotConfig", name: str, trace: Path | None) -> int:
     from rapidgen.proving.run import replay
 
     _check_writable(trace)
     if trace is None:
-        explored = replay(config, seed)
+        explored = replay(config, name)
     else:
         with trace.open("w", encoding="utf-8") as file:
-            explored = replay(config, seed, file)
+            explored = replay(config, name, file)
     typer.echo(explored.plan)
     if explored.finding is None:
-        typer.echo(f"seed {seed}: the invariant held")
+        typer.echo(f"schedule {name}: the invariant held")
         return 0
     typer.echo("\n".join(explored.finding.log))
-    typer.echo(f"seed {seed}: {explored.finding.detail}")
+    typer.echo(f"schedule {name}: {explored.finding.detail}")
     return 1

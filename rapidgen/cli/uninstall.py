@@ -18,6 +18,7 @@ def uninstall(
     restart: options.Restart = False,
     wait: options.WaitForPeople = 0.0,
     yes: options.Yes = False,
+    as_json: options.AsJson = False,
     user: options.User = "",
     secrets: options.Secrets = None,
     identity: options.Identity = "",
@@ -71,4 +72,4 @@ def uninstall(
     make_sure(f"Uninstall from {len(plans)} controller(s)?", yes=yes)
     for path in save_edits(plans, Path(".rapidgen") / "edited"):
         typer.echo(f"kept a copy of a hand edit: {path}", err=True)
-    return carry_out(job, plans)
+    return carry_out(job, plans, as_json=as_json)

@@ -13,6 +13,10 @@ if TYPE_CHECKING:
     from rapidgen.client.rws import Controller
 
 
+_PROMPT = 10.0
+"""s that a question stands on the pendant [RWS manual]."""
+
+
 @contextmanager
 def controller(
     host: str, user: str, secrets: Path | None, fingerprint: str
@@ -35,6 +39,18 @@ def controller(
     )
     with found:
         yield found
+
+
+def ask_pendant(found: "Controller", privilege: str, mode: str) -> None:
+    """In manual mode the pendant's user is asked, which is announced. Raises RG661, RG659."""
+    if mode == "AUTO":
+        return
+    typer.echo(
+        f"{found.where} is in manual mode: its pendant asks now whether this may be. "
+        f"Press Grant there within {_PROMPT:g} s",
+        err=True,
+    )
+    found.ask_rmmp(privilege, wait=_PROMPT)
 
 
 def agree() -> Callable[[str, str], bool] | None:

@@ -1,5 +1,6 @@
 """The paired Python client: sync and async."""
 
+import logging
 from typing import TYPE_CHECKING
 
 from rapidgen.client.aio import AsyncExecution, AsyncProgramRun, AsyncRobot, AsyncStream
@@ -12,6 +13,7 @@ from rapidgen.client.errors import (
     ConnectionLost,
     IncompatibleDriver,
     InvalidProgram,
+    InvalidTarget,
     InvalidTrajectory,
     MotionError,
     MotionFailed,
@@ -28,11 +30,14 @@ from rapidgen.client.errors import (
 )
 from rapidgen.client.program import Program, Speed, Trigger, Zone, pulse
 from rapidgen.client.threads import Execution, ProgramRun, Robot, Stream
-from rapidgen.client.trajectory import Trajectory
+from rapidgen.client.trajectory import Trajectory, Waypoint
 from rapidgen.wire.simple_message.spec import EventType, Reason, TrajectoryState
 
 if TYPE_CHECKING:
     from rapidgen.client.rws import AsyncController, Controller
+
+# Whoever wants to read it says where it goes; nobody else is bothered.
+logging.getLogger("rapidgen").addHandler(logging.NullHandler())
 
 __all__ = [
     "AsyncCell",
@@ -52,6 +57,7 @@ __all__ = [
     "Feedback",
     "IncompatibleDriver",
     "InvalidProgram",
+    "InvalidTarget",
     "InvalidTrajectory",
     "MotionError",
     "MotionFailed",
@@ -79,6 +85,7 @@ __all__ = [
     "TrajectoryRefused",
     "TrajectoryState",
     "Trigger",
+    "Waypoint",
     "Zone",
     "pulse",
 ]

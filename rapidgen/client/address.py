@@ -4,9 +4,8 @@ import ipaddress
 import re
 from dataclasses import dataclass
 
-from rapidgen.client.errors import ConnectionFailed, fault
+from rapidgen.client.errors import ConnectionFailed, InvalidTarget
 from rapidgen.config.model import Ports
-from rapidgen.diagnostics import DiagnosticError
 from rapidgen.wire.simple_message.spec import Port
 
 _FORM = re.compile(
@@ -62,7 +61,7 @@ def parse_address(text: str, ports: Ports | None = None) -> Address:
 
     A lone motion port is followed by the state port two above it, as 11000 by 11002. The control
     port moves along with the others: where they are moved alike it is too, else it is not known.
-    Raises DiagnosticError (RG607).
+    Raises InvalidTarget (RG607).
     """
     found = _FORM.fullmatch(text.strip())
     own = ports or Ports()
@@ -73,13 +72,12 @@ def parse_address(text: str, ports: Ports | None = None) -> Address:
         control = _control(own, motion, state) if found["control"] is None else found["control"]
         if all(0 < port < 65536 for port in (motion, state)) and 0 <= int(control) < 65536:
             return Address(host, motion, state, int(control))
-    raise DiagnosticError(
-        fault(
-            "RG607",
-            f"'{text}' is no address of a robot",
-            "HOST, HOST:MOTION, HOST:MOTION,STATE or HOST:MOTION,STATE,CONTROL, for example "
-            "192.168.125.1:11000,11002",
-        )
+    raise InvalidTarget.because(
+        "RG607",
+        f"'{text}' is no address of a robot",
+        "HOST, HOST:MOTION, HOST:MOTION,STATE or HOST:MOTION,STATE,CONTROL, for example "
+        "192.168.125.1:11000,11002",
+        exit_code=2,
     )
 
 

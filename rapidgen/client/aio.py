@@ -4,6 +4,7 @@ Only `create_connection`, `time`, `create_future` and `call_later` of the runnin
 """
 
 import asyncio
+import warnings
 from collections.abc import AsyncIterable, AsyncIterator, Iterable, Sequence
 from contextlib import nullcontext
 from typing import Self, TypeVar, cast
@@ -308,8 +309,11 @@ class AsyncRobot(RobotSurface[Loop, AsyncExecution, AsyncStream, AsyncProgramRun
     async def __aenter__(self) -> Self:
         return self if self.is_connected else await self.connect()
 
-    async def __aexit__(self, *_: object) -> None:
+    async def __aexit__(self, kind: type[BaseException] | None, *_: object) -> None:
+        unfinished = "" if kind is not None else self._unfinished()
         await self.close()
+        if unfinished:
+            warnings.warn(unfinished, RuntimeWarning, stacklevel=2)
 
     async def states(self, timeout: float | None = None) -> AsyncIterator[State]:
         """Each new state as it comes; `timeout` s for each."""

@@ -1,6 +1,7 @@
 """Several groups or robots, started together; when one fails, all are stopped."""
 
 import asyncio
+import warnings
 from collections.abc import Callable, Coroutine, Iterator, Mapping
 from concurrent.futures import FIRST_EXCEPTION, Future, ThreadPoolExecutor, wait
 from typing import Self, TypeVar
@@ -69,8 +70,11 @@ class Cell:
             raise
         return self
 
-    def __exit__(self, *_: object) -> None:
+    def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
+        unfinished = [] if kind is not None else _unfinished(self.robots)
         self.close()
+        for text in unfinished:
+            warnings.warn(text, RuntimeWarning, stacklevel=2)
 
     def close(self) -> None:
         """Close all; what moves is stopped first."""
@@ -101,6 +105,11 @@ class Cell:
             raise
         jobs = start.jobs().items()
         return CellExecution({n: Execution(moving[n]._carrier, job) for n, job in jobs}, self)
+
+
+def _unfinished(robots: Mapping[str, Robot] | Mapping[str, AsyncRobot]) -> list[str]:
+    told = {name: robot._unfinished() for name, robot in robots.items()}
+    return [f"{name}: {text}" for name, text in told.items() if text]
 
 
 def _chosen(robots: Mapping[str, T], trajectories: Mapping[str, Trajectory]) -> dict[str, T]:
@@ -169,8 +178,11 @@ class AsyncCell:
             raise
         return self
 
-    async def __aexit__(self, *_: object) -> None:
+    async def __aexit__(self, kind: type[BaseException] | None, *_: object) -> None:
+        unfinished = [] if kind is not None else _unfinished(self.robots)
         await self.close()
+        for text in unfinished:
+            warnings.warn(text, RuntimeWarning, stacklevel=2)
 
     async def close(self) -> None:
         """Close all; what moves is stopped first."""

@@ -1,6 +1,7 @@
 """What can go wrong, split by what the caller can do about it.
 
     RobotError                    is a DiagnosticError; carries .messages and .states
+    ├── InvalidTarget             no such configuration, group or address: mend what was given
     ├── ConnectionFailed          nobody answers: start it, mend the address; nothing was sent
     ├── ConnectionLost            the link broke: look at the robot, connect again
     ├── RobotTimeout              the link stands and the answer did not come in time
@@ -55,6 +56,10 @@ class RobotError(DiagnosticError):
     def because(cls, code: str, message: str, mend: str = "", *notes: str, **told: Any) -> Self:  # noqa: ANN401
         """One with a finding that has no place in a text; `told` is what its kind takes."""
         return cls(fault(code, message, mend, *notes), **told)
+
+
+class InvalidTarget(RobotError):
+    """What was given to connect to is no sound configuration, no group of it, or no address."""
 
 
 class ConnectionFailed(RobotError):

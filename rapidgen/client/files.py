@@ -85,7 +85,9 @@ def read_csv(path: Path) -> Content:
                 row.append(float(cell))
             except ValueError:
                 message = f"'{cell.strip()}' is not a number"
-                found.append(_bad(message, path, number, column, width=max(1, len(cell))))
+                place = (path, number, column)
+                help = "s, rad and m, with a decimal point" if not found else ""
+                found.append(_bad(message, *place, width=max(1, len(cell)), help=help))
             column += len(cell) + 1
         if len(row) == len(names):
             rows.append(row)

@@ -103,7 +103,7 @@ ZoneLike: TypeAlias = float | str | Zone
 
 @dataclass(frozen=True, slots=True)
 class Trigger:
-    """A signal that is set on the way of a move to a pose: `place` is m from its beginning, m
+    """A signal that is set on the way of a move: `place` is m from its beginning, m
     before its end, or s before its end, as `kind` says."""
 
     signal: str
@@ -192,10 +192,13 @@ class Program:
         *,
         speed: SpeedLike | None = None,
         zone: ZoneLike | None = None,
+        triggers: Sequence[Trigger] = (),
     ) -> Self:
-        """To joints, rad and m, all axes together (MoveAbsJ)."""
+        """To joints, rad and m, all axes together (MoveAbsJ; with `triggers` TriggJ to the pose
+        that they have)."""
         self._hold(speed, zone)
-        return self._add(Instruction.MOVE_ABSJ, joints=tuple(map(float, joints)))
+        goal = tuple(map(float, joints))
+        return self._add(Instruction.MOVE_ABSJ, joints=goal, triggers=tuple(triggers))
 
     def move_to(
         self,
@@ -247,6 +250,13 @@ class Program:
         self._tool = self._tool if tool is None else tool
         self._work_object = self._work_object if work_object is None else work_object
         return self
+
+    def allow(self, *, singularities: bool = False, configurations: bool = False) -> Self:
+        """From here on lines and circles may pass `singularities` of the wrist, the tool turning
+        otherwise on the way (SingArea Wrist), and end in any of the `configurations` (ConfL Off).
+        What is not said is forbidden again. The robot stops for it."""
+        bits = singularities + 2 * configurations
+        return self._add(Instruction.SETTINGS, value=float(bits))
 
     def wait(self, seconds: float) -> Self:
         """Stand for so long. The move before it ends in a stop point."""

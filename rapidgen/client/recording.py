@@ -12,28 +12,58 @@ from rapidgen.client.trajectory import Array, Trajectory
 
 
 class JointRecording:
-    """Every joint message since it began; times count from the first one kept, s."""
+    """Every joint message since it began; times count from the first one kept, s.
+
+    Of a client that was made with `feedback=True` these are the controller's own times
+    (`by_controller`), else those of reception, which the network and this machine delay.
+    """
 
     def __init__(self, group: Group) -> None:
         self.group = group
+        self.by_controller = False
         self._samples: list[Sample] = []
+        self._taken: list[float] = []
 
     def add(self, sample: Sample) -> None:
-        """Keep one."""
-        self._samples.append(sample)
+        """Keep one. Of a driver that tells feedback, only that."""
+        if sample.stamp is not None and not self.by_controller:
+            self.by_controller = True
+            self._samples.clear()
+        if sample.stamp is not None or not self.by_controller:
+            self._samples.append(sample)
+
+    def taken(self, time: float) -> None:
+        """The controller has taken a motion, at this time of the client's clock."""
+        self._taken.append(time)
+
+    @property
+    def begins(self) -> tuple[float, ...]:
+        """When the controller took each motion meanwhile, s as `times`; by the client's clock
+        from the message before, and so about as exact as the messages are regular."""
+        found = []
+        for time in self._taken:
+            before = [sample for sample in self._samples if sample.time <= time][-1:]
+            found += [self._at(s) - self._at(self._samples[0]) + time - s.time for s in before]
+        return tuple(found)
+
+    @staticmethod
+    def _at(sample: Sample) -> float:
+        return sample.time if sample.stamp is None else sample.stamp
 
     def __len__(self) -> int:
         return len(self._samples)
 
-    @property
-    def began(self) -> float:
-        """The client's clock at the first message; 0 without one."""
-        return self._samples[0].time if self._samples else 0.0
+    def __repr__(self) -> str:
+        return f"<JointRecording {self.trajectory()}>"
+
+    def _repr_html_(self) -> str:
+        return self.trajectory()._repr_html_()
 
     @property
     def times(self) -> Array:
         """(n,) s from the first message."""
-        return np.array([sample.time - self.began for sample in self._samples], dtype=np.float64)
+        stamps = np.array([self._at(sample) for sample in self._samples], dtype=np.float64)
+        return stamps - stamps[:1]
 
     @property
     def positions(self) -> Array:

@@ -4,8 +4,7 @@ import logging
 
 from rapidgen._running import Simulator, running
 from rapidgen.client.address import Address, parse_address
-from rapidgen.client.errors import fault
-from rapidgen.diagnostics import DiagnosticError
+from rapidgen.client.errors import InvalidTarget, fault
 
 SIMULATOR = "sim"
 """The word for it, where an address is asked for."""
@@ -16,7 +15,7 @@ def find_simulator(name: str = "", group: str = "") -> Address:
     """Address of a motion group of the simulator with a robot's name; without one, of the only one.
 
     What simulators left behind that ended without a word is removed and logged. Raises
-    DiagnosticError RG642.
+    InvalidTarget RG642.
     """
     found, left = running()
     for path in left:
@@ -30,17 +29,18 @@ def find_simulator(name: str = "", group: str = "") -> Address:
         (group,) = addresses
     if group not in addresses:
         said = f"no motion group '{group}'" if group else "several motion groups, or none"
-        raise DiagnosticError(
+        raise InvalidTarget(
             fault(
                 "RG642",
                 f"the simulator of '{simulator.name}' has {said}",
                 f"--group {' or '.join(addresses)}" if addresses else "it serves no driver",
-            )
+            ),
+            exit_code=2,
         )
     return parse_address(addresses[group])
 
 
-def _unclear(name: str, own: list[Simulator], found: list[Simulator]) -> DiagnosticError:
+def _unclear(name: str, own: list[Simulator], found: list[Simulator]) -> InvalidTarget:
     shown = tuple(f"{one.name} (process {one.pid}): {_places(one)}" for one in found)
     if own:
         message, mend = f"{len(own)} simulators run", "end the others, or say --to with an address"
@@ -50,7 +50,7 @@ def _unclear(name: str, own: list[Simulator], found: list[Simulator]) -> Diagnos
     else:
         message = "no simulator of yours runs on this machine"
         mend = f"`rapidgen sim {name or 'CONFIG'} --ports auto` in another terminal"
-    return DiagnosticError(fault("RG642", message, mend, *shown), exit_code=1)
+    return InvalidTarget(fault("RG642", message, mend, *shown), exit_code=1)
 
 
 def _places(simulator: Simulator) -> str:

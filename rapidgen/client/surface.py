@@ -8,13 +8,14 @@ do their `Execution` and `Stream`. Beside it they have only what is said otherwi
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager
 from functools import partial
+from html import escape
 from operator import attrgetter
 from os import PathLike
 from typing import Concatenate, Generic, ParamSpec, Protocol, TypeVar
 
 from rapidgen.axes.frames import Pose
 from rapidgen.axes.kinematics import AxisConfiguration
-from rapidgen.client import flows
+from rapidgen.client import flows, shown
 from rapidgen.client.address import Address
 from rapidgen.client.core.checks import Way
 from rapidgen.client.core.group import Group
@@ -68,6 +69,16 @@ class JobSurface(Generic[C_co]):
     def __init__(self, carrier: C_co, job: Job) -> None:
         self._carrier = carrier
         self._job = job
+
+    def __repr__(self) -> str:
+        with self._carrier.guard:
+            return f"<{type(self).__name__} {self._job}>"
+
+    def _repr_html_(self) -> str:
+        with self._carrier.guard:
+            text, progress = str(self._job), self._job.progress
+        bar = f'<progress value="{progress.fraction:.3f}"></progress>'
+        return f"<p>{escape(type(self).__name__)} {escape(text)} {bar}</p>"
 
     result = _of_job(flows.job.result)
     cancel = _of_job(flows.job.cancel)
@@ -204,9 +215,22 @@ class RobotSurface(Generic[C_co, Execution, Stream, Run]):
             feedback=feedback,
             # No robot is at this machine's own address.
             simulated=self.address.is_loopback,
+            where=str(self.address),
         )
         self._carrier = self._carrier_type(self.address, make_core)
         self._core = self._carrier.core
+
+    def __repr__(self) -> str:
+        with self._carrier.guard:
+            return f"<{type(self).__name__} {shown.robot_text(self._core, self.address)}>"
+
+    def _repr_html_(self) -> str:
+        with self._carrier.guard:
+            caption, group = shown.robot_text(self._core, self.address), self._core.group
+            state = self._core.state_port.state
+        if group is None or state is None:
+            return f"<p>{escape(caption)}</p>"
+        return shown.state_table(caption, group, state.joints)
 
     # Connection
 
@@ -235,6 +259,18 @@ class RobotSurface(Generic[C_co, Execution, Stream, Run]):
         with self._carrier.guard:
             return self._core.state_port.messages
 
+    def _unfinished(self) -> str:
+        """What is under way, for who leaves a block without having waited for it; else nothing."""
+        with self._carrier.guard:
+            motion = self._core.motion
+            if motion is None or motion.is_over:
+                return ""
+            done = f"{motion.progress.reached or 0} of {motion.total} {motion.noun}s"
+        return (
+            f"the robot was stopped at the end of the block, behind {done} of a motion that was "
+            "under way: wait for it with `execution.result()`, or end it with `cancel()`"
+        )
+
     # State
 
     next_state = _of_core(flows.state.next_state)
@@ -259,15 +295,16 @@ class RobotSurface(Generic[C_co, Execution, Stream, Run]):
 
     @contextmanager
     def recording(self) -> Iterator[JointRecording]:
-        """Keep every joint message while the block runs."""
+        """Keep every joint message while the block runs; with `feedback`, by the controller's own
+        time."""
         recording = JointRecording(self.group)
         with self._carrier.guard:
-            self._core.state_port.listeners.append(recording.add)
+            self._core.state_port.listeners.append(recording)
         try:
             yield recording
         finally:
             with self._carrier.guard:
-                self._core.state_port.listeners.remove(recording.add)
+                self._core.state_port.listeners.remove(recording)
 
     # Motion
 

@@ -4,7 +4,7 @@ from os import PathLike
 
 from rapidgen.client.address import LOOPBACK, Address, parse_address
 from rapidgen.client.core.group import Group
-from rapidgen.client.errors import fault
+from rapidgen.client.errors import InvalidTarget
 from rapidgen.client.simulated import SIMULATOR, find_simulator
 from rapidgen.config import load_config, shipped_names
 from rapidgen.config.model import GroupConfig, RobotConfig
@@ -20,7 +20,7 @@ def resolve(
 
     A RobotConfig, a path that ends in .yaml, or a shipped name is a configuration; it is looked
     for at `address`, else on this machine. Any other text is an address itself. `sim` as an address
-    is the simulator that runs. Raises DiagnosticError.
+    is the simulator that runs. Raises InvalidTarget.
     """
     if isinstance(target, RobotConfig):
         config = target
@@ -28,21 +28,41 @@ def resolve(
         text = str(target)
         if not (text.endswith(_SUFFIXES) or text in shipped_names()):
             if address is not None or group:
-                raise DiagnosticError(
-                    fault(
-                        "RG607",
-                        f"'{text}' is no configuration and no shipped name",
-                        suggest(text, shipped_names()) or "`rapidgen robots` lists the names",
-                    )
+                raise InvalidTarget.because(
+                    "RG607",
+                    f"'{text}' is no configuration and no shipped name",
+                    suggest(text, shipped_names()) or "`rapidgen robots` lists the names",
+                    exit_code=2,
                 )
-            return find_simulator() if text == SIMULATOR else parse_address(text), None
-        config = load_config(text)
+            if text == SIMULATOR:
+                return find_simulator(), None
+            return _by_name(text), None
+        try:
+            config = load_config(text)
+        except DiagnosticError as error:
+            raise InvalidTarget(error.diagnostics, exit_code=error.exit_code) from error
     chosen = _group(config, group)
     if isinstance(address, Address):
         return address, Group.of(config, chosen)
     if address == SIMULATOR:
         return find_simulator(config.name, chosen.name), Group.of(config, chosen)
     return parse_address(address or LOOPBACK, chosen.ports), Group.of(config, chosen)
+
+
+def _by_name(text: str) -> Address:
+    """An address that is no configuration; a name like that of a model is asked about.
+
+    Raises InvalidTarget RG607.
+    """
+    meant = suggest(text, shipped_names()) if "." not in text and ":" not in text else ""
+    if meant:
+        raise InvalidTarget.because(
+            "RG607",
+            f"'{text}' is no configuration and no shipped name",
+            f"{meant}; a host of this name is {text}:11000",
+            exit_code=2,
+        )
+    return parse_address(text)
 
 
 def groups_of(target: str) -> list[str]:
@@ -60,6 +80,6 @@ def _group(config: RobotConfig, name: str) -> GroupConfig:
         if group.name == name:
             return group
     said = f"'{config.name}' has no motion group '{name}'" if name else "which motion group?"
-    raise DiagnosticError(
-        fault("RG608", said, suggest(name, names) or f"the groups are: {', '.join(names)}")
+    raise InvalidTarget.because(
+        "RG608", said, suggest(name, names) or f"the groups are: {', '.join(names)}", exit_code=2
     )

@@ -2,6 +2,7 @@
 
 import threading
 import time
+import warnings
 from collections.abc import Iterable, Iterator, Sequence
 from functools import partial
 from typing import Self, TypeVar
@@ -243,8 +244,12 @@ class Robot(RobotSurface[Threads, Execution, Stream, ProgramRun]):
     def __enter__(self) -> Self:
         return self if self.is_connected else self.connect()
 
-    def __exit__(self, *_: object) -> None:
+    def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
+        unfinished = "" if kind is not None else self._unfinished()
         self.close()
+        if unfinished:
+            # Not ResourceWarning, which Python hides: somebody wonders why nothing moved.
+            warnings.warn(unfinished, RuntimeWarning, stacklevel=2)
 
     def states(self, timeout: float | None = None) -> Iterator[State]:
         """Each new state as it comes; `timeout` s for each."""

@@ -1,10 +1,10 @@
 """A path of joint positions with times: frozen arrays, and where they came from."""
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -12,21 +12,34 @@ import numpy.typing as npt
 from rapidgen.axes.timing import parametrise, resample
 from rapidgen.client import files
 from rapidgen.client.errors import InvalidTrajectory
+from rapidgen.client.tables import table
 
 if TYPE_CHECKING:
     from rapidgen.client.core.group import Group
     from rapidgen.client.core.state import State
 
 Array = npt.NDArray[np.float64]
+_SHOWN = 4
+"""Points that a notebook shows from either end."""
 
 
-@dataclass(frozen=True, slots=True, eq=False, init=False)
+class Waypoint(NamedTuple):
+    """One point: `time` s, and `joints` in rad or m, in the trajectory's order."""
+
+    time: float
+    joints: tuple[float, ...]
+
+
+@dataclass(frozen=True, slots=True, eq=False, init=False, repr=False)
 class Trajectory:
     """`n` points of `k` joints.
 
     `positions` (n, k) in rad or m, columns as `names` (URDF joint names; empty: the robot's own
     order); `times` (n,) in s from the start, the first point's too. The arrays are read-only.
     Whether a robot can do it is asked by `Robot.check`; making one only asks for the shapes.
+
+    It is a sequence of points: `trajectory[3]` is one, `trajectory[2:5]` a trajectory of some,
+    with their times, and `trajectory["joint_3"]` the values of a joint (n,).
     """
 
     times: Array
@@ -34,7 +47,7 @@ class Trajectory:
     names: tuple[str, ...]
     path: str
     """The file it was read from."""
-    lines: tuple[int, ...] = field(repr=False)
+    lines: tuple[int, ...]
     """The file's line of each point, where there is one."""
 
     def __init__(
@@ -71,6 +84,46 @@ class Trajectory:
     def __len__(self) -> int:
         return len(self.times)
 
+    @overload
+    def __getitem__(self, which: int) -> Waypoint: ...
+    @overload
+    def __getitem__(self, which: slice) -> "Trajectory": ...
+    @overload
+    def __getitem__(self, which: str) -> Array: ...
+    def __getitem__(self, which: int | slice | str) -> "Waypoint | Trajectory | Array":
+        """A point, some points, or a joint's values. Raises IndexError, KeyError."""
+        if isinstance(which, str):
+            if which not in self.names:
+                raise KeyError(which)
+            column: Array = self.positions[:, self.names.index(which)]
+            return column
+        if isinstance(which, slice):
+            times, positions = self.times[which], self.positions[which]
+            return replace(self, times=times, positions=positions, lines=self.lines[which])
+        return Waypoint(float(self.times[which]), tuple(self.positions[which].tolist()))
+
+    def __iter__(self) -> Iterator[Waypoint]:
+        return map(Waypoint, self.times.tolist(), map(tuple, self.positions.tolist()))
+
+    def __repr__(self) -> str:
+        return f"<Trajectory {self}>"
+
+    def __str__(self) -> str:
+        named = ", ".join(self.names) or f"{self.positions.shape[1]} joints"
+        origin = f", {self.path}" if self.path else ""
+        return f"{len(self)} points in {self.duration:.3f} s: {named}{origin}"
+
+    def _repr_html_(self) -> str:
+        names = self.names or [f"{i + 1}" for i in range(self.positions.shape[1])]
+        rows = [
+            (str(i), f"{point.time:.3f}", *(f"{value:.4f}" for value in point.joints))
+            for i, point in enumerate(self)
+            if min(i, len(self) - 1 - i) < _SHOWN
+        ]
+        if len(self) > len(rows):
+            rows.insert(_SHOWN, ("…",) * (len(names) + 2))
+        return table(str(self), ("", "time s", *names), rows)
+
     @property
     def duration(self) -> float:
         """Time of the last point, s; 0 without points."""
@@ -88,10 +141,17 @@ class Trajectory:
 
         The first point is where the robot stands, at time 0.
         """
-        positions = np.asarray(points, dtype=np.float64)
-        steps = np.broadcast_to(np.asarray(seconds, dtype=np.float64), (max(len(points) - 1, 0),))
-        times = np.concatenate([[0.0], np.cumsum(steps)])[: len(points)]
-        return cls(times, positions, names)
+        count = len(points)
+        try:
+            steps = np.broadcast_to(np.asarray(seconds, dtype=np.float64), (max(count - 1, 0),))
+        except (TypeError, ValueError) as error:
+            raise InvalidTrajectory.because(
+                "RG611",
+                f"seconds {seconds!r} do not fit {count} points",
+                f"give one number of s, or {max(count - 1, 0)} of them",
+                exit_code=2,
+            ) from error
+        return cls(np.concatenate([[0.0], np.cumsum(steps)])[:count], points, names)
 
     @classmethod
     def from_csv(cls, path: str | PathLike[str]) -> "Trajectory":
@@ -138,7 +198,7 @@ class Trajectory:
         return replace(self, times=self.times / speed)
 
     def resampled(self, period: float) -> "Trajectory":
-        """The same path with points about every `period` s, linear between; ends kept.
+        """The same path with points every `period` s or little more, linear between; ends kept.
 
         Raises ValueError when times do not increase.
         """

@@ -125,7 +125,11 @@ def keys_of(data: bytes, shown: str) -> tuple[MappingNode, list[Diagnostic]]:
         return MappingNode({}, root.span), faults
     if not isinstance(root, MappingNode):
         raise refusal(
-            "RG006", root.span, "a configuration is a mapping of keys", label="not a mapping"
+            "RG006",
+            root.span,
+            "a configuration is a mapping of keys",
+            "such as `model: irb120`; `rapidgen schema` has them all",
+            label="not a mapping",
         )
     return root, faults
 

@@ -3,7 +3,6 @@
 from pathlib import Path
 
 from rapidgen._data import data_folder
-from rapidgen.config import variant_model
 from rapidgen.diagnostics import Span, refusal, suggest
 
 
@@ -17,6 +16,9 @@ def find_shipped(name: str, span: Span | None = None) -> Path:
     known = shipped_names()
     if name in known:
         return data_folder("robots") / f"{name}.yaml"
+    # What is known of other variants takes a while to read.
+    from rapidgen.config import variant_model
+
     variant = variant_model.named(name)
     if variant:
         missing = variant_model.lacks(variant)

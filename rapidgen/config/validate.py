@@ -20,6 +20,7 @@ from rapidgen.config.tree import MappingNode, place_of, to_python
 from rapidgen.diagnostics import Diagnostic, error, suggest
 
 Path = tuple[str | int, ...]
+_SCHEMA = "`rapidgen schema` has all keys, and what each takes"
 _NAMES = "RAPID's names begin with a letter; letters, digits and _ follow, 32 in all"
 T = TypeVar("T")
 
@@ -126,14 +127,14 @@ def _translate(
             "RG005",
             key,
             f"unknown key '{_short(path[-1])}'{where}",
-            meant or (f"known here: {', '.join(known)}" if len(known) < 25 else ""),
+            meant or (f"known here: {', '.join(known)}" if len(known) < 25 else _SCHEMA),
             label="not a key of this file" if len(path) == 1 else "not a key here",
         )
     return error(
         "RG006",
         key if is_key else value,
         f"'{shown(root, path)}': {_reason(item, is_key)}",
-        _NAMES if item.get("ctx", {}).get("pattern") == NAME else "",
+        _NAMES if item.get("ctx", {}).get("pattern") == NAME else _SCHEMA,
         label=_input(item),
     )
 

@@ -8,14 +8,13 @@ tells is answered by small numbers.
 from collections import Counter
 from collections.abc import Sequence
 from functools import partial
-from typing import TYPE_CHECKING, Final
+from typing import Final
 
 from rapidgen.machine.operator import Operator, Question
 from rapidgen.machine.scheduler import S, Scheduler
 
-if TYPE_CHECKING:
-    from rapidgen.controller.surroundings import Said
-
+Said = tuple[str, float | str]
+"""A guessed input, or a dialog with its text, and what it became."""
 _THOUGHT: Final = 0.5
 """Seconds that a question stays on the screen."""
 _NUMBERS: Final = (*(str(n) for n in range(1, 11)), "0", "100")
@@ -24,7 +23,7 @@ _NUMBERS: Final = (*(str(n) for n in range(1, 11)), "0", "100")
 class Chooser:
     """Answers the dialogs of one controller; `said` grows by (dialog and text, answer)."""
 
-    def __init__(self, operator: Operator, scheduler: Scheduler, said: "list[Said]") -> None:
+    def __init__(self, operator: Operator, scheduler: Scheduler, said: list[Said]) -> None:
         self._operator = operator
         self._scheduler = scheduler
         self._said = said

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import rapidgen.system as files
 from rapidgen.config import from_manifest, load_config
 from rapidgen.config.model import GroupConfig, RobotConfig
-from rapidgen.controller.mechanics import mechanics
+from rapidgen.controller.mechanics import DEFAULT_ROBOT, mechanics
 from rapidgen.controller.starts import in_front, stands, start_of, usual_start
 from rapidgen.controller.surroundings import Surroundings, furnish
 from rapidgen.diagnostics import Diagnostic, refusal, suggest
@@ -18,6 +18,7 @@ from rapidgen.system.model import System
 if TYPE_CHECKING:
     from rapidgen.config.cell import CellDescription, CellRobotKeys
     from rapidgen.controller.guessing import Guess
+    from rapidgen.controller.likely import Likely
     from rapidgen.system.controller_cfg import ControllerCfg
 
 # Descriptions, guesses, generated drivers and backups are imported where there is one: the run of a
@@ -55,6 +56,8 @@ class Bootable:
     notes: tuple[Diagnostic, ...] = ()
     surroundings: Surroundings = field(default_factory=Surroundings)
     guessed: "Guess | None" = None
+    likely: "Likely | None" = None
+    """The robot that was guessed."""
     cfg: "ControllerCfg | None" = None
     """All domains of a backup."""
 
@@ -149,9 +152,16 @@ def _foreign(system: System, notes: list[Diagnostic] | None, wishes: Wishes) -> 
     cell = _described(wishes)
     robots = cell.robots if cell is not None else {}
     system = _moving(system, robots)
-    groups, which = mechanics(system, wishes.robot, robots)
+    robot, model = wishes.robot, None
+    if str(wishes.cell) == GUESS and not robot and not system.robot_types:
+        from rapidgen.controller.likely import likely
+
+        model = likely(system, DEFAULT_ROBOT)
+        robot = model.model if model is not None else ""
+    groups, which = mechanics(system, robot, robots)
     told = () if notes is None else (*notes, *which)
-    return _surrounded(Bootable(system.name, system, groups, False, told), cell, wishes)
+    found = Bootable(system.name, system, groups, False, told, likely=model)
+    return _surrounded(found, cell, wishes)
 
 
 def _described(wishes: Wishes) -> "CellDescription | None":

@@ -173,10 +173,10 @@ class VirtualController:
         self.shared = Shared(configured(system, robots, self.io))
         self.parse_module = Trees(system.robotware).parse
         self.recovered = self.log.recovered
-        self.operation = Operation(self)
+        self.operation: Operation = Operation(self)
         signals = SystemSignals(self, self.operation)
         self._thread = ControllerThread(self.scheduler, f"virtual controller {system.name}")
-        self.rapid_tasks = {
+        self.rapid_tasks: dict[str, Task] = {
             spec.name: Task(self.scheduler, spec, self, self.shared) for spec in system.tasks
         }
         self.tasks: Mapping[str, TaskView] = {

@@ -25,6 +25,7 @@ from rapidgen.rapid.binding import (
     RoutineSymbol,
     Scope,
     TaskScope,
+    TypeSymbol,
     constant,
     installed_objects,
     match,
@@ -180,7 +181,8 @@ def _undeclared(module: ModuleScope) -> Iterator[Named]:
     while stack:
         node, scope = stack.pop()
         for name, kind, sure in _uses(node, scope):
-            if scope.find(name.name) is None:
+            # A signal may have the name of a type: SENSOR.
+            if isinstance(scope.find(name.name), TypeSymbol | None):
                 at = module.tree.source.span(name.first, name.first)
                 yield Named(name.name, kind, at, sure)
         inside = scope

@@ -6,6 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from rapidgen.config import load_config, shipped_names
+from rapidgen.config.compiled import shipped_groups
 from rapidgen.config.model import GroupConfig
 from rapidgen.diagnostics import Diagnostic, Severity, error, refusal
 from rapidgen.system.model import System
@@ -79,7 +80,7 @@ def mechanics(
             robots, told = _of_type(types.get(unit.casefold(), ""), unit)
             notes += told
         else:
-            robots = load_config(DEFAULT_ROBOT).groups
+            robots = shipped_groups(DEFAULT_ROBOT)
             notes.append(_stands_in(f"nothing tells the mechanics: moving an {DEFAULT_ROBOT}"))
         group = next(g for g in groups_for(system, robots) if g.task == task)
         taken = any(other.name == group.name for other in groups)
@@ -97,10 +98,10 @@ def mechanics(
 
 def _chosen(name: str) -> Sequence[GroupConfig]:
     """The robots that a user names: a shipped model, a configuration, a variant of the library."""
+    if name in shipped_names():
+        return shipped_groups(name)
     from rapidgen.config.of_variant import group_of, variant_named
 
-    if name in shipped_names():
-        return load_config(name).groups
     variant = variant_named(name)
     group = group_of(variant) if variant is not None else None
     return (group,) if group is not None else load_config(name).groups
@@ -124,9 +125,9 @@ def _of_type(name: str, unit: str) -> tuple[Sequence[GroupConfig], list[Diagnost
         mend = f"choose one of its kin with `--robot`: {', '.join(others)}" if others else _MEND
         raise refusal("RG432", None, f"no known robot is a {name or unit}", mend)
     if (very is not None and very.model) or not kin:
-        return load_config(model).groups, []
+        return shipped_groups(model), []
     message = f"the controller has a {name}, moving an {model_description(model)}"
-    return load_config(model).groups, [_stands_in(message)]
+    return shipped_groups(model), [_stands_in(message)]
 
 
 def model_of(robot_type: str) -> str:

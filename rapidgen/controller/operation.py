@@ -36,6 +36,8 @@ class Operation:
         self.halted = False
         self.in_error: set[str] = set()
         """Tasks that an error has stopped since the last start."""
+        self.left_out: set[str] = set()
+        """NORMAL tasks that are not selected: a start does not start them."""
         self.changed = WaitSet()
         """Whatever of the state changed."""
 
@@ -165,6 +167,8 @@ class Operation:
             log.info(10_021, "Execution error reset")
         log.info(10_151, "Program started")
         for task in self._host.rapid_tasks.values():
+            if task.spec.type == "NORMAL" and task.name in self.left_out:
+                continue
             lost = task.state == "error" and task.pointer.place is None
             if lost and task.spec.type == "NORMAL":
                 log.warning(_REFUSED, "Program start refused", "PP to main first", task=task.name)

@@ -19,7 +19,7 @@ from rapidgen.runtime.task.call_stack import stack_at
 from rapidgen.runtime.task.task import Task
 
 if TYPE_CHECKING:
-    from rapidgen.controller.surroundings import Said
+    from rapidgen.controller.answering import Said
 
 _HELD = 0.5
 """Seconds that an input is pressed."""

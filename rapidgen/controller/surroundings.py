@@ -16,14 +16,13 @@ from rapidgen.system.model import ModuleFile, SignalSpec, System
 
 if TYPE_CHECKING:
     from rapidgen.config.cell import CellDescription, ReactionKeys
+    from rapidgen.controller.answering import Said
     from rapidgen.controller.polling import Polled
 
 GUESSED = 49_910
 """Event: an input that nobody drives became what a program waits for. The number is ours."""
 _PATIENCE = 0.5
 """Seconds that a program waits for a guessed input."""
-Said = tuple[str, float | str]
-"""A guessed input, or a dialog with its text, and what it became."""
 Posture = tuple[float, ...]
 """Controller axes, rad and m, wire order."""
 
@@ -124,7 +123,7 @@ def _nameless(system: System, cell: "CellDescription") -> Iterator[Diagnostic]:
                     )
 
 
-def settle(controller: Booted, around: Surroundings) -> list[Said]:
+def settle(controller: Booted, around: Surroundings) -> "list[Said]":
     """Put the robots where they start, let devices watch their signals, and guessed inputs become
     what a program waits for; the list grows by each of these answers (signal or dialog, value)."""
     answered: list[Said] = []

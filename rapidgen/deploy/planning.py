@@ -188,7 +188,11 @@ def make_plan(
 
 
 def _nothing_there(transport: Transport) -> DiagnosticError:
-    return refused("RG529", f"{transport.shown}: no deployment of rapidgen lies there")
+    return refused(
+        "RG529",
+        f"{transport.shown}: no deployment of rapidgen lies there",
+        "check the URL; `rapidgen doctor` tells what lies there",
+    )
 
 
 def find_layout(transport: Transport) -> Layout:

@@ -62,13 +62,20 @@ def redact(text: str, login: Credentials) -> str:
 
 
 def find_password(
-    login: Credentials, host: str, port: int, *, secrets: Path | None, ask: bool
+    login: Credentials,
+    host: str,
+    port: int,
+    *,
+    secrets: Path | None,
+    ask: bool,
+    needed: bool = True,
 ) -> Credentials:
     """`login` with user and password completed: file, then environment, then prompt.
 
     The file is TOML: a table for each host, `host:port`, or `default`, with `user` and
-    `password`. Without a terminal nothing is asked: the password stays empty.
-    Raises DiagnosticError RG511 (file readable by others, or not understood).
+    `password`. `needed`: there is no other way to log in; where it is not, nobody is asked
+    without a terminal, and the password stays empty. Raises DiagnosticError RG511 (file readable by
+    others, or not understood), RG512 (nobody to ask).
     """
     if secrets is not None:
         entry = _entry(secrets, host, port)
@@ -81,6 +88,13 @@ def find_password(
     if ask and sys.stdin.isatty():
         prompt = f"password of {login.user or 'the default user'} at {host}: "
         return replace(login, password=Secret(getpass.getpass(prompt)))
+    if ask and needed:
+        raise refusal(
+            "RG512",
+            None,
+            f"{host} wants a password, and nobody is here to be asked",
+            f"--secrets FILE, or {ENVIRONMENT}; it may be empty",
+        )
     return login
 
 

@@ -169,13 +169,14 @@ def confirm(question: str, *, yes: bool, ask: Callable[[str], bool]) -> None:
     if yes:
         return
     if not sys.stdin.isatty():
-        raise refused(
+        raise refusal(
             "RG533",
+            None,
             "nobody is there to answer: nothing was changed",
             "look at `rapidgen plan`, then say --yes",
         )
     if not ask(question):
-        raise refused("RG533", "not confirmed: nothing was changed")
+        raise refused("RG533", "not confirmed: nothing was changed", "run it again to be asked")
 
 
 def history(target: Target, access: Access, name: str) -> tuple[Past, ...]:

@@ -5,11 +5,13 @@ from collections import Counter
 from collections.abc import Sequence
 from itertools import groupby
 
+from rapidgen._json import Members
 from rapidgen.deploy.cfg import CfgChange
 from rapidgen.deploy.changed import changed_keys
 from rapidgen.deploy.fleet import TargetOutcome
 from rapidgen.deploy.live.plan import BY_SERVICES
 from rapidgen.deploy.plan import FileChange, Plan, lines_of
+from rapidgen.diagnostics import as_data
 
 _SIGNS = {
     "add": "+",
@@ -112,6 +114,22 @@ def table(outcomes: Sequence[TargetOutcome]) -> str:
     """One line a controller."""
     width = max(len(o.target.shown) for o in outcomes)
     return "".join(f"{o.target.shown:<{width}}  {o.word:<8}  {o.detail}\n" for o in outcomes)
+
+
+def outcomes_json(outcomes: Sequence[TargetOutcome]) -> Members:
+    """What became of the controllers, as data, with all errors."""
+    return {
+        "controllers": [
+            {
+                "target": one.target.shown,
+                "result": one.word,
+                "detail": one.detail,
+                "errors": as_data(one.error.diagnostics if one.error else ()),
+            }
+            for one in outcomes
+        ],
+        "errors": as_data(d for one in outcomes if one.error for d in one.error.diagnostics),
+    }
 
 
 def size_text(size: int) -> str:

@@ -80,7 +80,14 @@ def credentials(target: Target, access: Access) -> Credentials:
         agree=access.agree,
     )
     ask = access.ask and not (target.way.takes_keys and access.identity)
-    login = find_password(login, target.host, target.port, secrets=access.secrets, ask=ask)
+    login = find_password(
+        login,
+        target.host,
+        target.port,
+        secrets=access.secrets,
+        ask=ask,
+        needed=not target.way.takes_keys,
+    )
     if login.user:
         return login
     return replace(login, user="Default User")

@@ -10,7 +10,7 @@ from rapidgen.diagnostics.model import (
     refusal,
     suggest,
 )
-from rapidgen.diagnostics.render import Format, render
+from rapidgen.diagnostics.render import Format, as_data, render
 
 __all__ = [
     "Diagnostic",
@@ -19,6 +19,7 @@ __all__ = [
     "Label",
     "Severity",
     "Span",
+    "as_data",
     "error",
     "refusal",
     "render",

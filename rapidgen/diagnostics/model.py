@@ -69,6 +69,11 @@ def error(
     return Diagnostic(code, severity, message, at, label, mend, tuple(notes), tuple(related))
 
 
+def _beside(d: Diagnostic) -> list[str]:
+    place = f"{d.span.path}:{d.span.line}" if d.span else ""
+    return [f"{d.code}: {line}" for line in (place, *d.notes, d.help) if line]
+
+
 class DiagnosticError(Exception):
     """A user's fault that ends what was under way. The only exception commands show.
 
@@ -80,6 +85,9 @@ class DiagnosticError(Exception):
     ) -> None:
         found = (diagnostics,) if isinstance(diagnostics, Diagnostic) else tuple(diagnostics)
         super().__init__("; ".join(f"{d.code}: {d.message}" for d in found))
+        # Python shows these below a traceback: whoever calls no command sees place and mend, too.
+        for line in dict.fromkeys(line for d in found for line in _beside(d)):
+            self.add_note(line)
         self.diagnostics: tuple[Diagnostic, ...] = found
         self.exit_code = exit_code
 

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable, Sequence
 from enum import StrEnum
 from pathlib import Path
 
+from rapidgen._json import Json
 from rapidgen.diagnostics.model import Diagnostic, Severity, Span
 
 _COLOURS = {Severity.ERROR: "1;31", Severity.WARNING: "1;33", Severity.INFO: "1;36"}
@@ -49,7 +50,7 @@ def render(
     """
     found = list(diagnostics)
     if format is Format.JSON:
-        return json.dumps([_as_json(d) for d in found], indent=2, ensure_ascii=False) + "\n"
+        return json.dumps(as_data(found), indent=2, ensure_ascii=False) + "\n"
     if format is Format.CONCISE:
         return "".join(_concise(d) + "\n" for d in found)
     if format is Format.GITHUB:
@@ -68,7 +69,12 @@ def _clean(text: str) -> str:
     return _CONTROL.sub("\N{REPLACEMENT CHARACTER}", text)
 
 
-def _as_json(d: Diagnostic) -> dict[str, object]:
+def as_data(diagnostics: Iterable[Diagnostic]) -> list[Json]:
+    """Diagnostics as data: line and column from 1, in letters, `None` without a place."""
+    return [_as_json(d) for d in diagnostics]
+
+
+def _as_json(d: Diagnostic) -> Json:
     span = d.span
     return {
         "code": d.code,

@@ -25,7 +25,9 @@ from typing import Literal, Protocol, TypeAlias, get_args
 import greenlet
 
 ClockKind: TypeAlias = Literal["virtual", "real"]
-Schedule: TypeAlias = Literal["round-robin", "random"]
+Schedule: TypeAlias = Literal["round-robin", "random", "priorities"]
+"""In turns; any, for any time; or the highest of random priorities, which `preempt` takes away (S.
+Burckhardt et al., "A randomized scheduler with probabilistic guarantees", ASPLOS 2010)."""
 AdvanceEnd: TypeAlias = Literal["time", "stop", "idle", "paused"]
 
 MS = 1_000_000
@@ -33,6 +35,8 @@ S = 1_000_000_000
 QUANTUM = 2 * MS
 # Single-digit integers of CPython, which it subtracts fastest, and short enough that endless
 # recursion is found before it costs much memory.
+PATIENCE = 20 * MS
+"""A process that waits for the CPU longer than that comes first, whatever its priority."""
 _LARGEST_BUDGET = 50 * MS
 _SERVE_EVERY = 2 * MS
 _LAG = 200 * MS
@@ -141,6 +145,10 @@ class Scheduler:
         self.seed = seed
         self.rng = random.Random(f"{seed}")
         self._order = random.Random(f"{seed} schedule")
+        self._priorities: dict[Runnable, float] = {}
+        self._waiting: dict[Runnable, int] = {}
+        self._preemptions: list[int] = []
+        self._accesses = 0
 
     # -- time and events -------------------------------------------------------------------------
 
@@ -403,9 +411,11 @@ class Scheduler:
         if process is not None:
             self._front = None
         else:
-            if self.schedule == "random" and len(self.ready) > 1:
-                self.ready.rotate(-self._order.randrange(len(self.ready)))
+            if len(self.ready) > 1:
+                self._choose()
             process = self.ready.popleft()
+            if self._waiting:
+                self._waiting.pop(process, None)
             process.slice_end = self._now + self._slice()
         self.switches += 1
         self.grant(process)
@@ -418,8 +428,35 @@ class Scheduler:
             self._now = self.deadline - process.b
             self.running = None
 
+    def _choose(self) -> None:
+        """Put first whoever comes next."""
+        if self.schedule == "random":
+            self.ready.rotate(-self._order.randrange(len(self.ready)))
+        elif self.schedule == "priorities":
+            now, ready = self._now, self.ready
+            for process in ready:
+                if process not in self._priorities:
+                    self._priorities[process] = self._order.random()
+                self._waiting.setdefault(process, now)
+            first = min(ready, key=self._waiting.__getitem__)
+            if now - self._waiting[first] <= PATIENCE:
+                first = max(ready, key=self._priorities.__getitem__)
+            ready.rotate(-ready.index(first))
+
+    def preempt(self, accesses: Iterable[int]) -> None:
+        """Under priorities: at the n-th access to a PERS from now on whoever runs becomes last."""
+        self._preemptions = sorted((self._accesses + n for n in accesses), reverse=True)
+
     def tosses(self) -> bool:
-        """Whether a random schedule switches at this point."""
+        """Whether a schedule switches at this access to a PERS."""
+        if self.schedule == "priorities":
+            self._accesses += 1
+            due = self._preemptions
+            if not due or self._accesses < due[-1] or self.running is None:
+                return False
+            due.pop()
+            self._priorities[self.running] = min(self._priorities.values(), default=0.0) - 1
+            return bool(self.ready)
         return self.schedule == "random" and bool(self.ready) and self._order.random() < 0.5
 
     def _slice(self) -> int:

@@ -44,6 +44,8 @@ class Workload(Generic[T, R]):
     kept_as: TypeAdapter[R]
     failed: Callable[[R], bool]
     needs: Callable[[int], int] = lambda number: 0
+    take: Callable[[R], R] = lambda result: result
+    """Hears each result in its order, and returns what is kept of it."""
 
 
 class Campaign:
@@ -78,7 +80,7 @@ class Campaign:
 
         done = 0
         for found in in_order(self.workers, work.count, make, work.needs, self._over):
-            result = cast(R, found)
+            result = work.take(cast(R, found))
             kept = work.kept_as.dump_python(result, mode="json", exclude=MEASURED)
             self._results.add(keys[done], kept)
             done += 1

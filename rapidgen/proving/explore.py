@@ -13,7 +13,7 @@ that speaks simple_message on the group's motion port:
 
 import random
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import TextIO
 
@@ -22,89 +22,108 @@ from rapidgen.controller.faults import FaultPlan
 from rapidgen.controller.tracing import Trace
 from rapidgen.machine.network.rules import Direction, NetworkRule
 from rapidgen.proving.bench import FAILURES, Bench
-from rapidgen.proving.history import STEPS, History, Place
+from rapidgen.proving.encounters import Pair, Pairs, Spot, spots
+from rapidgen.proving.history import PAIRED, STEPS, History
 from rapidgen.proving.link import STOP
 from rapidgen.proving.model import Finding
+from rapidgen.proving.plan import Ground, Place, Plan, drawn, named
 from rapidgen.proving.settings import Setting
-from rapidgen.rapid import parse
-from rapidgen.rapid.syntax.nodes import DataDeclaration
 from rapidgen.system.model import System
 
 
 @dataclass(frozen=True, slots=True)
 class Explored:
-    """What one seed did; `finding` when it broke the invariant."""
+    """What one schedule did; `finding` when it broke the invariant."""
 
-    seed: int
+    schedule: str
     plan: str
     finding: Finding | None
+    pairs: tuple[Pair, ...] = ()
+    """Which statements of tasks followed which (`encounters.py`)."""
 
 
 def explore(
     config: RobotConfig,
     system: System,
-    seed: int,
+    schedule: str,
     *,
     only: Sequence[str] = (),
     silence: float = 4.0,
     trace: TextIO | None = None,
 ) -> Explored:
-    """Run one seed; the same one gives the same history.
+    """Run one schedule; the same one gives the same history.
 
     `only` names the steps that a history is made of (default: all of STEPS). `silence`: s
     after which a new client may expect to be served. `trace` gets a line for each statement
-    of RAPID and for each step of the history.
+    of RAPID and for each step of the history. Raises DiagnosticError RG807.
     """
-    chance = random.Random(f"{seed} walk")
-    # Half of the histories have stops at statements, which needs code that reports them.
-    try:
-        places = _places(config, system) if seed % 4 < 2 else ()
-    except FAILURES as error:
-        return Explored(seed, "", Finding(seed, f"while nothing disturbs it: {error}", "", ()))
+    name = named(schedule)
+    ground = ground_of(config, system)
+    if only:
+        ground = replace(ground, steps=tuple(only))
+    if ground.fault and name.seed % 2 == 0:
+        fault = f"while nothing disturbs it: {ground.fault}"
+        return Explored(schedule, "", Finding(schedule, fault, "", ()))
+    plan = drawn(name, ground)
+    with _booted(config, system, plan) as bench:
+        pairs = Pairs(bench.controller, spots_of(system))
+        if trace is not None:
+            Trace(bench.controller, trace)
+        walk = History(bench, plan, silence, trace)
+        finding = None
+        try:
+            walk.go()
+            bench.healthy()
+        except FAILURES as error:
+            finding = Finding(schedule, str(error), "\n".join(walk.plan), bench.log())
+    return Explored(schedule, "\n".join(walk.plan), finding, pairs.found())
+
+
+def _booted(config: RobotConfig, system: System, plan: Plan) -> Bench:
+    chance = random.Random(f"{plan.seed} network")
     setting = Setting(
-        seed=seed,
-        random_schedule=True,
-        switch_at_pers=seed % 2 == 0,
-        coverage=trace is not None or bool(places),
-        faults=FaultPlan(network=_weather(config, chance)),
+        seed=chance.randrange(1 << 30),
+        random_schedule=plan.order != "turns",
+        switch_at_pers=plan.order in ("pers", "priorities"),
+        coverage=True,
+        faults=FaultPlan(network=_weather(config, plan, chance)),
     )
     bench = Bench(config, system, setting)
-    if trace is not None:
-        Trace(bench.controller, trace)
-    walk = History(bench, chance, only or tuple(STEPS), silence, places, trace)
-    finding = None
-    try:
-        walk.go()
-        bench.healthy()
-    except FAILURES as error:
-        finding = Finding(seed, str(error), "\n".join(walk.plan), bench.log())
-    finally:
-        bench.close()
-    return Explored(seed, "\n".join(walk.plan), finding)
+    if plan.order == "priorities":
+        bench.controller.scheduler.schedule = "priorities"
+    return bench
 
 
-def _weather(config: RobotConfig, chance: random.Random) -> tuple[NetworkRule, ...]:
+def _weather(config: RobotConfig, plan: Plan, chance: random.Random) -> tuple[NetworkRule, ...]:
     """How the network is: mostly good, else late, in pieces, or in lumps, in one direction."""
-    kind = chance.choice(("good", "good", "good", "delay", "split", "merge"))
-    if kind == "good":
-        return ()
     directions: tuple[Direction, ...] = ("in", "out")
     direction = chance.choice(directions)
     port = config.groups[0].ports.motion
-    if kind == "delay":
+    if plan.network == "delay":
         return (NetworkRule("delay", port, direction, seconds=chance.uniform(0.001, 0.2)),)
-    if kind == "merge":
+    if plan.network == "merge":
         return (NetworkRule("merge", port, direction, seconds=chance.uniform(0.005, 0.1)),)
-    size = chance.choice((1, 3, 17, 67, 68, 69, 500))
-    return (NetworkRule("split", port, direction, bytes=size, seconds=size * 2e-6),)
+    if plan.network == "split":
+        size = chance.choice((1, 3, 17, 67, 68, 69, 500))
+        return (NetworkRule("split", port, direction, bytes=size, seconds=size * 2e-6),)
+    return ()
 
 
 @lru_cache(maxsize=4)
-def _places(config: RobotConfig, system: System) -> tuple[Place, ...]:
-    """What a driver executes while it works and is stopped."""
+def spots_of(system: System) -> dict[Spot, int]:
+    """Lines where a driver's tasks meet, numbered."""
+    return spots(system)
+
+
+@lru_cache(maxsize=4)
+def ground_of(config: RobotConfig, system: System) -> Ground:
+    """The steps of histories with a driver, and what it executes while it works and is stopped."""
+    group = config.groups[0]
     bench = Bench(config, system, Setting(coverage=True))
     try:
         bench.run(0.5)
+        streams = group.ports.control and group.ports.control in bench.controller.network.listeners
+        steps = tuple(name for name in STEPS if streams or name not in PAIRED)
         link = bench.motion()
         for _ in range(2):
             link.send(bench.download(bench.wave(8, duration=0.3)))
@@ -112,33 +131,16 @@ def _places(config: RobotConfig, system: System) -> tuple[Place, ...]:
         link.send(STOP)
         bench.run(1)
         reached = bench.lines()
+    except FAILURES as error:
+        return Ground(tuple(name for name in STEPS if name not in PAIRED), fault=str(error))
     finally:
         bench.close()
-    shared = _shared_lines(system)
-    return tuple(
+    shared = spots_of(system)
+    places = tuple(
         Place(task.name, module.name, line, (module.path, line) in shared)
         for task in system.tasks
         for module in task.modules
         for line, hits in sorted(reached.get(module.path, {}).items())
         if hits
     )
-
-
-def _shared_lines(system: System) -> set[tuple[str, int]]:
-    """Where tasks meet: path and line of each mention of a persistent that they may share."""
-    texts = {module.path: module.data for task in system.tasks for module in task.modules}
-    trees = {path: parse(data, path=path) for path, data in texts.items()}
-    names = {
-        declaration.name.casefold()
-        for tree in trees.values()
-        for declaration in tree.declarations
-        if isinstance(declaration, DataDeclaration)
-        and declaration.kind == "PERS"
-        and not declaration.scope
-    }
-    return {
-        (path, tree.source.line(number))
-        for path, tree in trees.items()
-        for number, token in enumerate(tree.source.tokens)
-        if token.casefold() in names
-    }
+    return Ground(steps, places, group.task)

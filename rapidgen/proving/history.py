@@ -2,7 +2,6 @@
 
 import random
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from itertools import pairwise
 from typing import TextIO
 
@@ -12,21 +11,14 @@ from rapidgen.proving.instructions import Order, watched_orders
 from rapidgen.proving.link import STOP, RawLink
 from rapidgen.proving.messages import RawReason
 from rapidgen.proving.model import Broken
+from rapidgen.proving.plan import Plan, Step
 from rapidgen.proving.stream import BEGIN, END, NONE, Streamer
 from rapidgen.proving.track import Point, Position, distance, off
 
+PREEMPTIONS = 4
+"""In a step, under priorities."""
 CORNER = 0.08
 """rad or m by which zones and a change of trajectory may lead off the straight way."""
-
-
-@dataclass(frozen=True, slots=True)
-class Place:
-    """A line that a driver executes; `shared`: it names a persistent of several tasks."""
-
-    task: str
-    module: str
-    line: int
-    shared: bool
 
 
 class History:
@@ -35,17 +27,15 @@ class History:
     def __init__(
         self,
         bench: Bench,
-        chance: random.Random,
-        steps: Sequence[str],
+        schedule: Plan,
         silence: float,
-        places: Sequence[Place],
         trace: TextIO | None,
     ) -> None:
         self.bench = bench
-        self.chance = chance
-        self.steps = steps
+        self.schedule = schedule
+        self.step = Step("", "", None, "")
+        self.chance = random.Random(f"{schedule.seed} walk")
         self.silence = silence
-        self.places = places
         self.trace = trace
         self.plan: list[str] = []
         self.streams = 0
@@ -59,10 +49,20 @@ class History:
         rules = self.bench.setting.faults.network
         if rules:
             self._say(f"the network: {rules[0].do} {rules[0].direction}")
-        steps = [name for name in self.steps if name not in PAIRED or self._streams()]
-        for _ in range(self.chance.randrange(2, 6)):
-            STEPS[self.chance.choice(steps)](self)
+        for step in self.schedule.steps:
+            self.step = step
+            # What a step does is the same whatever is done before it.
+            self.chance = random.Random(f"{step.seed} step")
+            self._preempt()
+            STEPS[step.name](self)
         self.good_client()
+
+    def _preempt(self) -> None:
+        """Under priorities: a few accesses to a PERS, most of them soon, at which one is lost."""
+        if self.schedule.order == "priorities":
+            chance = random.Random(f"{self.schedule.seed} {self.step.seed} preemptions")
+            scheduler = self.bench.controller.scheduler
+            scheduler.preempt(round(10 ** chance.uniform(0, 3.3)) for _ in range(PREEMPTIONS))
 
     def _say(self, text: str) -> None:
         self.plan.append(f"{self.bench.now:12.6f} {text}")
@@ -99,7 +99,7 @@ class History:
 
         `behind`: not before all of `data` was sent.
         """
-        if not self.places or self.chance.random() < 0.4:
+        if self.step.where is None:
             wait = self.chance.choice(
                 (0.0, self.chance.uniform(0, 0.15), self.chance.uniform(0, 2))
             )
@@ -128,12 +128,8 @@ class History:
 
     def _at_a_statement(self, act: Callable[[], None], what: str) -> None:
         """Do something before some statement of the driver, which then may take its time."""
-        moving = [place for place in self.places if place.task == self.bench.group.task]
-        # Races are where tasks meet.
-        meeting = [place for place in moving if place.shared] or moving
-        place = self.chance.choice(self.chance.choice((meeting, meeting, moving, self.places)))
-        count = self.chance.choice((1, 1, 1, 2, 3, 8))
-        busy = self.chance.choice((0, 0, 5, 40))
+        assert self.step.where is not None
+        place, count, busy = self.step.where.place, self.step.where.count, self.step.where.busy
         where = f"{place.module}:{place.line} in {place.task}"
         self._say(f"... and {what} at {where}, pass {count}, {busy} ms there")
 
@@ -155,7 +151,7 @@ class History:
         link = self._connect()
         points = self._points(self.chance.randrange(3, 15))
         self._say(f"send {len(points)} points")
-        if self.places and self.chance.random() < 0.7:
+        if self.step.where is not None:
             self._at_a_statement(lambda: None, "a pause")
         self._executed_or_refused(link, points)
 
@@ -190,15 +186,14 @@ class History:
         self._say(f"send {len(points)} points")
         start, since = self.bench.position, self.bench.now
         before = len(link.frames)
-        stop = self.chance.choice((STOP, STOP, STOP + STOP))
+        stop = STOP + STOP if self.step.act == "two STOP" else STOP
         sent: list[float] = []
 
         def stop_now() -> None:
             link.at_once(stop)
             sent.append(self.bench.now)
 
-        what = "STOP" if stop == STOP else "two STOP"
-        self._disturbed(link, self.bench.download(points), stop_now, what, behind=True)
+        self._disturbed(link, self.bench.download(points), stop_now, self.step.act, behind=True)
         self.bench.until(lambda: len(link.frames) > before or link.lost, 5, "STOP is answered")
         answered = self.bench.now
         self.bench.wait_until_standing(10)
@@ -210,9 +205,7 @@ class History:
         """The program is stopped, or loses its motors, and is started again."""
         link = self._connect()
         points = self._points(self.chance.randrange(4, 15))
-        action = self.chance.choice(
-            ("stop", "stop pp-to-main", "stop pp-to-main", "e-stop", "motors-off")
-        )
+        action = self.step.act
         self._say(f"send {len(points)} points")
         first, *more = action.split()
         perform = self.bench.controller.perform
@@ -331,8 +324,7 @@ class History:
         self._say(f"send {len(points)} points")
         start, since = self.bench.position, self.bench.now
         data = self.bench.download(points)
-        what = "STOP over the control port"
-        self._disturbed(link, data, lambda: control.at_once(STOP), what, behind=False)
+        self._disturbed(link, data, lambda: control.at_once(STOP), self.step.act, behind=False)
         self.bench.until(lambda: bool(control.frames) or control.lost, 5, "STOP is answered")
         # What had not been received to its end by then is not stopped by that.
         link.stop(5)
@@ -340,11 +332,6 @@ class History:
         self._on_the_way([start, *(p for p, _ in points)], since)
         self.bench.stays(self.chance.uniform(0.5, 2), "it was stopped")
         control.close()
-
-    def _streams(self) -> bool:
-        """Whether the driver has a control port."""
-        port = self.bench.group.ports.control
-        return bool(port) and port in self.bench.controller.network.listeners
 
     def good_client(self) -> None:
         """Whatever happened: a client that comes now is served, and moves the robot."""

@@ -97,6 +97,7 @@ class RawInstruction(IntEnum):
     WAIT_SIGNAL = 6
     SET = 7
     CALL = 8
+    SETTINGS = 9
 
 
 class RawModal(IntFlag):

@@ -40,9 +40,9 @@ class Verdict:
 
 @dataclass(frozen=True, slots=True)
 class Finding:
-    """A schedule that broke the invariant: `seed` replays it exactly."""
+    """A schedule that broke the invariant; its name replays it exactly."""
 
-    seed: int
+    schedule: str
     detail: str
     plan: str
     log: tuple[str, ...] = ()
@@ -59,6 +59,8 @@ class Proof:
     """What the settings assume other than by default, by name."""
     findings: list[Finding] = field(default_factory=list)
     schedules: int = 0
+    curve: list[tuple[int, int]] = field(default_factory=list)
+    """How many schedules had met how many pairs of statements, where there was a new one."""
     elapsed: float = 0.0
     broken_off: bool = False
     """Whether somebody ended the run before it had seen everything."""

@@ -45,7 +45,8 @@ _NAMES = {
 @dataclass(frozen=True, slots=True)
 class RawOrder:
     """A move: the joints at its end (rad, m), the pose that they reach, `via` on a circle. `speed`
-    (m/s, rad/s) and `zone` (m, rad; None: a stop point) stand in every instruction."""
+    (m/s, rad/s) and `zone` (m, rad; None: a stop point) stand in every instruction; `frames` are
+    the numbers of tool and work object, `marks` signals on the way: number, value, kind, place."""
 
     kind: RawInstruction
     joints: Position
@@ -53,6 +54,8 @@ class RawOrder:
     via: Pose | None = None
     speed: float = 0.15
     zone: float | None = 0.005
+    frames: tuple[int, int] | None = None
+    marks: tuple[tuple[float, ...], ...] = ()
 
     @property
     def speeds(self) -> tuple[float, ...]:
@@ -70,6 +73,12 @@ class RawOrder:
         """As they go onto the wire."""
         first = self.kind | RawModal.SPEED | RawModal.ZONE
         values = [*self.speeds, float(self.zone is None), *self.zones]
+        if self.frames is not None:
+            first |= RawModal.FRAMES
+            values += self.frames
+        if self.marks:
+            first |= RawModal.SIGNALS
+            values += [len(self.marks), *(value for mark in self.marks for value in mark)]
         for pose in (self.via, self.pose):
             if pose is not None:
                 values += [*pose[0], *pose[1]]

@@ -1,10 +1,14 @@
 """A report as JSON, as JUnit XML and as one self-contained HTML page."""
 
 import html
+import platform
+from collections.abc import Sequence
+from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 from xml.etree import ElementTree
 
+from rapidgen import __version__
 from rapidgen._json import Json
 from rapidgen.proving.model import Proof, Series, Verdict
 
@@ -23,6 +27,23 @@ td, th { border-bottom: 1px solid #ddd }
 .ok { color: #007a33 } .bad { color: #b00020; font-weight: 600 }
 pre { background: #f6f6f6; padding: .6rem; overflow-x: auto }
 svg { background: #fafafa; border: 1px solid #ddd }
+summary { cursor: pointer; padding: .3rem 0 } input { font: inherit; width: 20rem; padding: .2rem }
+"""
+_SEARCH = """
+const groups = [...document.querySelectorAll("details.group")];
+const first = groups.map(group => group.open);
+document.getElementById("search").addEventListener("input", event => {
+  const wanted = event.target.value.toLowerCase();
+  groups.forEach((group, number) => {
+    let any = false;
+    for (const row of [...group.querySelectorAll("tr")].slice(1)) {
+      row.hidden = !row.textContent.toLowerCase().includes(wanted);
+      any ||= !row.hidden;
+    }
+    group.hidden = !any;
+    group.open = wanted ? any : first[number];
+  });
+});
 """
 
 
@@ -36,6 +57,7 @@ def as_json(report: Proof) -> dict[str, Json]:
         "broken_off": report.broken_off,
         "left": report.left,
         "elapsed": round(report.elapsed, 3),
+        "version": __version__,
         "lines": {"reached": reached, "of": of},
         "settings": {name: list(texts) for name, texts in report.rows.items()},
         "outcomes": [
@@ -45,12 +67,14 @@ def as_json(report: Proof) -> dict[str, Json]:
                 "setting": outcome.setting,
                 "passed": outcome.passed,
                 "detail": outcome.detail,
+                "elapsed": round(outcome.elapsed, 3),
                 "blamed": list(outcome.blamed),
             }
             for outcome in report.outcomes
         ],
         "schedules": report.schedules,
-        "findings": [{"seed": f.seed, "detail": f.detail} for f in report.findings],
+        "pairs": [list(point) for point in report.curve],
+        "findings": [{"schedule": f.schedule, "detail": f.detail} for f in report.findings],
     }
 
 
@@ -85,7 +109,7 @@ def write_junit(report: Proof, path: Path) -> None:
             suite,
             "testcase",
             classname=f"{report.name}.exploration",
-            name=f"seed {finding.seed}",
+            name=f"schedule {finding.schedule}",
         )
         failure = ElementTree.SubElement(case, "failure", message=_xml(finding.detail))
         failure.text = _xml("\n".join((finding.plan, *finding.log)))
@@ -96,12 +120,16 @@ def write_junit(report: Proof, path: Path) -> None:
 
 
 def write_html(report: Proof, path: Path) -> None:
-    """One page: verdict, table, plots of commanded and executed joints, logs of failures."""
+    """One page: verdict, versions, a table for each group with a search over all of them, plots of
+    commanded and executed joints, logs of failures."""
     verdict = "everything held" if report.passed else "something did not hold"
-    rows = "".join(_row(outcome) for outcome in report.outcomes)
+    groups = dict.fromkeys(outcome.group for outcome in report.outcomes)
+    tables = "".join(
+        _group(name, [o for o in report.outcomes if o.group == name]) for name in groups
+    )
     details = "".join(_details(o) for o in report.outcomes if o.series or not o.passed)
     findings = "".join(
-        f"<h3>seed {f.seed}</h3><p>{html.escape(f.detail)}</p>"
+        f"<h3>schedule {f.schedule}</h3><p>{html.escape(f.detail)}</p>"
         f"<pre>{html.escape(chr(10).join((f.plan, *f.log)))}</pre>"
         for f in report.findings
     )
@@ -112,15 +140,45 @@ def write_html(report: Proof, path: Path) -> None:
 <h1>{html.escape(report.name)}: {verdict}</h1>
 <p>BUILD_ID {html.escape(report.build_id)} · {len(report.outcomes)} cases ·
 {report.schedules} schedules explored · on the virtual controller; no real controller was asked.</p>
+<p>{html.escape(_versions())}</p>
 {_coverage(report)}
-<table><tr><th>case<th>what must hold<th>answers<th>simulated<th>verdict</tr>
-{rows}</table>
+{_pairs(report)}
+<p><input id="search" type="search" placeholder="search cases" aria-label="search cases"></p>
+{tables}
 {"<h2>Schedules that broke the invariant</h2>" + findings if findings else ""}
 {details}
+<script>{_SEARCH}</script>
 </html>
 """,
         encoding="utf-8",
     )
+
+
+def _versions() -> str:
+    when = datetime.now(UTC).isoformat(" ", "minutes")
+    return f"rapidgen {__version__} · Python {platform.python_version()} · {when}"
+
+
+def _group(name: str, outcomes: Sequence[Verdict]) -> str:
+    """Its cases, open where one did not hold."""
+    held = sum(outcome.passed for outcome in outcomes)
+    mark, state = ("ok", "") if held == len(outcomes) else ("bad", " open")
+    simulated = sum(outcome.simulated for outcome in outcomes)
+    return (
+        f'<details class="group"{state}><summary>{html.escape(name)}: <span class="{mark}">{held} '
+        f"of {len(outcomes)} held</span>, {simulated:.0f} s simulated</summary>\n"
+        "<table><tr><th>case<th>what must hold<th>answers<th>simulated<th>verdict</tr>\n"
+        f"{''.join(map(_row, outcomes))}</table></details>\n"
+    )
+
+
+def slowest(report: Proof, count: int) -> list[tuple[str, float, int]]:
+    """Cases that took most: name, s of CPU in all settings together, and in how many."""
+    taken: dict[str, list[float]] = {}
+    for outcome in report.outcomes:
+        taken.setdefault(outcome.case, []).append(outcome.elapsed)
+    rows = sorted(((sum(s), case, len(s)) for case, s in taken.items()), reverse=True)
+    return [(case, seconds, times) for seconds, case, times in rows[:count]]
 
 
 def _coverage(report: Proof) -> str:
@@ -131,6 +189,27 @@ def _coverage(report: Proof) -> str:
     return f"<p>RAPID lines that the cases reached: {reached} of {of}, {reached / of:.1%}.</p>" + (
         f"<details><summary>lines that none did</summary><ul>{rows}</ul></details>" if rows else ""
     )
+
+
+def met(report: Proof) -> str:
+    """How many pairs of statements the schedules met, and whether there still were new ones."""
+    if not report.curve:
+        return ""
+    late = sum(1 for number, _ in report.curve if number > 0.9 * report.schedules)
+    at, pairs = report.curve[-1]
+    return (
+        f"{pairs} pairs of statements of two tasks met in {report.schedules} schedules, the last "
+        f"new one in schedule {at}; {late} of the last tenth brought new ones"
+    )
+
+
+def _pairs(report: Proof) -> str:
+    """The curve of pairs over schedules."""
+    if len(report.curve) < 2:
+        return ""
+    times = tuple(float(number) for number, _ in report.curve)
+    values = tuple((float(pairs),) for _, pairs in report.curve)
+    return f"<p>{met(report)}.</p>" + _drawn((Series("pairs", times, values),))
 
 
 def missed(report: Proof) -> list[tuple[str, str]]:
@@ -211,7 +290,17 @@ def series(bench: "Bench") -> tuple[Series, ...]:
     return tuple(found)
 
 
-def _plot(series: tuple[Series, ...], width: int = 900, height: int = 260) -> str:
+def _plot(series: tuple[Series, ...]) -> str:
+    drawing = _drawn(series)
+    values = [v for s in series for row in s.values for v in row]
+    times = [t for s in series for t in s.times]
+    return drawing and (
+        f"{drawing}<p>solid: executed, dashed: commanded; one colour a joint; {min(values):.3f} "
+        f"to {max(values):.3f} rad (m) over {max(times) - min(times):.2f} s</p>"
+    )
+
+
+def _drawn(series: tuple[Series, ...], width: int = 900, height: int = 260) -> str:
     times = [t for s in series for t in s.times]
     values = [v for s in series for row in s.values for v in row]
     if not values or max(times) <= min(times):
@@ -230,6 +319,5 @@ def _plot(series: tuple[Series, ...], width: int = 900, height: int = 260) -> st
             lines.append(f'<polyline fill="none" stroke="{colour}"{dash} points="{points}"/>')
     return (
         f'<svg viewBox="0 0 {width} {height}" width="{width}" height="{height}">'
-        f"{''.join(lines)}</svg><p>solid: executed, dashed: commanded; one colour a joint; "
-        f"{low:.3f} to {low + up:.3f} rad (m) over {across:.2f} s</p>"
+        f"{''.join(lines)}</svg>"
     )

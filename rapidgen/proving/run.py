@@ -15,9 +15,11 @@ from rapidgen.proving.behaviour import Behaviour
 from rapidgen.proving.bench import FAILURES, Bench, add_lines
 from rapidgen.proving.blame import blamed
 from rapidgen.proving.campaign import Campaign, Limits, Progress, Workload
-from rapidgen.proving.explore import Explored, explore
+from rapidgen.proving.explore import Explored, explore, ground_of
+from rapidgen.proving.guide import Guide
 from rapidgen.proving.identity import identity
 from rapidgen.proving.model import Proof, Verdict
+from rapidgen.proving.plan import Ground
 from rapidgen.proving.report import series
 from rapidgen.proving.results import Results
 from rapidgen.proving.settings import Setting, assumed, rows, settings
@@ -109,15 +111,23 @@ def prove(
             if not only and not assuming:
                 for outcome in report.outcomes:
                     add_lines(report.lines, outcome.lines)
-                for explored in campaign.run(_schedules(seeds)):
-                    report.schedules += 1
-                    if explored.finding is not None:
-                        report.findings.append(explored.finding)
+                _explored(report, campaign, seeds)
         except KeyboardInterrupt:
             report.broken_off = True
     report.left = campaign.left
     report.elapsed = time.monotonic() - started
     return report
+
+
+def _explored(report: Proof, campaign: Campaign, seeds: int) -> None:
+    (found,) = each(campaign.workers, range(1), ground)
+    guide = Guide(found)
+    # Of a run that is broken off, too.
+    report.curve = guide.curve
+    for explored in campaign.run(schedules(seeds, guide)):
+        report.schedules += 1
+        if explored.finding is not None:
+            report.findings.append(explored.finding)
 
 
 def _attempts(
@@ -145,15 +155,18 @@ def _suite(attempts: Sequence[Attempt]) -> Workload[Attempt, Verdict]:
     )
 
 
-def _schedules(seeds: int) -> Workload[int, Explored]:
+def schedules(seeds: int, guide: Guide) -> Workload[str, Explored]:
+    """Schedules that a guide names."""
     return Workload(
         "schedules",
         seeds,
         schedule,
-        lambda number: number,
-        lambda item: f"schedule {item}",
+        guide.name,
+        lambda name: f"schedule {name}",
         EXPLORED,
         lambda explored: explored.finding is not None,
+        needs=guide.needs,
+        take=guide.take,
     )
 
 
@@ -200,9 +213,15 @@ def attempt(driver: Subject, job: Attempt) -> Verdict:
     return replace(driver.booted[job.name].attempt(CASES[job.case]), setting=job.name)
 
 
-def schedule(driver: Subject, seed: int) -> Explored:
+def ground(driver: Subject, _item: object) -> Ground:
+    """What schedules are drawn from."""
+    return ground_of(driver.config, driver.system)
+
+
+def schedule(driver: Subject, name: str) -> Explored:
     """One schedule."""
-    return explore(driver.config, driver.system, seed)
+    # A controller leaves things behind in its process.
+    return in_a_fork(lambda: explore(driver.config, driver.system, name))
 
 
 class Starter:
@@ -245,7 +264,7 @@ def _verdict(case: Behaviour, bench: Bench) -> Verdict:
     )
 
 
-def replay(config: RobotConfig, seed: int, trace: TextIO | None = None) -> Explored:
+def replay(config: RobotConfig, name: str, trace: TextIO | None = None) -> Explored:
     """One schedule again, exactly; every statement of RAPID goes to `trace`."""
     driver = Subject.of(config)
-    return explore(driver.config, driver.system, seed, trace=trace)
+    return explore(driver.config, driver.system, name, trace=trace)

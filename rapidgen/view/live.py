@@ -2,7 +2,9 @@
 
 import json
 import math
+import time
 from collections import deque
+from datetime import UTC, datetime
 
 import numpy as np
 from rich.table import Table
@@ -13,6 +15,9 @@ from rapidgen.wire.simple_message.spec import Mode, TrajectoryState, TriState
 
 _WINDOW = 500
 _ACTIVITIES = {TrajectoryState.STARVED: "starved", TrajectoryState.PAUSED: "paused"}
+_TRUTH = {TriState.TRUE: True, TriState.FALSE: False, TriState.UNKNOWN: None}
+_BESIDE_BARS = 53
+"""Columns that the table has besides its bars, for names of twelve letters."""
 _WORDS: dict[TrajectoryState | None, str] = {
     TrajectoryState.STARVED: "the stream ran out of points",
     TrajectoryState.PAUSED: "paused",
@@ -95,9 +100,9 @@ def error_text(status: Status) -> str:
 
 
 def as_line(state: State, watcher: Watcher) -> str:
-    """Time s, joints rad or m, rate, mode, what it is at, what happened."""
+    """Time of day, joints rad or m, rate, mode, what it is at, what happened."""
     words = [
-        f"{state.time:.3f}",
+        _received(state).astimezone().strftime("%H:%M:%S.%f")[:-3],
         " ".join(f"{value:.4f}" for value in state.joints),
         f"{state.rate:.1f}/s",
         state.status.mode.name.lower(),
@@ -109,23 +114,24 @@ def as_line(state: State, watcher: Watcher) -> str:
 
 
 def as_json(state: State, watcher: Watcher) -> str:
-    """One object: s, rad or m and their rates by joint, and every status in a word."""
+    """One object: when it was received (ISO 8601, UTC), rad or m and their rates by joint, rate in
+    1/s, jitter in s; what the controller does not know is null."""
     status = state.status
     p50, p99 = watcher.jitter()
     return json.dumps(
         {
-            "time": state.time,
+            "time": _received(state).isoformat("T", "milliseconds"),
             "joints": state.by_name,
             "velocity": dict(zip(state.names, state.velocity, strict=True)),
             "rate": state.rate,
             "jitter_p50": p50,
             "jitter_p99": p99,
             "mode": status.mode.name.lower(),
-            "drives": status.drives.name.lower(),
-            "e_stopped": status.e_stopped.name.lower(),
-            "in_motion": status.in_motion.name.lower(),
-            "motion_possible": status.motion_possible.name.lower(),
-            "in_error": status.in_error.name.lower(),
+            "drives": _TRUTH[status.drives],
+            "e_stopped": _TRUTH[status.e_stopped],
+            "in_motion": _TRUTH[status.in_motion],
+            "motion_possible": _TRUTH[status.motion_possible],
+            "in_error": _TRUTH[status.in_error],
             "error_code": status.error_code,
             "trajectory": state.trajectory.name.lower() if state.trajectory is not None else None,
             "event": watcher.event,
@@ -133,8 +139,12 @@ def as_json(state: State, watcher: Watcher) -> str:
     )
 
 
-def rows(state: State, group: Group) -> list[tuple[str, str, str, str]]:
-    """Joint, value and speed in degrees or mm, and where it is between its limits."""
+def _received(state: State) -> datetime:
+    return datetime.fromtimestamp(time.time() - state.age, UTC)
+
+
+def rows(state: State, group: Group, bar: int = 31) -> list[tuple[str, str, str, str]]:
+    """Joint, value and speed in degrees or mm, and where between its limits (`bar` letters)."""
     found = []
     for joint, value, speed, wire in zip(
         group.joints,
@@ -144,13 +154,14 @@ def rows(state: State, group: Group) -> list[tuple[str, str, str, str]]:
         strict=True,
     ):
         unit, factor = ("deg", 180 / math.pi) if joint.kind == "revolute" else ("mm", 1000.0)
-        here, moving = f"{value * factor:9.2f} {unit}", f"{speed * factor:8.2f} {unit}/s"
-        found.append((joint.name, here, moving, _bar(wire, joint.lower, joint.upper)))
+        here, moving = f"{value * factor:8.2f} {unit}", f"{speed * factor:7.1f} {unit}/s"
+        found.append((joint.name, here, moving, _bar(wire, joint.lower, joint.upper, bar)))
     return found
 
 
-def as_table(state: State, watcher: Watcher, group: Group, place: str) -> Table:
-    """The rows under where the robot is (`place`), above what happened last."""
+def as_table(state: State, watcher: Watcher, group: Group, place: str, width: int = 100) -> Table:
+    """The rows under where the robot is (`place`), above what happened last; `width` columns
+    wide."""
     status = state.status
     p50, p99 = watcher.jitter()
     table = Table(
@@ -163,14 +174,14 @@ def as_table(state: State, watcher: Watcher, group: Group, place: str) -> Table:
         f"{p99 * 1000:.1f} ms, age {state.age * 1000:.0f} ms\n"
         f"{error_text(status) or watcher.event or 'nothing happened yet'}",
     )
-    for row in rows(state, group):
+    for row in rows(state, group, min(31, max(7, width - _BESIDE_BARS))):
         table.add_row(*row)
     return table
 
 
-def _bar(value: float, lower: float, upper: float, width: int = 31) -> str:
+def _bar(value: float, lower: float, upper: float, width: int) -> str:
     if not upper > lower or upper - lower == float("inf"):
-        return "not known"
+        return "unknown"
     place = round((value - lower) / (upper - lower) * (width - 1))
     if not 0 <= place < width:
         return "outside"

@@ -128,6 +128,8 @@ class Log(Spoken):
 
     type: Literal["log"] = "log"
     entries: tuple[LogEntry, ...]
+    fresh: bool = False
+    """Those that were told before are not of this moment."""
 
 
 class Screen(Spoken):
@@ -300,6 +302,7 @@ ToPage: TypeAlias = (
     | p.Debugging
     | p.HeldValues
     | p.Covered
+    | p.Playback
     | Replied
 )
 Request: TypeAlias = (
@@ -323,6 +326,9 @@ Request: TypeAlias = (
     | p.Assign
     | p.SetWatch
     | p.Cover
+    | p.Seek
+    | p.Play
+    | p.ReadCurves
 )
 
 

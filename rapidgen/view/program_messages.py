@@ -202,3 +202,42 @@ class Cover(Spoken):
 
     do: Literal["cover"] = "cover"
     on: bool
+
+
+# -- recordings -----------------------------------------------------------------------------------
+
+
+class Playback(Spoken):
+    """Where a recording is looked at; times in s. `rate` 0: it stands."""
+
+    type: Literal["playback"] = "playback"
+    begin: float
+    end: float
+    time: float
+    rate: float
+    cut: bool
+    """The recording was cut off."""
+
+
+class Seek(Spoken):
+    """Go to a moment."""
+
+    do: Literal["seek"] = "seek"
+    time: Annotated[float, Field(allow_inf_nan=False)]
+
+
+class Play(Spoken):
+    """Let it run, at so many seconds in a second; 0 stops."""
+
+    do: Literal["play"] = "play"
+    rate: Annotated[float, Field(ge=0, le=100)]
+
+
+class ReadCurves(Spoken):
+    """The reply's text is PlotData (JSON) of a robot's axes or of a signal."""
+
+    do: Literal["curves"] = "curves"
+    robot: Name = ""
+    signal: Name = ""
+    begin: Annotated[float, Field(allow_inf_nan=False)]
+    end: Annotated[float, Field(allow_inf_nan=False)]

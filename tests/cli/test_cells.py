@@ -76,7 +76,7 @@ def test_what_is_out_of_reach_is_told_with_place_axis_and_robot(capsys, tmp_path
     ("statement", "words", "mend"),
     [
         ("SetDO do1, 1;", [], "`--cell guess` makes signals"),
-        ("MoveL p10, v100, fine, tool0;", ["--cell", "guess"], "`rapidgen schema --cell`"),
+        ("x := y;", ["--cell", "guess"], "`rapidgen schema --cell`"),
         ("foo;", [], "load the module that declares it"),
     ],
 )

@@ -52,9 +52,11 @@ def test_coverage_as_a_page_beside_the_tracefile(program, tmp_path):
 
 
 def test_a_plot_of_what_the_robot_did(program, tmp_path):
-    assert main(["run", str(program), "--plot", str(tmp_path / "motion.png")]) == 0
+    assert main(["run", str(program), "--plot", str(tmp_path / "motion")]) == 0
     assert (tmp_path / "motion.png").read_bytes().startswith(b"\x89PNG")
     assert "joint_1" in (tmp_path / "motion.html").read_text()
+    assert main(["run", str(program), "--plot", str(tmp_path / "other.svg")]) == 0
+    assert "<svg" in (tmp_path / "other.svg").read_text()
 
 
 def test_what_cannot_be_written_is_refused_before_anything_runs(capsys, program, tmp_path):

@@ -12,6 +12,7 @@ from served import make_cabinet
 
 from rapidgen.cli.app import main
 from rapidgen.faces.rws.server import serve_rws
+from rapidgen.machine.operator import Answer
 from rapidgen.system import read_backup
 from rapidgen.wire.rws.bodies import Generation
 
@@ -43,7 +44,7 @@ def test_a_controller_is_shown_started_and_halted(host, capsys):
     assert main(["status", host, "--json"]) == 0
     told = json.loads(said(capsys))
     assert (told["state"], told["mode"], told["running"]) == ("motoron", "AUTO", False)
-    assert main(["start", host]) == 1  # nobody is there to answer
+    assert main(["start", host]) == 2  # nobody is there to answer
     assert main(["start", host, "--yes", "--main"]) == 0
     assert f"{host}: the program runs" in said(capsys)
     assert main(["halt", host, "--motors-off"]) == 0
@@ -51,6 +52,9 @@ def test_a_controller_is_shown_started_and_halted(host, capsys):
     assert "motoroff" in said(capsys)
     assert main(["log", host, "--count", "3"]) == 0
     assert "Motors OFF state" in said(capsys)
+    assert main(["log", host, "--count", "3", "--json"]) == 0
+    titles = [json.loads(line)["title"] for line in said(capsys).splitlines()]
+    assert "Motors OFF state" in titles
 
 
 def test_signals_and_symbols_are_shown_and_set(host, capsys):
@@ -64,6 +68,29 @@ def test_signals_and_symbols_are_shown_and_set(host, capsys):
     assert main(["symbols", host, "T_ROB1/MainModule/list", "[4,5"]) == 2
     assert main(["symbols", host]) == 0
     assert "T_ROB1/MainModule/list  per  num{3}" in said(capsys)
+    assert main(["symbols", host, "--json"]) == 0
+    told = {one["path"]: one for one in json.loads(said(capsys))}
+    assert told["T_ROB1/MainModule/list"]["dims"] == [3]
+    assert main(["symbols", host, "T_ROB1/MainModule/list", "--json"]) == 0
+    assert json.loads(said(capsys))["value"] == "[4,5,6]"
+
+
+@pytest.mark.parametrize(("answer", "code"), [("Grant", 0), ("Deny", 1)])
+def test_in_manual_mode_the_pendant_is_asked_and_that_is_announced(
+    answer, code, tmp_path, monkeypatch, capsys
+):
+    monkeypatch.setenv("RAPIDGEN_PASSWORD", "robotics")
+    script = [Answer(answer, dialog="RMMP")]
+    with make_cabinet(tmp_path, clock="real", speed=60, answers=script) as cabinet:
+        cabinet.controller.set_mode("manual_reduced")
+        cabinet.start()
+        service = serve_rws(cabinet, Generation.ONE)
+        where = f"rws://{service.host}:{service.port}"
+        assert main(["symbols", where, "T_ROB1/MainModule/x", "7"]) == code
+        output = capsys.readouterr()
+        assert "Press Grant there within 10 s" in output.err
+        assert output.out == ("7\n" if code == 0 else "")
+        service.close()
 
 
 def test_a_backup_comes_here_and_boots(host, capsys, tmp_path):
@@ -81,7 +108,7 @@ def test_a_backup_comes_here_and_boots(host, capsys, tmp_path):
     [
         (["status", "ftp://h"], "RG657", 2),
         (["status", "rws://u:p@h"], "RG657", 2),
-        (["status", "rws://127.0.0.1:1"], "RG651", 1),
+        (["status", "rws://127.0.0.1:1"], "RG512", 2),
     ],
 )
 def test_wrong_words_are_explained(words, code, exit_code, capsys, monkeypatch):

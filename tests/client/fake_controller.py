@@ -68,6 +68,8 @@ class Script:
     """Takes points while it moves; needs `speed` of its own."""
     feedback: bool = False
     """Tells it with each state, from a clock of 0.02 s a state."""
+    hello: bytes | None = None
+    """Answered in the place of what fits."""
     raw_control: bytes = b""
     """Sent on the control port before anything else."""
 
@@ -379,4 +381,6 @@ class FakeController:
         client.setblocking(False)
 
     def _hello(self, foreign=False):
+        if self.script.hello is not None:
+            return self.script.hello
         return hello_reply(self.script, self.ports["control"], foreign=foreign)

@@ -185,6 +185,35 @@ def test_a_speed_for_a_program_is_refused_instead_of_confirmed_and_not_obeyed():
         assert not complaints(controller)
 
 
+def test_signals_are_set_on_the_way_to_joints():
+    with cell() as (robot, controller):
+        robot.move_to(BENT, speed=1.0)
+        goal = [BENT[0] + 0.3, *BENT[1:]]
+        valve = watched(robot, controller, "valve")
+        program = Program(speed=0.1).move_joints(goal, triggers=pulse("valve", 0.02, 0.03))
+        assert robot.run(program).result().deviation < 1e-4
+        assert [value for value, _ in valve] == [1, 0]
+        assert robot.state.joints == pytest.approx(goal, abs=1e-4)
+        assert not complaints(controller)
+
+
+def test_a_singularity_is_passed_on_request_alone():
+    with driven() as (robot, controller):
+        robot.move_to([0.2, 0.1, 0.1, 0.3, 0.35, -0.2], speed=1.0)
+        beyond = robot.pose_of([0.2, 0.1, 0.15, 0.5, -0.3, -0.2])
+        with pytest.raises(InvalidProgram, match="singularity"):
+            robot.run(Program().move_linear(beyond))
+        execution = robot.run(Program().allow(singularities=True).move_linear(beyond))
+        assert "singularity" in execution.warnings[0].message
+        assert execution.result().deviation < 1e-4
+        assert np.allclose(np.hstack(robot.pose), np.hstack(beyond), atol=1e-4)
+        back = robot.pose_of([0.2, 0.1, 0.1, 0.3, 0.35, -0.2])
+        again = Program().allow(singularities=True).allow().move_linear(back)
+        with pytest.raises(InvalidProgram, match="singularity"):
+            robot.run(again)
+        assert not complaints(controller)
+
+
 def test_waits_and_signals_stand_between_moves():
     with cell() as (robot, controller):
         robot.move_to(BENT, speed=1.0)

@@ -122,7 +122,7 @@ def test_cancel_is_stop_and_nothing_after_the_end(connected):
 
 
 def test_closing_stops_what_moves(connected):
-    with connected() as (robot, controller):
+    with pytest.warns(RuntimeWarning, match="was stopped"), connected() as (robot, controller):
         robot.execute(LONG)
     assert len(controller.stops) == 1
 
@@ -208,9 +208,10 @@ def test_a_plain_driver_gets_at_most_100_points(fake, client, target):
 
 def test_one_trajectory_at_a_time(connected):
     with connected() as (robot, _):
-        robot.execute(LONG)
+        execution = robot.execute(LONG)
         with pytest.raises(NotReady, match="under way"):
             robot.execute(PATH)
+        execution.cancel()
 
 
 @pytest.mark.parametrize("chop", [1, 3, 7, 60])
@@ -252,6 +253,7 @@ def test_a_stop_that_is_not_seen(connected):
         with pytest.raises(StopFailed, match="not seen to stand"):
             robot.stop()
         controller.script.coasts = False
+        robot.stop()
 
 
 def test_silence_during_a_motion_stops_it(connected, comes):

@@ -128,7 +128,8 @@ def test_stop_from_another_thread(connected):
 
 
 def test_closing_stops_a_stream(connected):
-    with connected(**streams(speed=1)) as (robot, controller):
+    told = pytest.warns(RuntimeWarning, match="was stopped")
+    with told, connected(**streams(speed=1)) as (robot, controller):
         robot.stream().append([0, 10], [[0.0] * 6, [0.1] * 6])
     assert controller.script.stream.state == TrajectoryState.STOPPED
 
@@ -140,6 +141,7 @@ def test_only_one_motion_at_a_time(connected):
             robot.stream().append([0, 10], [[0.0] * 6, [0.1] * 6])
         with pytest.raises(NotReady, match="under way"):
             robot.execute(Trajectory.from_points([[0.0] * 6, [0.1] * 6], seconds=1))
+        robot.stop()
 
 
 def test_a_stream_that_has_ended_takes_nothing(connected):

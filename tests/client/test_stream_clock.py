@@ -50,6 +50,17 @@ def carried(request):
     return request.param
 
 
+def test_one_point_is_appended_as_it_is_said():
+    with streamed() as (robot, _), robot.stream() as stream:
+        for time, joints in wave(30):
+            stream.append(time, joints)
+        assert stream.total == 30
+        with pytest.raises(InvalidTrajectory):
+            stream.append(9.0, 0.5)
+        with pytest.raises(InvalidTrajectory):
+            stream.append("soon", [0.0] * 6)
+
+
 def test_it_starves_stands_and_goes_on(carried):
     with carried() as (robot, peer):
         points = list(wave(40))
@@ -506,6 +517,7 @@ def test_a_trajectory_is_checked_once(monkeypatch, points, way):
             robot.stream().append([0, 1], [[0.0] * 6] * 2)
         else:
             robot.execute(Trajectory.from_points([[0.0] * 6] * points, seconds=0.1), way=way)
+        robot.stop()
     assert len(checks) == 1
 
 

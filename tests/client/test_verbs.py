@@ -4,7 +4,7 @@ import io
 import json
 import re
 import struct
-from pathlib import Path
+from datetime import UTC, datetime
 
 import numpy as np
 import pytest
@@ -143,6 +143,9 @@ def test_monitor(controller, capsys):
     told = [json.loads(line) for line in capsys.readouterr().out.splitlines()]
     assert told[-1]["joints"]["joint_1"] == 0.0
     assert told[-1]["error_code"] == 7
+    assert (told[-1]["in_error"], told[0]["in_motion"]) == (True, False)
+    when = datetime.fromisoformat(told[-1]["time"])
+    assert abs((datetime.now(UTC) - when).total_seconds()) < 3600
     assert 0 < told[-1]["jitter_p50"] <= told[-1]["jitter_p99"] < 1
 
 
@@ -158,12 +161,17 @@ def test_the_live_table(controller):
             watcher.take(state)
             if state.number > 5:
                 break
-        console = Console(width=100, record=True, file=io.StringIO())
-        console.print(as_table(state, watcher, robot.group, "here"))
-    text = console.export_text()
-    assert "joint_6" in text
-    assert "states/s" in text
-    assert "-|-" in text
+    for width in (100, 60):
+        console = Console(width=width, record=True, file=io.StringIO())
+        console.print(as_table(state, watcher, robot.group, "here", width))
+        text = console.export_text()
+        print(text)
+        assert "joint_6" in text
+        assert "states/s" in text
+        assert "-|-" in text
+        assert "…" not in text
+        assert "0.0 deg/s" in text
+        assert max(map(len, text.splitlines())) <= width
 
 
 def test_record(controller, tmp_path):
@@ -180,47 +188,12 @@ def test_record(controller, tmp_path):
 
 
 def test_plot(points, tmp_path, capsys):
-    assert main(["plot", str(points), str(points), "--linear", "joint_6"]) == 0
-    png, html = capsys.readouterr().out.split()
-    assert Path(png).read_bytes().startswith(b"\x89PNG\r\n\x1a\n")
-    text = Path(html).read_text()
-    assert "joint_6 [mm]" in text
-    assert "joint_1 [deg]" in text
-    assert "http" not in text.replace("http://www.w3.org/2000/svg", "")
-    assert text.count("<polyline") > 12
-
-
-def test_plot_of_names_that_want_out(tmp_path):
-    path = tmp_path / "p.csv"
-    path.write_text("time,</script><b>\n0,1\n1,nan\n2,2\n")
-    assert main(["plot", str(path), "-o", str(tmp_path / "p")]) == 0
-    text = (tmp_path / "p.html").read_text()
-    assert "</script><b>" not in text
-
-
-def test_plot_thins_long_recordings(tmp_path):
-    from rapidgen.view.plot import PlottedCurve, write_plot
-
-    times = np.arange(200_000) * 0.01
-    values = np.sin(times)[:, None]
-    values[123_456] = 9.0
-    html = tmp_path / "long.html"
-    write_plot(
-        None, html, [PlottedCurve("executed", Trajectory(times, values, ("a",)))], title="long"
-    )
-    assert html.stat().st_size < 200_000
-    # the one outlier is still there: 9 rad in degrees
-    assert "515.662" in html.read_text()
-
-
-def test_plot_without_points(tmp_path):
-    from rapidgen.view.plot import PlottedCurve, write_plot
-
-    empty = Trajectory(np.zeros(0), np.zeros((0, 2)), ("a", "b"))
-    write_plot(
-        tmp_path / "e.png", tmp_path / "e.html", [PlottedCurve("nothing", empty)], title="empty"
-    )
-    assert (tmp_path / "e.png").stat().st_size > 500
+    out = tmp_path / "both.svg"
+    assert main(["plot", str(points), str(points), "--robot", "irb120", "-o", str(out)]) == 0
+    assert capsys.readouterr().out.split() == [str(out)]
+    assert "<svg" in out.read_text()
+    assert main(["plot", str(points), "-o", str(tmp_path / "both.pdf")]) == 2
+    assert "RG626" in capsys.readouterr().err
 
 
 @pytest.fixture
@@ -312,7 +285,7 @@ def test_monitor_tells_what_a_stream_is_at(streaming, capsys):
         feed = robot.stream()
         feed.append([0, 0.6], [[0.0] * 6, [0.01] * 6])
         robot.wait_until(lambda s: s.trajectory is not None and s.trajectory.name == "STARVED", 60)
-        data = struct.pack("<3i80s", 5, 24, 3, b"Corner path failure")
+        data = struct.pack("<3i80s160x", 5, 24, 3, b"Corner path failure")
         words = ["monitor", streaming.address, "--plain", "--count", "3"]
         streaming.extra = frame(1308, 1, 0, data)
         assert robot.next_event(60).code == 50024

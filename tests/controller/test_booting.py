@@ -2,10 +2,12 @@
 
 import pytest
 
+from rapidgen.axes.kinematics import Kinematics
 from rapidgen.config import load_config
 from rapidgen.config.cell import load_cell
 from rapidgen.controller import VirtualController
 from rapidgen.controller.booting import Wishes, load_target
+from rapidgen.controller.likely import Likely
 from rapidgen.controller.starts import shown, usual_start
 from rapidgen.controller.surroundings import GUESSED
 from rapidgen.diagnostics import DiagnosticError
@@ -258,6 +260,7 @@ def test_plain_data_that_nobody_declares_are_what_their_use_says(tmp_path):
         "  DeactUnit M7;\n  MoveJ pHome, v25, z5, tool0;\n  MoveL pHome, vSlow, zMine, tool0;\n"
         '  IF bReady OR nMode > 3 THEN\n   TPWrite stText + "x";\n  ENDIF\n'
         "  WHILE nCount < nMax DO\n   nCount := nCount + 1;\n  ENDWHILE\n"
+        "  WaitDI Sensor, 1;\n"
         '  FOR i FROM 1 TO nParts DO\n   TPWrite "part";\n  ENDFOR\n  x{3} := unheard;\n'
         " ENDPROC\nENDMODULE\n"
     )
@@ -276,6 +279,7 @@ def test_plain_data_that_nobody_declares_are_what_their_use_says(tmp_path):
         "nCount": "num",
         "nMax": "num",
         "nParts": "num",
+        "Sensor": "signaldi",
     }
     assert [one.name for one in found.guessed.unknown] == ["unheard"]
     with VirtualController.boot(found, cycle="once") as controller:
@@ -296,3 +300,29 @@ def test_a_folder_with_a_folder_for_each_task_is_those_tasks(tmp_path):
     assert [group.task for group in found.groups] == ["T_ROB_L", "T_ROB_R"]
     with VirtualController.boot(found, cycle="once") as controller:
         assert controller.run(max_time=20) == "finished"
+
+
+def test_a_guess_takes_the_robot_that_reaches_what_the_program_aims_at(tmp_path):
+    group = load_config("irb4600").groups[0]
+    kinematics = Kinematics.of(group)
+    assert kinematics is not None
+    far = [0.2, 0.9, -0.2, 0.1, 0.5, 0.3]
+    place, turn = kinematics.forward(far)
+    target = [[1000 * v for v in place], list(turn), list(kinematics.configuration(far)), [9e9] * 6]
+    path = tmp_path / "far.mod"
+    path.write_text(
+        "MODULE far\n PERS tooldata tRod := [TRUE,[[0,0,100],[1,0,0,0]],"
+        "[1,[0,0,1],[1,0,0,0],0,0,0]];\n"
+        ' PERS wobjdata wAway := [FALSE,TRUE,"",[[900,0,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];\n'
+        f" CONST robtarget p := {target};\n"
+        " CONST robtarget q := [[50,0,400],[0.707107,0,0.707107,0],[0,0,0,0],"
+        "[9E9,9E9,9E9,9E9,9E9,9E9]];\n"
+        " PROC main()\n  MoveJ Offs(p, 0, 0, 1), v100, fine, tool0;\n"
+        "  MoveJ q, v100, fine, tRod \\WObj:=wAway;\n  MoveJ [[0,0,0],[0,0,0,0],[0,0,0,0],"
+        "[9E9,9E9,9E9,9E9,9E9,9E9]], v100, fine, tool0;\n ENDPROC\nENDMODULE\n"
+    )
+    found = load_target([path], Wishes(cell="guess"))
+    assert found.likely == Likely("irb4600", 2, 2)
+    assert found.groups[0].model == "irb4600"
+    assert load_target([path], Wishes(cell="guess", robot="irb1600")).likely is None
+    assert load_target([path]).groups[0].model == "irb120"

@@ -54,11 +54,11 @@ def test_a_folder_of_this_machine_needs_no_login(monkeypatch, tmp_path):
 def test_only_where_keys_are_taken_one_stands_for_a_password(monkeypatch):
     asked = []
 
-    def find(login, host, port, *, secrets, ask):
-        asked.append(ask)
+    def find(login, host, port, *, secrets, ask, needed):
+        asked.append((ask, needed))
         return Credentials("u")
 
     monkeypatch.setattr("rapidgen.deploy.target.find_password", find)
     for url in ("sftp://h/", "ftp://h/"):
         credentials(parse_target(url), Access(identity="key", ask=True))
-    assert asked == [False, True]
+    assert asked == [(False, False), (True, True)]

@@ -1,5 +1,6 @@
 """plan, deploy, rollback, uninstall and doctor as commands."""
 
+import io
 import json
 import re
 import signal
@@ -13,7 +14,7 @@ from rapidgen.cli.doctor import doctor
 from rapidgen.cli.plan import plan
 from rapidgen.cli.rollback import rollback
 from rapidgen.cli.uninstall import uninstall
-from rapidgen.deploy import parse_target
+from rapidgen.deploy import TransportFault, parse_target
 from rapidgen.deploy.driverset import NEW as STAGED
 from rapidgen.deploy.fleet import GivingUp
 from rapidgen.deploy.secrets import Credentials, Secret, find_password, redact
@@ -141,6 +142,28 @@ def test_a_plan_is_json_where_that_was_asked_for(run, home):
     assert {file["action"] for file in told[0]["files"]} == {"add"}
 
 
+def test_what_became_of_controllers_is_json_where_that_was_asked_for(run, built, home, monkeypatch):
+    url = f"dir://{home}"
+    words = ("deploy", built(OLD), "--to", url, "--yes", "--json")
+    for result in ("done", "same"):
+        code, out, _ = run(*words)
+        told = json.loads(out)
+        assert (code, told["errors"]) == (0, [])
+        assert [(c["target"], c["result"]) for c in told["controllers"]] == [(url, result)]
+    rows = json.loads(run("rollback", built(OLD), "--to", url, "--list", "--json")[1])
+    assert rows == []
+
+    def full(self, path, data):
+        raise TransportFault("full", "no room")
+
+    monkeypatch.setattr(FolderTransport, "write", full)
+    code, out, _ = run("deploy", built(NEW), "--to", url, "--yes", "--json")
+    told = json.loads(out)
+    assert (code, told["controllers"][0]["result"]) == (1, "failed")
+    assert [found["code"] for found in told["errors"]] == ["RG507"]
+    assert told["controllers"][0]["errors"] == told["errors"]
+
+
 def test_ctrl_c_ends_before_files_are_switched_and_tells_what_stands(
     run, built, kit, tmp_path, monkeypatch
 ):
@@ -179,7 +202,7 @@ def test_nobody_there_to_answer(run, built, home, monkeypatch):
 
     monkeypatch.setattr("sys.stdin", NoTerminal())
     code, _, err = run("deploy", built(OLD), "--to", f"dir://{home}")
-    assert (code, "RG533" in err) == (1, True)
+    assert (code, "RG533" in err) == (2, True)
     assert list(home.iterdir()) == []
 
 
@@ -299,6 +322,33 @@ def test_secrets_come_from_a_tight_file_or_the_environment_and_are_not_shown(tmp
     assert Credentials("Default User", Secret("robotics")).is_default
     file.write_text('password = "s3cret\n')
     assert "s3cret" not in render(refusal(find_password, *asked, **given).diagnostics)
+
+
+def test_no_password_is_tried_where_nobody_can_be_asked(run, home, built, monkeypatch):
+    monkeypatch.delenv("RAPIDGEN_PASSWORD", raising=False)
+    monkeypatch.setattr("sys.stdin", io.StringIO())
+    server = serve_ftp(home)
+    try:
+        url = f"ftp://{server.user}@127.0.0.1:{server.port}/"
+        code, _, err = run("plan", built(OLD), "--to", url)
+        assert (code, "error[RG512]: 127.0.0.1 wants a password" in err) == (2, True)
+        monkeypatch.setenv("RAPIDGEN_PASSWORD", "")
+        assert "RG502" in run("plan", built(OLD), "--to", url)[2]
+    finally:
+        server.close()
+
+
+def test_no_letter_of_a_password_is_shown(run, home, built, monkeypatch):
+    monkeypatch.setenv("RAPIDGEN_PASSWORD", "пароль")
+    server = serve_ftp(home)
+    try:
+        url = f"ftp://{server.user}@127.0.0.1:{server.port}/"
+        code, out, err = run("plan", built(OLD), "--to", url)
+    finally:
+        server.close()
+    assert (code, "error[RG502]" in err) == (1, True)
+    assert not set("пароль") & set(out + err)
+    assert "043f" not in out + err
 
 
 def test_a_login_without_password_and_key_says_so(run, home, built, tmp_path, monkeypatch):

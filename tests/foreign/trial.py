@@ -2,12 +2,13 @@
 
     python -m tests.foreign.trial FOLDER [ROBOT]     (or: make foreign FOREIGN=FOLDER)
 
-Nothing of a program is changed. It is what `rapidgen run PROGRAM --cell guess` does, on the robot
-with which it gets furthest: what no module declares is made up, an input that the program waits for
-and a dialog answer, and nobody else does. A backup moves its own robot. For each program it says
-how it ended (whole; waits for a partner: socket, file; stops behind a partner: a dialog was
-answered before; goes round and round; stops with an error; does not load), what of its lines was
-reached, and why not further. The last lines are the sums.
+Nothing of a program is changed. It is what `rapidgen run PROGRAM --cell guess` does, and where the
+guessed robot does not reach a position on the one with which it gets furthest: what no module
+declares is made up, an input that the program waits for and a dialog answer, and nobody else does.
+A backup moves its own robot. For each program it says how it ended (whole; waits for a partner:
+socket, file; stops behind a partner: a dialog was answered before; goes round and round; stops with
+an error; does not load), what of its lines was reached, and why not further. The last lines are the
+sums.
 """
 
 import re
@@ -30,7 +31,7 @@ ROBOTS = (
     *("irb120", "irb1200", "IRB 140-6/0.81", "irb1600", "irb2400", "IRB 2600-12/1.65", "irb4600"),
     *("irb6640", "irb6700", "irb660", "irb14000", "crb15000", "irb910sc"),
 )
-"""Tried in this order while a position cannot be reached."""
+"""Tried behind the guessed one, in this order, while a position cannot be reached."""
 _MISFIT = re.compile("REACH|ROBLIMIT|not compatible|singularity")
 _PARTNER = re.compile(r"Socket|bytes from|waits for an answer|message|ERR_SOCK|ERR_FILE|ERR_TP_")
 _TIME = 300.0
@@ -115,7 +116,7 @@ def best(program: Program, robots: Sequence[str]) -> tuple[str, Outcome]:
     """The robot with which a program gets furthest, and how far."""
     found: list[tuple[str, Outcome]] = []
     for robot in robots:
-        found.append((Path(robot).stem or "its own", trial(program, robot)))
+        found.append((robot or "its own or guessed", trial(program, robot)))
         if not any(note for note in found[-1][1].notes if _MISFIT.search(note)):
             break
     return max(found, key=lambda one: (one[1].end in GOOD, one[1].reached))
@@ -127,7 +128,7 @@ def main(folder: Path, robots: Sequence[str]) -> None:
     shares: list[float] = []
     for program in programs(folder):
         backup = program.is_backup
-        robot, outcome = best(program, ("",) if backup else robots)
+        robot, outcome = best(program, ("",) if backup else ("", *robots))
         ends[("backups: " if backup else "mains: ") + outcome.end.split(" (")[0]] += 1
         if not backup:
             shares.append(outcome.share)

@@ -144,6 +144,50 @@ def test_speed() -> None:
     scheduler.close()
 
 
+def _who_runs(accesses: list[int]) -> str:
+    """Three processes that look at something shared, under priorities."""
+    scheduler, seen = Scheduler(schedule="priorities", seed=3), []
+
+    def works(process: Process) -> None:
+        for _ in range(4):
+            seen.append(process.name)
+            process.charge(1000)
+            if scheduler.tosses():
+                process.switch()
+
+    processes = [Process(scheduler, name) for name in "abc"]
+    for process in processes:
+        process.launch(lambda process=process: works(process))
+    scheduler.preempt(accesses)
+    scheduler.advance()
+    return "".join(seen)
+
+
+def test_the_highest_priority_runs_until_it_is_lost() -> None:
+    undisturbed = _who_runs([])
+    assert len({undisturbed[n : n + 4] for n in (0, 4, 8)}) == 3
+    first, second, third = undisturbed[0], undisturbed[4], undisturbed[8]
+    # At the second access whoever runs becomes the last of all.
+    assert _who_runs([2]) == first * 2 + second * 4 + third * 4 + first * 2
+    assert _who_runs([2, 3]) == first * 2 + second + third * 4 + first * 2 + second * 3
+
+
+def test_whoever_has_waited_long_comes_first_whatever_its_priority() -> None:
+    scheduler, seen = Scheduler(schedule="priorities", seed=3), []
+
+    def works(process: Process) -> None:
+        for _ in range(40):
+            seen.append(process.name)
+            process.charge(MS)
+
+    for name in "ab":
+        process = Process(scheduler, name)
+        process.launch(lambda process=process: works(process))
+    scheduler.advance()
+    other = next(name for name in "ab" if name != seen[0])
+    assert 20 <= seen.index(other) <= 25
+
+
 def test_time_stands_at_pace_0_and_goes_on_from_there() -> None:
     scheduler, seen = Scheduler(clock="real"), []
     scheduler.after(3600 * S, lambda: seen.append(scheduler.now))

@@ -126,6 +126,16 @@ def test_results_are_the_same_whatever_the_workers_and_where_it_was_broken_off(t
     assert told(again) == told(report)
 
 
+def test_schedules_are_the_same_whatever_the_workers(tmp_path):
+    found = [
+        prove(SIX_AXES, seeds=10, jobs=jobs, cases=False, results=tmp_path / f"{jobs}.jsonl")
+        for jobs in (1, 3)
+    ]
+    assert told(found[0]) == told(found[1])
+    assert found[0].curve[-1][1] > 20
+    assert (tmp_path / "1.jsonl").read_bytes() == (tmp_path / "3.jsonl").read_bytes()
+
+
 def test_a_budget_that_is_over_leaves_the_rest(tmp_path):
     report = prove(SIX_AXES, jobs=1, only=FEW, strength=0, limits=Limits(budget=0))
     assert (report.outcomes, report.left, report.passed) == ([], 3, True)

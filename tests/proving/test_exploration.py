@@ -10,7 +10,9 @@ from rapidgen.cli.app import main
 from rapidgen.config import load_config
 from rapidgen.generate import build, make_system
 from rapidgen.proving.bench import with_module
-from rapidgen.proving.explore import STEPS, explore
+from rapidgen.proving.explore import STEPS, Explored, explore, ground_of
+from rapidgen.proving.guide import Guide
+from rapidgen.proving.plan import drawn, named
 from rapidgen.rapid import check, parse
 from tests.proving.defective import CAPACITY, DEFECTS, FOLDER, small_driver, with_defect
 
@@ -25,21 +27,13 @@ SYMPTOMS = {
 }
 
 
-# Of what a history must be made to meet a defect; `benchmarks/exploration.py` finds them among all.
-STEP = {
-    "R1": "over-capacity",
-    "R5": "stopped",
-    "R7a": "interrupted",
-    "R7b": "stopped",
-    "R12": "vanishes",
-}
-
-
 @pytest.mark.parametrize("defect", DEFECTS)
-def test_a_known_defect_is_found(defect):
+def test_a_known_defect_is_found_soon(defect):
+    """Also `benchmarks/exploration.py`: how soon in the median of many campaigns."""
     system = small_driver(defect)
-    for seed in range(300):
-        finding = explore(SMALL, system, seed, only=(STEP[defect],)).finding
+    guide = Guide(ground_of(SMALL, system))
+    for number in range(30):
+        finding = guide.take(explore(SMALL, system, guide.name(number))).finding
         if finding is not None:
             break
     assert finding is not None
@@ -49,8 +43,49 @@ def test_a_known_defect_is_found(defect):
         assert ("pp-to-main" in finding.plan) == (defect == "R7a")
 
 
+RESULTS = [Explored("", "", None, ((n, n + 1),) if n % 3 else ()) for n in range(60)]
+
+
+def names_of(guide, *, late):
+    """What a guide names when results are heard as late, or as early, as may be."""
+    names, pending = [], []
+    for number, result in enumerate(RESULTS):
+        while pending and (not late or number - len(pending) < guide.needs(number)):
+            guide.take(pending.pop(0))
+        names.append(guide.name(number))
+        pending.append(result)
+    return names
+
+
+def test_a_guide_names_the_same_however_many_schedules_are_under_way():
+    ground = ground_of(SMALL, small_driver())
+    early = names_of(Guide(ground), late=False)
+    assert early == names_of(Guide(ground), late=True)
+    assert len(set(early)) == len(RESULTS)
+    assert any("~" in name for name in early)
+    assert names_of(Guide(ground, first=1), late=False) != early
+
+
+@pytest.mark.parametrize("text", ["17", "17~4~2", "17~4/steps=1,3", "0/steps=/turns/calm"])
+def test_the_name_of_a_schedule_is_its_name(text):
+    assert str(named(text)) == text
+
+
+@pytest.mark.parametrize("text", ["", "x", "17~", "17/steps", "17/calm/turns", "-1"])
+def test_a_schedule_without_a_name_is_refused(text, capsys):
+    assert main(["test", "irb120", f"--replay={text}"]) == 2
+    assert "RG807" in capsys.readouterr().err
+
+
+def test_what_is_left_of_a_schedule_is_drawn_as_before():
+    ground = ground_of(SMALL, small_driver())
+    whole, part = drawn(named("17~4"), ground), drawn(named("17~4/steps=1/turns/calm"), ground)
+    assert part.steps == whole.steps[1:2]
+    assert (part.order, part.network, part.seed) == ("turns", "good", whole.seed)
+
+
 @pytest.mark.parametrize(
-    ("seed", "told"), [(0, "while nothing disturbs it: length"), (6, "length")]
+    ("seed", "told"), [("0", "while nothing disturbs it: length"), ("7", "length")]
 )
 def test_bytes_that_are_no_message_are_a_finding(seed, told):
     """Also where they come before a history begins: to whoever looks what the driver executes."""
@@ -68,7 +103,7 @@ def test_bytes_that_are_no_message_are_a_finding(seed, told):
 
 def test_nothing_is_found_without_a_defect():
     system = small_driver()
-    assert [explore(SMALL, system, seed).finding for seed in range(40)] == [None] * 40
+    assert [explore(SMALL, system, str(seed)).finding for seed in range(40)] == [None] * 40
 
 
 @pytest.mark.parametrize("defect", ["", *DEFECTS])
@@ -83,7 +118,7 @@ def test_the_small_driver_is_rapid(defect):
     assert (texts != plain) == bool(defect)
 
 
-@pytest.mark.parametrize("seed", [3, 4, 5])
+@pytest.mark.parametrize("seed", ["3", "4~1", "5/steps=0,2/turns/calm"])
 def test_a_schedule_is_the_same_when_it_is_traced(seed):
     system = make_system(SIX_AXES, build(SIX_AXES))
     story = io.StringIO()
@@ -95,7 +130,7 @@ def test_a_schedule_is_the_same_when_it_is_traced(seed):
 def test_every_step_alone_leaves_a_good_driver_good():
     system = make_system(SIX_AXES, build(SIX_AXES))
     for name in STEPS:
-        assert explore(SIX_AXES, system, 5, only=(name,)).finding is None, name
+        assert explore(SIX_AXES, system, "5", only=(name,)).finding is None, name
 
 
 def test_replay_tells_the_story(tmp_path, capsys):
@@ -103,7 +138,7 @@ def test_replay_tells_the_story(tmp_path, capsys):
     assert main(["test", "irb120", "--replay", "3", "--trace", str(trace)]) == 0
     out = capsys.readouterr().out
     assert "connect" in out
-    assert "seed 3: the invariant held" in out
+    assert "schedule 3: the invariant held" in out
     assert "ROS_motionServer/" in trace.read_text(encoding="utf-8")
     assert main(["test", "irb120", "--replay", "3", "--trace", str(tmp_path / "no" / "f")]) == 2
     assert "RG803" in capsys.readouterr().err

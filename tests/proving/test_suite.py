@@ -7,13 +7,15 @@ from xml.etree import ElementTree
 
 import pytest
 
+from rapidgen import __version__
 from rapidgen.cli.app import main
 from rapidgen.config import load_config
 from rapidgen.diagnostics import refusal
 from rapidgen.generate import build, make_system
 from rapidgen.proving.bench import Bench, with_module
 from rapidgen.proving.explore import explore
-from rapidgen.proving.model import Broken
+from rapidgen.proving.model import Broken, Proof, Verdict
+from rapidgen.proving.report import slowest, write_html
 from rapidgen.proving.run import Starter, prove
 from rapidgen.proving.settings import Setting, assumed, rows, settings
 from rapidgen.proving.suite import CASES
@@ -134,7 +136,7 @@ def test_the_exploration_replays_exactly():
     config, system = generated()
     logs = []
     for _ in range(2):
-        bench_log = explore(config, system, 5)
+        bench_log = explore(config, system, "5")
         logs.append(bench_log)
     assert logs[0] == logs[1]
 
@@ -146,9 +148,39 @@ def test_the_verb_writes_reports_and_says_what_failed(tmp_path, capsys):
     assert "everything held" in capsys.readouterr().out
     suite = ElementTree.parse(junit).getroot()[0]
     assert suite.get("failures") == "0"
-    assert "<svg" in html.read_text(encoding="utf-8")
+    page = html.read_text(encoding="utf-8")
+    assert "<svg" in page
+    assert f"rapidgen {__version__} · Python " in page
+    assert '<input id="search" type="search"' in page
+    assert '<summary>compatible: <span class="ok">1 of 1 held</span>' in page
     assert main(["test", "irb120", "--case", "whole-trajectry"]) == 2
     assert "whole-trajectory" in capsys.readouterr().err
+
+
+def test_a_group_is_open_where_one_did_not_hold(tmp_path):
+    outcomes = [
+        Verdict("fine", "A", "holds", "", True, elapsed=1.0),
+        Verdict("fine", "A", "holds", "", True, setting="other", elapsed=3.0),
+        Verdict("poor", "B", "does not", "", False, "because", elapsed=2.0),
+    ]
+    report = Proof("cell", "0123456789ab", outcomes)
+    write_html(report, tmp_path / "r.html")
+    page = (tmp_path / "r.html").read_text(encoding="utf-8")
+    assert re.findall(r'<details class="group"(.*?)><summary>(\w)', page) == [
+        ("", "A"),
+        (" open", "B"),
+    ]
+    assert slowest(report, 1) == [("fine", 4.0, 2)]
+
+
+def test_the_cases_are_listed(capsys):
+    assert main(["test", "irb120", "--list"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert "  hello " in "\n".join(lines)
+    assert main(["test", "irb120", "--list", "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert [case["case"] for case in told] == [case.name for case in CASES]
+    assert len(lines) == len(told) + len({case["group"] for case in told})
 
 
 @pytest.mark.parametrize("jobs", ["1", "2"])

@@ -40,6 +40,10 @@ ROUTINES = [
     "routines.long={call: 'cell:wait_long'}",
     "routines.absent={call: 'nocell:weld'}",
 ]
+TOOLS = [
+    "tools=[{name: grip, frame: {position: [0, 0, 100]}, load: {mass: 1, centre: [0, 0, 50]}}]",
+    "work_objects=[{name: table, user_frame: {position: [300, 0, 100]}}]",
+]
 VARIANTS = {
     "no control port": (["ports.control=0"], "hello starves progress-ended again-after-stop"),
     "slowed down": (["trajectory.too_fast=slow_down"], "slowed-down each-value each-duration"),
@@ -53,6 +57,8 @@ VARIANTS = {
     "signals": (SIGNALS, "signals hello control-stop"),
     "data": (DATA, "own-data hello control-stop"),
     "routines": (ROUTINES, "routine-absent routine-results routine-alone program-waits"),
+    "signals on the way": (SIGNALS, "program-signals program-sets program-without-signals"),
+    "tools": (TOOLS, "program-tools program-waits"),
     "some clients": (["network.allowed_clients=[10.0.0.9]"], "strangers single-point"),
     "impatient": (["network.receive_timeout=3"], "stalls half-header"),
     "small ring": (

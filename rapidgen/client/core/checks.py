@@ -4,8 +4,9 @@ The result is a CheckedTrajectory, for one that is there as a whole, or CheckedP
 comes in pieces: the axis values and durations that go onto the wire.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from os import PathLike
 from typing import ClassVar, Literal
 
 import numpy as np
@@ -14,6 +15,7 @@ import numpy.typing as npt
 from rapidgen.axes.limits import ROUNDING
 from rapidgen.client.core.group import Group
 from rapidgen.client.errors import InvalidTrajectory
+from rapidgen.client.program import Program
 from rapidgen.client.trajectory import Array, Trajectory
 from rapidgen.diagnostics import Diagnostic, Severity, Span, error, suggest
 from rapidgen.wire.simple_message.spec import FIXED_LIMIT, FIXED_SCALE
@@ -85,13 +87,37 @@ class _Asked:
         return self.before.points if self.before else 0
 
     def finding(
-        self, code: str, message: str, points: npt.NDArray[np.intp], help: str = "", *notes: str
+        self,
+        code: str,
+        message: str,
+        points: npt.NDArray[np.intp],
+        figures: str = "",
+        help: str = "",
+        *notes: str,
     ) -> Diagnostic:
-        """An error at the first of these points, which end its message."""
+        """An error at the first of these points; `message` goes on with them, then `figures`."""
         first, others = points[0] + self.origin, len(points) - 1
         named = f"point {first} and {others} more" if others else f"point {first}"
-        at = self.ordered, int(points[0])
-        return _finding(code, f"{message} {named}", help, *notes, at=at)
+        told = f"{message} {named}: {figures}" if figures else f"{message} {named}"
+        return _finding(code, told, help, *notes, at=(self.ordered, int(points[0])))
+
+
+def require_trajectory(given: object) -> None:
+    """Raise InvalidTrajectory for anything else, with the way from that to a trajectory."""
+    if isinstance(given, Trajectory):
+        return
+    match given:
+        case str() | PathLike():
+            mend = "a file is read by `Trajectory.from_csv(path)` or `from_json(path)`"
+        case Mapping():
+            mend = "a ROS message as a dict is read by `Trajectory.from_ros(message)`"
+        case Program():
+            mend = "`robot.run(program)` executes a program"
+        case _:
+            mend = "`Trajectory.from_points(points, seconds=1)` makes one of points"
+    raise InvalidTrajectory.because(
+        "RG611", f"this takes a Trajectory, and was given {type(given).__name__}", mend, exit_code=2
+    )
 
 
 def check_trajectory(
@@ -284,8 +310,11 @@ def _times(asked: _Asked) -> Iterator[Diagnostic]:
     if before is not None and times[0] <= before.time:
         late = np.concatenate([[0], late])
     if len(late):
+        first = int(late[0])
+        earlier = times[first - 1] if first or before is None else before.time
+        figures = f"{times[first]:g} s after {earlier:g} s"
         mend = "each point needs a later time than the one before"
-        yield asked.finding("RG612", "the time does not increase at", late, mend)
+        yield asked.finding("RG612", "the time does not increase at", late, figures, mend)
 
 
 def _limits(asked: _Asked) -> Iterator[Diagnostic]:
@@ -305,8 +334,9 @@ def _limits(asked: _Asked) -> Iterator[Diagnostic]:
             "RG614",
             f"{joint.name} is outside its limits at",
             points,
-            f"{joint.axis} has {joint.lower:.4f} to {joint.upper:.4f} {unit}; "
-            f"point {worst + asked.origin} has {values[worst]:.4f} {unit}",
+            f"{joint.axis} would be at {values[worst]:.4f} {unit} (point {worst + asked.origin}), "
+            f"and has {joint.lower:.4f} to {joint.upper:.4f} {unit}",
+            "keep the points inside the limits",
             *(notes if coupled else ()),
         )
 
@@ -333,8 +363,8 @@ def _speeds(asked: _Asked) -> Iterator[Diagnostic]:
             "RG615",
             f"{joint.name} is too fast on the way to",
             points,
-            f"it needs {worst:.3f} {unit}, {joint.axis} has {joint.speed:.3f}; "
-            f"`scaled({joint.speed / worst:.2f})` would fit",
+            f"{joint.axis} would need {worst:.3f} {unit}, and has {joint.speed:.3f} {unit}",
+            f"`scaled({0.99 * joint.speed / worst:.3g})` would fit",
         )
 
 
@@ -354,9 +384,14 @@ def _start(asked: _Asked) -> Iterator[Diagnostic]:
             f"{joint.name}: the robot's axis stands at {start[column]:.4f} {unit}, the first "
             f"point is {wire[0, column]:.4f}, tolerance {tolerance:.4f}"
         )
+    far = max(columns, key=lambda column: away[column] / group.start_tolerance[column])
+    others = f", and {len(columns) - 1} more joints" if len(columns) > 1 else ""
+    unit = "rad" if group.joints[far].kind == "revolute" else "m"
     yield _finding(
         "RG616",
-        "the trajectory does not start where the robot stands",
+        "the trajectory does not start where the robot stands: "
+        f"{group.names[far]} is {away[far]:.4f} {unit} away, "
+        f"{group.start_tolerance[far]:.4f} {unit} is tolerated{others}",
         "go there first: `trajectory.starting_at(robot.state, seconds)`, or "
         "`rapidgen move --approach SECONDS`",
         *rows,
@@ -373,7 +408,7 @@ def _short(asked: _Asked) -> list[Diagnostic]:
         "RG618",
         "shorter than the path planner follows: the segment to",
         points,
-        f"{durations[points].min():.4f} s, at least {least:g} s: "
+        f"{durations[points].min():.4f} s, at least {least:g} s",
         f"`Trajectory.resampled({least:g})`, or `rapidgen move --resample {least:g}`",
     )
     return [found if asked.group.has_limits else replace(found, severity=Severity.WARNING)]
@@ -384,8 +419,6 @@ def _fits(asked: _Asked) -> list[Diagnostic]:
     points = np.flatnonzero((np.abs(values) > FIXED_LIMIT).any(axis=1))
     if not len(points):
         return []
-    mend = (
-        f"{FIXED_LIMIT:.2f} s, rad or m are the most: "
-        "`Trajectory.resampled(10)` divides a long segment"
-    )
-    return [asked.finding("RG623", "a value is too large for a stream at", points, mend)]
+    figures = f"{np.abs(values[points]).max():.2f}, at most {FIXED_LIMIT:.2f} s, rad or m"
+    mend = "`Trajectory.resampled(10)` divides a long segment"
+    return [asked.finding("RG623", "a value is too large for a stream at", points, figures, mend)]

@@ -81,6 +81,19 @@ class Job:
         state = TrajectoryState.RECEIVING if self.total else TrajectoryState.NONE
         return Progress(state, self.total)
 
+    def __str__(self) -> str:
+        """How far it is, or how it ended."""
+        motion, progress = self.motion, self.progress
+        if motion is not None and motion.error is not None:
+            return f"ended: {motion.error}"
+        if motion is not None and motion.result is not None:
+            done = motion.result
+            return f"done: {done.points} {motion.noun}s in {done.seconds:.2f} s by {done.way}"
+        reached = "" if progress.reached is None else f"{progress.reached} of "
+        noun = motion.noun if motion is not None else "point"
+        state = progress.state.name.lower()
+        return f"{state}: {reached}{progress.total} {noun}s, {progress.fraction:.0%}"
+
     @property
     def stopped_position(self) -> tuple[float, ...] | None:
         """Joints where the robot stood at the end, by the best that is known."""

@@ -4,6 +4,7 @@ A driver that tells PROGRESS is believed: its states end a motion here. `Downloa
 that was sent whole) and `PointStream` (one that is sent while it is executed) add the rest.
 """
 
+import logging
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -106,6 +107,8 @@ class CommandedMotion(ABC):
         """The controller took the trajectory (under this number, where it tells one)."""
         if self.is_over:
             return
+        self._note(f"{self.total} {self.noun}s by {self.way} were taken")
+        self._state_port.taken()
         self.phase = Phase.MOVING
         self.number = number
         self._began = self._state_port.clock()
@@ -117,6 +120,10 @@ class CommandedMotion(ABC):
         if not self.is_over:
             self.phase = Phase.OVER
             self.error = error
+            self._note(str(error))
+
+    def _note(self, text: str) -> None:
+        self._state_port.note(text, logging.INFO)
 
     def stopped(self) -> None:
         """A STOP was confirmed and the robot stands."""
@@ -214,6 +221,7 @@ class CommandedMotion(ABC):
             way=self.way,
             starved=self.starved,
         )
+        self._note(f"done in {self.result.seconds:.2f} s")
 
     def _end(
         self,

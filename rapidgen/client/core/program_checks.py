@@ -19,6 +19,7 @@ from rapidgen.client.core.frames import Frames
 from rapidgen.client.core.group import Group
 from rapidgen.client.errors import InvalidProgram
 from rapidgen.client.program import Argument, Program, ProgramStep, Speed, Trigger, Zone, pose_of
+from rapidgen.client.trajectory import Trajectory
 from rapidgen.config.model import OwnParameter
 from rapidgen.diagnostics import Diagnostic, Severity, error, suggest
 from rapidgen.wire.simple_message import instructions
@@ -42,6 +43,19 @@ _MOVES = frozenset(
 _Way = Line | Arc
 
 
+def require_program(given: object) -> None:
+    """Raise InvalidProgram for anything else."""
+    if not isinstance(given, Program):
+        mend = (
+            "`robot.execute(trajectory)` executes a trajectory"
+            if isinstance(given, Trajectory)
+            else "`Program().move_joints(joints).move_linear(pose)` is one"
+        )
+        raise InvalidProgram.because(
+            "RG670", f"this takes a Program, and was given {type(given).__name__}", mend
+        )
+
+
 @dataclass(frozen=True, slots=True)
 class CheckedProgram:
     """What is sent: the words of each instruction, the first behind where the program begins."""
@@ -61,6 +75,8 @@ class _Walk:
         self.group = group
         self.here = start
         self.index = 0
+        self.singular = self.any_posture = False
+        """Whether singularities and other configurations are allowed."""
         self.chosen = (0, 0)
         """Numbers of the tool and of the work object."""
         self.found: list[Diagnostic] = []
@@ -225,6 +241,11 @@ def _wait(walk: _Walk, step: ProgramStep) -> tuple[Sequence[float], float]:
 def _wait_signal(walk: _Walk, step: ProgramStep) -> tuple[Sequence[float], float]:
     number = _signal(walk, step.signal, step.value, sets=False)
     return (number, step.value, _seconds(walk, step)), step.seconds
+
+
+def _settings(walk: _Walk, step: ProgramStep) -> tuple[Sequence[float], float]:
+    walk.singular, walk.any_posture = bool(int(step.value) & 1), bool(int(step.value) & 2)
+    return (step.value,), 0.0
 
 
 def _set(walk: _Walk, step: ProgramStep) -> tuple[Sequence[float], float]:
@@ -396,6 +417,7 @@ _MAKERS: dict[Instruction, Callable[[_Walk, ProgramStep], tuple[Sequence[float],
     Instruction.WAIT_SIGNAL: _wait_signal,
     Instruction.SET: _set,
     Instruction.CALL: _call,
+    Instruction.SETTINGS: _settings,
 }
 
 
@@ -503,13 +525,17 @@ def _along(walk: _Walk, step: ProgramStep, robot: Frames, way: _Way, outer: Post
                 "RG672",
                 f"the way passes a singularity after {share:.0%}: {joint.name} would turn "
                 f"{most:.2f} rad at once",
-                "another way, or joints",
+                "" if walk.singular else "another way, joints, or `allow(singularities=True)`",
+                severity=Severity.WARNING if walk.singular else Severity.ERROR,
             )
-            return seconds
+            if not walk.singular:
+                return seconds
         nodes.append(posture)
     walk.here = nodes[-1]
-    if step.configuration is not None and not robot.kinematics.matches(
-        walk.here, step.configuration
+    if (
+        step.configuration is not None
+        and not walk.any_posture
+        and not robot.kinematics.matches(walk.here, step.configuration)
     ):
         walk.say(
             "RG671",

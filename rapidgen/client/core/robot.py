@@ -3,9 +3,11 @@
 Its owner holds a lock (sync) or a loop (async) and moves the bytes.
 """
 
+import logging
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from math import isfinite
 
 from rapidgen import __version__
 from rapidgen.client.core.checks import (
@@ -14,13 +16,14 @@ from rapidgen.client.core.checks import (
     Way,
     check_points,
     check_trajectory,
+    require_trajectory,
     to_stream,
 )
 from rapidgen.client.core.download import Download
 from rapidgen.client.core.group import PLAIN_CAPACITY, Group
 from rapidgen.client.core.heartbeat import HeartbeatSchedule
 from rapidgen.client.core.motion import place_of, refused
-from rapidgen.client.core.program_checks import CheckedProgram, check_program
+from rapidgen.client.core.program_checks import CheckedProgram, check_program, require_program
 from rapidgen.client.core.request_port import PendingReply, RequestPort
 from rapidgen.client.core.state_port import Evidence, StatePort
 from rapidgen.client.core.stream import InstructionQueue, PointQueue, PointStream, SendQueue
@@ -29,6 +32,7 @@ from rapidgen.client.errors import (
     NotReady,
     NotSupported,
     ProtocolError,
+    RequestRefused,
     RobotError,
     RobotTimeout,
     fault,
@@ -97,12 +101,13 @@ class Core:
         reconnect: float = 0.0,
         feedback: bool = False,
         simulated: bool = False,
+        where: str = "",
     ) -> None:
         """`watch`: never move, only look. `plain`: do not ask for a rapidgen driver.
 
         `reconnect`: for how many s a lost connection is tried again; 0: not. `feedback`: ask
         for joints with the controller's own time and velocities. `simulated`: the controller's
-        clock may run faster than this one.
+        clock may run faster than this one. `where`: which robot this is, for the log.
         """
         self.simulated = simulated
         self.watch = watch
@@ -114,7 +119,7 @@ class Core:
         self.clock = clock
         self.plain = plain
         self.configured = group
-        self.state_port = StatePort(clock)
+        self.state_port = StatePort(clock, where)
         self.state_open = False
         self.ports = {Port.MOTION: RequestPort(), Port.CONTROL: RequestPort()}
         self.fault: RobotError | None = None
@@ -203,6 +208,7 @@ class Core:
         else:
             self.ports[port].is_open = False
         self.fault = error
+        self.state_port.note(str(error), logging.INFO)
         if port is Port.CONTROL:
             # Takes nothing from a motion under way; the controller stops it by itself where it
             # awaited a heartbeat there.
@@ -212,6 +218,8 @@ class Core:
 
     def closed(self) -> None:
         """The caller closed all connections."""
+        if self.state_open:
+            self.state_port.note("closed", logging.INFO)
         self.fault = None
         self.state_open = False
         for talk in self.ports.values():
@@ -278,9 +286,14 @@ class Core:
         return encode(messages.HeartbeatRequest(timeout * max(1.0, pace)), Comm.REQUEST)
 
     def post(self, content: Content) -> PendingReply:
-        """A request for the control port; it goes out next."""
+        """A request for the control port; it goes out next. Raises RequestRefused for a value
+        that its message cannot hold."""
         pending = PendingReply(number_of(content))
-        self._outbox.append((pending, encode(content, Comm.REQUEST)))
+        try:
+            frame = encode(content, Comm.REQUEST)
+        except ContentError as error:
+            raise RequestRefused.because("RG625", f"cannot be asked for: {error}") from error
+        self._outbox.append((pending, frame))
         return pending
 
     def blind_stops(self) -> list[Port]:
@@ -298,6 +311,8 @@ class Core:
         ports = [port for port, talk in self.ports.items() if talk.is_open]
         for port in ports:
             self.request_stop(port)
+            why = f"STOP over the {port.name.lower()} port: nobody sees the robot any more"
+            self.state_port.note(why, logging.WARNING)
         return ports
 
     # What callers ask
@@ -318,7 +333,7 @@ class Core:
 
     def without_control(self, why: str) -> None:
         """There is no control connection, though the driver has the port."""
-        self.state_port.note(why)
+        self.state_port.note(f"no control connection: {why}", logging.INFO)
         self.state_port.driver = replace(self.state_port.driver, control_fault=why)
 
     def hello(self, *, subscribe: bool = True) -> bytes:
@@ -369,6 +384,7 @@ class Core:
         motion need not wait for the last point. Raises InvalidTrajectory, NotReady (no state
         yet), NotSupported (no driver that streams).
         """
+        require_trajectory(trajectory)
         if way == "stream":
             self.require_streaming()
             return check_points(trajectory, self.known_group, before=None, start=self.start)
@@ -384,6 +400,7 @@ class Core:
 
         Raises InvalidProgram, NotReady (no state yet), NotSupported.
         """
+        require_program(program)
         hello = self.state_port.driver.hello
         if hello is None or Feature.PROGRAMS not in Feature(hello.features):
             raise NotSupported.because(
@@ -397,6 +414,7 @@ class Core:
 
     def check_whole(self, trajectory: Trajectory, capacity: int | None = None) -> CheckedTrajectory:
         """Check what goes by download. Raises InvalidTrajectory, NotReady."""
+        require_trajectory(trajectory)
         return check_trajectory(
             trajectory,
             self.known_group,
@@ -411,6 +429,15 @@ class Core:
         start = self.state_port.wire_joints
         if start is None:
             raise _unknown()
+        # No distance from such a value is too far, and none is near.
+        lost = [n for n, v in zip(self.known_group.names, start, strict=False) if not isfinite(v)]
+        if lost:
+            raise NotReady.because(
+                "RG621",
+                f"the controller tells no number for {', '.join(lost)}",
+                "look at the robot: where it stands is not known",
+                **self.evidence(),
+            )
         return start
 
     @property

@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
+from rapidgen.client.tables import table
 from rapidgen.wire.simple_message import messages
 from rapidgen.wire.simple_message.spec import (
     EventType,
@@ -32,6 +33,17 @@ class Status:
     error_joint: int = 0
     """1 to 10; 0 when the error is of no joint."""
 
+    def __str__(self) -> str:
+        said = [self.mode.name if self.mode is not Mode.UNKNOWN else "mode unknown"]
+        if self.drives is not TriState.UNKNOWN:
+            said.append("motors on" if self.drives is TriState.TRUE else "motors off")
+        if self.e_stopped is TriState.TRUE:
+            said.append("EMERGENCY STOP")
+        if self.in_error is TriState.TRUE:
+            said.append("in error")
+        said.append("moving" if self.in_motion is TriState.TRUE else "standing")
+        return ", ".join(said)
+
 
 @dataclass(frozen=True, slots=True)
 class Progress:
@@ -46,7 +58,7 @@ class Progress:
     """0 to 1; by time where the driver does not say."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class State:
     """Joints and status at one moment.
 
@@ -62,9 +74,18 @@ class State:
     rate: float
     number: int
     """Joint messages since the connection was made."""
-    clock: Callable[[], float] = field(repr=False, compare=False)
+    clock: Callable[[], float] = field(compare=False)
     trajectory: TrajectoryState | None = None
     """State of the newest trajectory, None where the driver does not tell."""
+
+    def __repr__(self) -> str:
+        joints = ", ".join(f"{name} {value:.4f}" for name, value in self.by_name.items())
+        return f"<State {self.number}: {joints}; {self.status}>"
+
+    def _repr_html_(self) -> str:
+        rows = zip(self.names, self.joints, self.velocity, strict=True)
+        cells = [(name, f"{value:.4f}", f"{rate:.4f}") for name, value, rate in rows]
+        return table(str(self.status), ("joint", "rad, m", "per s"), cells)
 
     def __getitem__(self, name: str) -> float:
         """The value of the joint `name`. Raises KeyError."""

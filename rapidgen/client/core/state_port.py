@@ -3,10 +3,11 @@
 A State is made only when somebody looks: one hundred robots are watched by one process.
 """
 
+import logging
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TypedDict
+from typing import Protocol, TypedDict
 
 from rapidgen.client.core.group import Group
 from rapidgen.client.core.state import (
@@ -24,6 +25,7 @@ from rapidgen.wire.simple_message.declaration import Content
 from rapidgen.wire.simple_message.frames import Frame
 from rapidgen.wire.simple_message.spec import FEEDBACK_WRAP, EventType
 
+_LOG = logging.getLogger("rapidgen.client")
 KEPT_EVENTS = 64
 KEPT_MESSAGES = 32
 KEPT_STATES = 16
@@ -41,6 +43,18 @@ class Sample:
 
     time: float
     joints: tuple[float, ...]
+    stamp: float | None = None
+    """The controller's own time, s, of a feedback."""
+
+
+class Listener(Protocol):
+    """Who keeps what comes."""
+
+    def add(self, sample: Sample) -> None:
+        """A joint message, or a feedback."""
+
+    def taken(self, time: float) -> None:
+        """The controller has taken a motion, at this time of the client's clock."""
 
 
 class Evidence(TypedDict):
@@ -53,8 +67,10 @@ class Evidence(TypedDict):
 class StatePort:
     """The state side of one robot. Not thread-safe: its owner holds a lock or a loop."""
 
-    def __init__(self, clock: Callable[[], float]) -> None:
+    def __init__(self, clock: Callable[[], float], where: str = "") -> None:
+        """`where`: which robot this is, for the log."""
         self.clock = clock
+        self.where = where
         self.driver = Driver()
         self.progress: messages.ProgressReport | None = None
         self.hello: messages.HelloReply | messages.HelloRefusal | None = None
@@ -70,7 +86,7 @@ class StatePort:
         self._laps = 0
         self.heard = clock()
         """When the last message came."""
-        self.listeners: list[Callable[[Sample], None]] = []
+        self.listeners: list[Listener] = []
         self._group: Group | None = None
         self._splitter = FrameSplitter()
         self._recent: deque[Sample] = deque(maxlen=KEPT_STATES)
@@ -126,7 +142,7 @@ class StatePort:
                 self._recent.append(sample)
                 self._times.append(now)
                 for listener in self.listeners:
-                    listener(sample)
+                    listener.add(sample)
             case messages.StatusReport():
                 self._status = content
             case messages.ProgressReport():
@@ -149,6 +165,17 @@ class StatePort:
         self._feedback = content
         self._fed_at = now
         self.feedbacks += 1
+        for listener in self.listeners:
+            listener.add(Sample(now, content.positions, self._stamp(content)))
+
+    def _stamp(self, content: messages.JointFeedback) -> float:
+        """s of a clock that goes on where the wire's begins again."""
+        return content.time + self._laps * FEEDBACK_WRAP
+
+    def taken(self) -> None:
+        """The controller has taken a motion."""
+        for listener in self.listeners:
+            listener.taken(self.clock())
 
     @property
     def feedback(self) -> Feedback | None:
@@ -160,7 +187,7 @@ class StatePort:
             names=group.names,
             joints=group.from_wire(told.positions),
             velocity=group.rates_from_wire(told.velocities),
-            time=told.time + self._laps * FEEDBACK_WRAP,
+            time=self._stamp(told),
             received=self._fed_at,
             number=self.feedbacks,
         )
@@ -239,9 +266,10 @@ class StatePort:
         """What did not come in time, with the last messages and states."""
         return RobotTimeout.because("RG603", message, mend, **self.evidence())
 
-    def note(self, text: str) -> None:
-        """Keep a line beside the messages."""
+    def note(self, text: str, level: int = logging.DEBUG) -> None:
+        """Keep a line beside the messages, and log it. What is raised, too, is no warning."""
         self._log.append((self.clock(), text))
+        _LOG.log(level, "%s: %s", self.where, text)
 
     def keep(self, frame: Frame) -> None:
         """Keep a frame of another connection beside the messages."""

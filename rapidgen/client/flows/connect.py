@@ -1,5 +1,8 @@
 """Connecting, and finding out who is there."""
 
+import logging
+import math
+
 from rapidgen.client.core.group import Group
 from rapidgen.client.core.robot import Core
 from rapidgen.client.errors import (
@@ -47,6 +50,9 @@ def _open(core: Core) -> Flow[None]:
         left = max(0.0, asked + limits.hello - core.clock())
         yield Wait(lambda: state_port.hello is not None or not core.state_open, left)
     _meet(core, state_port.hello)
+    told = state_port.driver.hello
+    who = f"rapidgen {state_port.driver.version}, build {told.build_id}" if told else "plain"
+    state_port.note(f"connected: {who}, {state_port.status}", logging.INFO)
     if core.watch:
         return
     yield Open(Port.MOTION, limits.connect)
@@ -86,17 +92,51 @@ def _meet(core: Core, hello: messages.HelloReply | messages.HelloRefusal | None)
             **core.evidence(),
         )
     if isinstance(hello, messages.HelloReply):
+        fault = hello_fault(hello)
+        if fault:
+            raise IncompatibleDriver.because(
+                "RG605",
+                f"the driver tells {fault}",
+                "build and deploy the driver again",
+                **core.evidence(),
+            )
         if core.configured is not None:
             core.configured.require(hello)
             core.use(core.configured.narrowed(hello))
-        elif not 1 <= hello.joint_count <= MAX_JOINTS:
-            raise IncompatibleDriver.because(
-                "RG605", f"the driver tells {hello.joint_count} joints", **core.evidence()
-            )
         else:
             core.use(Group.told(hello))
     elif core.group is None:
         core.use(Group.unknown([f"joint_{i + 1}" for i in range(6)]))
+
+
+def hello_fault(told: messages.HelloReply) -> str:
+    """What no driver of this project can have, in words; the client counts on these numbers."""
+    streams = Feature.STREAMING in Feature(told.features)
+    least = {
+        "joint_count": 1,
+        "capacity": 2,
+        "ring": 1 if streams else 0,
+        "batch": 0,
+        "signals": 0,
+        "control_port": 0,
+        "state_period": 0.0,
+        "min_segment": 0.0,
+        "start_tolerance": 0.0,
+        "start_tolerance_linear": 0.0,
+        "preload": 0.0,
+    }
+    for name, bound in least.items():
+        value = getattr(told, name)
+        if not bound <= value < math.inf:
+            return f"{name} {value:g}, which is at least {bound:g}"
+    if told.joint_count > MAX_JOINTS:
+        return f"{told.joint_count} joints, {MAX_JOINTS} are the most"
+    for i, (lower, upper, speed) in enumerate(
+        zip(told.lower, told.upper, told.speed, strict=True), 1
+    ):
+        if i <= told.joint_count and not (lower <= upper and speed > 0):
+            return f"of joint {i} limits {lower:g} to {upper:g} and a speed of {speed:g}"
+    return ""
 
 
 def alive(core: Core, *, to_move: bool = False) -> Flow[None]:
@@ -113,5 +153,5 @@ def alive(core: Core, *, to_move: bool = False) -> Flow[None]:
         except (ConnectionFailed, ConnectionLost, RobotTimeout) as error:
             if core.clock() + _RETRY >= deadline:
                 raise
-            core.state_port.note(str(error))
+            core.state_port.note(f"connecting again: {error}", logging.WARNING)
         yield Wait(lambda: False, _RETRY)

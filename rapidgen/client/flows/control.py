@@ -1,5 +1,7 @@
 """What goes over the control port."""
 
+import logging
+
 from rapidgen.client.core.motion import reason_of, reason_text
 from rapidgen.client.core.robot import Core
 from rapidgen.client.errors import NotSupported, RequestRefused
@@ -94,10 +96,11 @@ def ask(core: Core, content: Content, what: str) -> Flow[Content]:
         raise core.state_port.late(f"no reply to the request to {what}", "look at the controller")
     if isinstance(reply, messages.NotDone | messages.Failure):
         number = reply.reason if isinstance(reply, messages.NotDone) else 0
+        why = reason_text(number) if number else "no reason given"
+        core.state_port.note(f"the controller did not {what}: {why}", logging.INFO)
         raise RequestRefused.because(
             "RG625",
-            f"the controller did not {what}: "
-            f"{reason_text(number) if number else 'no reason given'}",
+            f"the controller did not {what}: {why}",
             reason=reason_of(number) if number else None,
             **core.evidence(),
         )

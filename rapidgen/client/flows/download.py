@@ -6,7 +6,7 @@ from rapidgen.client.core.request_port import PendingReply
 from rapidgen.client.core.robot import Core
 from rapidgen.client.errors import RobotError
 from rapidgen.client.flows.effects import INTERRUPTIONS, Flow, Send, Wait
-from rapidgen.client.flows.stop import PER_POINT, stop_and_leave
+from rapidgen.client.flows.stop import PER_POINT, stop
 from rapidgen.wire.simple_message.bulk import FRAME_BYTES, encode_trajectory
 from rapidgen.wire.simple_message.messages import JOINT_TRAJ_PT
 from rapidgen.wire.simple_message.spec import Port
@@ -20,7 +20,7 @@ def download(core: Core, checked: CheckedTrajectory) -> Flow[Job]:
         yield from sending.end()
         yield from sending.accepted()
     except INTERRUPTIONS:
-        yield from stop_and_leave(core)
+        yield from stop(core)
         raise
     except RobotError as error:
         sending.motion.failed(error)

@@ -1,7 +1,9 @@
 """What is done with a trajectory: as a whole, or point by point while the robot moves."""
 
 from collections.abc import Callable
+from typing import cast
 
+import numpy as np
 import numpy.typing as npt
 
 from rapidgen.client.core.checks import CheckedTrajectory, Way, check_points
@@ -38,13 +40,16 @@ def execute(core: Core, trajectory: Trajectory, way: Way | None) -> Flow[Job]:
 
 
 def append(job: Job, times: npt.ArrayLike, positions: npt.ArrayLike) -> Flow[None]:
-    """Add points: `times` (n,) s from the beginning, `positions` (n, k).
+    """Add points: `times` (n,) s from the beginning, `positions` (n, k); or one point, its time
+    and its joints (k,).
 
     Waits while the controller has no room. Raises InvalidTrajectory (nothing of these was
     sent), NotReady, TrajectoryRefused, MotionFailed, MotionStopped, NotSupported,
     RobotTimeout, ConnectionLost. Ctrl-C here, or cancelling this, stops the robot.
     """
     core = job.core
+    if not np.iterable(times):
+        times, positions = cast("npt.ArrayLike", [times]), cast("npt.ArrayLike", [positions])
     points = Trajectory(times, positions, job.names)
     if job.is_ended:
         raise InvalidTrajectory.because("RG624", "this stream has ended", "begin another one")

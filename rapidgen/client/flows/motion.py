@@ -7,7 +7,7 @@ from rapidgen.client.core.motion import CommandedMotion, Result
 from rapidgen.client.core.robot import Core
 from rapidgen.client.flows.connect import alive
 from rapidgen.client.flows.effects import INTERRUPTIONS, Flow, Wait
-from rapidgen.client.flows.stop import stop_and_leave
+from rapidgen.client.flows.stop import stop
 from rapidgen.wire.simple_message.spec import TrajectoryState
 
 
@@ -29,7 +29,8 @@ def until(
     timeout: float | None = None,
 ) -> Flow[bool]:
     """Whether the condition came to hold, or the motion to its end, within `timeout` s; without
-    one, for as long as the motion gets on or is paused. An interruption stops the robot."""
+    one, for as long as the motion gets on or is paused. An interruption stops the robot and goes on
+    when it stands; a second one does not wait for that."""
 
     def holds() -> bool:
         return motion.is_over or condition()
@@ -49,7 +50,7 @@ def until(
             if motion.mark == mark and motion.progress.state is not TrajectoryState.PAUSED:
                 return False
     except INTERRUPTIONS:
-        yield from stop_and_leave(core)
+        yield from stop(core)
         raise
 
 

@@ -1,5 +1,7 @@
 """STOP, and the end."""
 
+import logging
+
 from rapidgen.client.core.motion import CommandedMotion, Phase
 from rapidgen.client.core.request_port import PendingReply
 from rapidgen.client.core.robot import STOP_FRAME, Core
@@ -7,7 +9,6 @@ from rapidgen.client.core.state import State
 from rapidgen.client.errors import (
     ConnectionFailed,
     ConnectionLost,
-    RobotError,
     RobotTimeout,
     StopFailed,
 )
@@ -21,21 +22,11 @@ _STILL_SAMPLES = 5
 """Joint messages without a movement after which a robot stands, whatever its status says."""
 
 
-def stop_and_leave(core: Core) -> Flow[None]:
-    """Write a STOP on every connection for it; nobody waits for the answer."""
-    for port, link in core.ports.items():
-        if not link.is_open:
-            continue
-        try:
-            yield from _send_stop(core, port)
-        except RobotError as error:
-            core.state_port.note(str(error))
-
-
 def _send_stop(core: Core, port: Port) -> Flow[PendingReply]:
     if not core.ports[port].is_open:
         yield Open(port, core.timeouts.connect)
     pending = core.request_stop(port)
+    core.state_port.note(f"STOP over the {port.name.lower()} port", logging.INFO)
     yield Send(port, STOP_FRAME, core.timeouts.stop, urgent=True)
     return pending
 
@@ -143,6 +134,7 @@ def _until_standing(core: Core) -> Flow[State]:
     state = state_port.state
     if not stands() or state is None:
         raise _not_stopped(core, "STOP was answered, and the robot was not seen to stand")
+    state_port.note("stands behind STOP", logging.INFO)
     return state
 
 

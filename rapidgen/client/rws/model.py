@@ -60,6 +60,24 @@ class TaskModule:
 
 
 @dataclass(frozen=True, slots=True)
+class JointTarget:
+    """Axes as RAPID has them: deg, external ones in deg or mm; 9E9 where there is none."""
+
+    robax: tuple[float, ...]
+    extax: tuple[float, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class RobTarget:
+    """A place of a TCP as RAPID has it: mm, quaternion (w first), cf1 cf4 cf6 cfx, deg or mm."""
+
+    trans: tuple[float, ...]
+    rot: tuple[float, ...]
+    robconf: tuple[float, ...]
+    extax: tuple[float, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class BuildError:
     """What is wrong in a task's program."""
 

@@ -145,17 +145,11 @@ class Blocking:
         """A websocket of this session, closed with the stack. Pings are off: RWS 2.0 cuts off a
         client that sends."""
         assert self._client is not None
-        options = socket_options(self._core, self._client.cookies)
-        if options["ssl"] is not None:
-            # One thread reads here while another writes. The tickets that TLS 1.3 sends after its
-            # handshake take a read in the middle of which a write is lost, and then everything
-            # waits for ever: once in a thousand.
-            options["ssl"].maximum_version = ssl.TLSVersion.TLSv1_2
         try:
             return stack.enter_context(
                 connect_socket(
                     self._base.replace("http", "ws", 1) + path,
-                    **options,
+                    **socket_options(self._core, self._client.cookies, threads=True),
                     open_timeout=self._timeout,
                 )
             )

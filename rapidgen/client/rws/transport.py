@@ -56,12 +56,22 @@ class SocketOptions(TypedDict):
     max_size: int
 
 
-def socket_options(core: RwsCore, cookies: httpx2.Cookies) -> SocketOptions:
-    """A websocket of the session with these cookies; proxies and pings are off."""
+def socket_options(
+    core: RwsCore, cookies: httpx2.Cookies, *, threads: bool = False
+) -> SocketOptions:
+    """A websocket of the session with these cookies; proxies and pings are off.
+
+    `threads`: one thread will read while another writes. The tickets that TLS 1.3 sends after its
+    handshake take a read in the middle of which a write is lost, and then everything waits for
+    ever, once in a thousand: TLS 1.2 has none.
+    """
+    context = pinned(core.certificate) if core.certificate else None
+    if context is not None and threads:
+        context.maximum_version = ssl.TLSVersion.TLSv1_2
     return SocketOptions(
         subprotocols=[Subprotocol(PROTOCOLS[core.generation])],
         additional_headers={"Cookie": "; ".join(f"{k}={v}" for k, v in cookies.items())},
-        ssl=pinned(core.certificate) if core.certificate else None,
+        ssl=context,
         proxy=None,
         ping_interval=None,
         max_size=LARGEST,

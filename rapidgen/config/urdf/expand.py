@@ -221,7 +221,8 @@ def _translate(request: Request, fault: BaseException, at: Path) -> Diagnostic:
             label=f"needed by {name}",
         )
     if isinstance(inner, ExpatError):
-        hint = "declare xmlns:xacro on <robot>" if "unbound prefix" in str(inner) else ""
+        unbound = "unbound prefix" in str(inner)
+        hint = "declare xmlns:xacro on <robot>" if unbound else "mend the file there"
         return error(
             "RG060",
             Span(str(at), max(1, inner.lineno), inner.offset + 1),

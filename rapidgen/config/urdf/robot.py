@@ -92,7 +92,10 @@ def read_robot(description: Description, place: Span | None) -> UrdfRobot:
         line, column = fault.position
         span = place if description.expanded else Span(str(description.path), line, column or 1)
         raise refusal(
-            "RG060", span, f"{description.path.name} is not well-formed XML: {fault.msg}"
+            "RG060",
+            span,
+            f"{description.path.name} is not well-formed XML: {fault.msg}",
+            "mend the file there; nothing behind that place was read",
         ) from None
 
     def span_of(element: "Element") -> Span | None:

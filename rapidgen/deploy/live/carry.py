@@ -190,6 +190,11 @@ def after_files(run: Live) -> None:
             if run.rearranges:
                 rearrange(run.services, run.work, run.live)
     if not run.live.restart:
+        if run.plan.wanted is not None and run.rearranges:
+            # NORMAL tasks that stood: their program is there, and waits to be started.
+            prove(run.services, run.plan, run.live, None, ReadBack(), run.work.say)
+            with _steps(run):
+                _point(run)
         return
     if not run.options.restart:
         run.work.say("restart pending: what was loaded counts after a warm start (--restart)")

@@ -170,10 +170,12 @@ def make_live_plan(
     needed = {task.casefold() for f in wanted.files for task in f.tasks} if wanted else set()
     running = {f"sys cab_tasks {t.name.casefold()}" for t in view.tasks}
     stale = bool(running & ours - rows.keys())
-    if wanted is not None:
-        stale = stale or any(view.builds.get(t) != wanted.build_id for t in needed)
-    known = needed | {t.casefold() for names in old.values() for t in names}
     background = [t for t in view.tasks if t.kind != "normal" and t.execution == "started"]
+    if wanted is not None:
+        # A NORMAL task is given its modules as it stands, where nothing runs beside it.
+        hot = set() if background else _loaded_whole(wanted, replace)
+        stale = stale or any(view.builds.get(t) != wanted.build_id for t in needed - hot)
+    known = needed | {t.casefold() for names in old.values() for t in names}
     needful = [t for t in load if not may_be_refused(t)]
     return LivePlan(
         view.id,
@@ -273,7 +275,7 @@ def live_steps(
         steps.append(ManualStep("you", what, stops_motion=True))
     if verb != "uninstall":
         what = f"motors on and start, at the robot or by `rapidgen start {host}`"
-        if live.mains and not live.restart:
+        if live.mains and not live.restart and not live.touches_memory:
             what += "; program pointer to main first"
         steps.append(ManualStep("you", what))
     return tuple(steps)
@@ -363,6 +365,18 @@ def _memory(
             if real in tasks and low in lying and low not in mine:
                 unload.append(InMemory(real, module))
     return tuple(replace), tuple(unload)
+
+
+def _loaded_whole(wanted: DriverSet, replace: Sequence[InMemory]) -> set[str]:
+    """Tasks, in lower case, each of whose modules is loaded anew."""
+    coming = {m.shown.casefold() for m in replace}
+    missing = {
+        task.casefold()
+        for file in wanted.files
+        for task in file.tasks
+        if file.kind == "module" and f"{task}/{_module_name(file.data)}".casefold() not in coming
+    }
+    return {m.task.casefold() for m in replace} - missing
 
 
 def _mains(view: LiveView, wanted: DriverSet | None) -> tuple[tuple[str, str], ...]:

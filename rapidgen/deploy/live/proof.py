@@ -33,12 +33,15 @@ def prove(
     services: Controller,
     plan: Plan,
     live: LivePlan,
-    last: int,
+    last: int | None,
     proof: ReadBack,
     say: Callable[[str], None],
 ) -> None:
     """Look at everything, and tell all that is wrong at once. `last` is the number of the last
-    event before the restart. Raises DiagnosticError RG540, RG544; RobotError."""
+    event before the restart; None: there was none.
+
+    Raises DiagnosticError RG540, RG544; RobotError.
+    """
     found = services.identity()
     faults = []
     if found.id != live.id:
@@ -47,7 +50,7 @@ def prove(
         faults.append("it is in system failure")
     there = {task.name.casefold(): task.name for task in services.tasks()}
     faults += _driver(services, plan, live, there)
-    events = _events(services, last)
+    events = _events(services, last) if last is not None else ()
     for event in events:
         say(f"event log: {event}")
     if not faults:
@@ -60,7 +63,7 @@ def prove(
             error(
                 "RG544",
                 None,
-                f"{plan.target} restarted, and {faults[0]}",
+                f"{plan.target} {'took it' if last is None else 'restarted'}, and {faults[0]}",
                 f"go back: {way_back(plan)} with --restart; a backup was made before",
                 notes=(*faults[1:], *map(str, events[:5])),
             )

@@ -206,6 +206,12 @@ class FtpTransport:
             words = getattr(error, "strerror", None) or str(error)
             reason = redact(words, self._login) or "the connection was closed"
             raise TransportFault("lost", f"{place}: {reason}") from None
+        except UnicodeEncodeError:
+            # Its text has the letter, and that may be one of a password.
+            raise TransportFault(
+                "login" if login else "denied",
+                f"{place}: a letter that FTP does not carry (it has those of latin-1)",
+            ) from None
         except (ftplib.Error, ValueError, IndexError, OverflowError) as error:
             # After an answer that makes no sense the next one may belong to any command.
             self.close()

@@ -27,6 +27,11 @@ def serves(*operations: RwsOperation) -> Callable[[Handler], Handler]:
     return put
 
 
+def operations() -> tuple[RwsOperation, ...]:
+    """All that is served."""
+    return tuple(operation for operation, _ in _TABLE)
+
+
 @dataclass(frozen=True, slots=True)
 class _Row:
     pattern: re.Pattern[str]

@@ -167,6 +167,7 @@ _KINDS: tuple[tuple[str, _Make], ...] = (
     (r"/rw/panel/opmode", _panel("pnl-opmode-ev", "opmode", lambda d: panel.opmode(d.controller))),
     (r"/rw/panel/speedratio", _panel(
         "pnl-speedratio-ev", "speedratio", lambda d: str(panel.speed(d.controller)))),
+    (r"/rw/panel/coldetstate", _panel("pnl-coldetstate-ev", "coldetstate", lambda _: "INIT")),
     (r"/rw/rapid/execution", _execution),
     (r"/rw/rapid/tasks/(?P<task>[^/]+)", _task),
     (r"/rw/iosystem/signals/(?P<signal>.+)", _signal),

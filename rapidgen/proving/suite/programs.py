@@ -33,6 +33,8 @@ from rapidgen.proving.track import Position, changed, inward, small_unit
 case = Theme("programs", needs="stream")
 
 MOVE_ABSJ = RawInstruction.MOVE_ABSJ
+CORNER_FAILURE = 50024
+"""Event: a move with a zone ended as a stop point, because the next one came too late."""
 _SAME = 1e-5
 """m that the TCP may be away from the path of the same program in RAPID."""
 
@@ -40,9 +42,13 @@ _SAME = 1e-5
 @case("program-like-rapid", "a program moves as the same one written in RAPID", once=True)
 def _like_rapid(bench: Bench) -> None:
     """On the same path, in the same time, with no stop point more."""
-    chance = random.Random(7)
+    like_rapid(bench, 6, random.Random(7))
+
+
+def like_rapid(bench: Bench, count: int, chance: random.Random) -> None:
+    """So many programs by lot beside the same ones in RAPID (benchmarks/program_campaign.py)."""
     client = Programmer(bench)
-    for _ in range(6):
+    for _ in range(count):
         program = orders(bench, 8, chance)
         home, since = bench.position, bench.now
         client.takes("a program", program)
@@ -71,9 +77,14 @@ def _refused(bench: Bench) -> None:
     right = orders(bench, 6, random.Random(3))
     client, watcher = Programmer(bench), bench.watcher()
     joint = bench.group.joints[0]
-    outside = changed(right[3].joints, 0, joint.upper + 2 * small_unit(joint))
+    for n, own in enumerate(bench.group.joints):
+        for value in (own.lower - 2 * small_unit(own), own.upper + 2 * small_unit(own)):
+            outside = replace(right[3], joints=changed(right[3].joints, n, value), pose=None)
+            told = client.send([*right[:3], replace(outside, kind=MOVE_ABSJ), *right[3:]])
+            wanted = (RawReason.JOINT_LIMIT, 3, n + 1)
+            if told[-3:] != wanted:
+                raise Broken(f"joint {n + 1} at {value}: the reply is {told}")
     wrong: list[tuple[RawOrder, RawReason]] = [
-        (replace(right[3], joints=outside, pose=None, kind=MOVE_ABSJ), RawReason.JOINT_LIMIT),
         (replace(right[3], speed=0.0), RawReason.BAD_SPEED),
         (replace(right[3], speed=-1.0), RawReason.BAD_SPEED),
         (replace(right[3], speed=2000.0), RawReason.BAD_SPEED),
@@ -134,8 +145,8 @@ def _prefix(bench: Bench) -> None:
     for ending, reason in _ENDINGS.items():
         if bench.config.commissioning and ending in ("e-stop", "stop"):
             continue  # The servers stop with the program, and nobody tells.
-        for at in (0, 2, 4):
-            program = orders(bench, 6, chance)
+        for at in range(6):
+            program = orders(bench, 7, chance)
             client = Programmer(bench)
             start, since = bench.position, bench.now
             client.takes("a program", program)
@@ -266,11 +277,13 @@ def _waits(bench: Bench) -> None:
         words = [*millionths(bench.position), *there.words, *wait, *first.words]
         return client.say(words, 3, ALL)
 
-    if not isinstance(sends(1.5), messages.RawPointsAccepted):
-        raise Broken("a program with a wait is refused")
-    bench.wait_until_at(there.joints, 60)
-    bench.stays(1.2, "the program waits")
-    bench.wait_until_at(first.joints, 60)
+    for seconds in (1.5, 0.5, 0.0):
+        if not isinstance(sends(seconds), messages.RawPointsAccepted):
+            raise Broken(f"a program with a wait of {seconds} s is refused")
+        bench.wait_until_at(there.joints, 60)
+        bench.stays(0.8 * seconds, "the program waits")
+        bench.wait_until_at(first.joints, 60)
+    corners_made(bench)
     for seconds in (-1.0, 2001.0):
         client.refused(sends(seconds), RawReason.BAD_VALUE, 1, f"a wait of {seconds} s")
     sends(1000.0)
@@ -282,7 +295,7 @@ def _waits(bench: Bench) -> None:
         ([1024 + MOVE_ABSJ, *millionths([99.0, 0.0])], RawReason.NO_FRAME),
         ([1024 + MOVE_ABSJ, *millionths([0.0, 0.5])], RawReason.NO_FRAME),
         ([int(RawInstruction.SET), *millionths([99.0, 0.0])], None),
-        ([9, 0], RawReason.NO_INSTRUCTION),
+        ([10, 0], RawReason.NO_INSTRUCTION),
     ):
         client.number += 1
         start = millionths(bench.position)
@@ -292,6 +305,13 @@ def _waits(bench: Bench) -> None:
         if reason is not None:
             client.refused(told, reason, 0, f"the instruction {words}")
     bench.stays(1, "no instruction was right")
+
+
+def corners_made(bench: Bench) -> None:
+    """Broken when the controller has found a corner that no move follows: a stop point was due."""
+    failed = [event for event in bench.controller.log if event.code == CORNER_FAILURE]
+    if failed:
+        raise Broken(f"the robot was to stop where it passes: {failed[0]}")
 
 
 plain = Theme("programs")

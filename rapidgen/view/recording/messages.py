@@ -17,6 +17,8 @@ METADATA: Final = "rapidgen"
 """Name of the metadata: format, title, version."""
 ROBOTS: Final = "robots.json"
 """Attachment: the configured groups."""
+SIGNALS: Final = "signals.json"
+"""Attachment: what each signal is, `RecordedSignal` by name."""
 OVERVIEW: Final = "overview.json"
 """Attachment at the end: positions of each robot once a second, `[[time s, [..], [..]], ..]`."""
 SOURCES: Final = "source/"
@@ -92,6 +94,14 @@ class RecordedSignals(Recorded):
     """Signals that have changed."""
 
     values: dict[str, float]
+
+
+class RecordedSignal(Recorded):
+    """What a signal is."""
+
+    kind: Literal["DI", "DO", "GI", "GO", "AI", "AO"]
+    device: str
+    largest: float | None
 
 
 class LogLine(Recorded):

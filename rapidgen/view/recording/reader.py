@@ -25,7 +25,9 @@ from rapidgen.view.recording.chunks import (
 
 _NS = 1_000_000_000
 _M = TypeVar("_M", bound=m.Recorded)
+_T = TypeVar("_T")
 EVENTS_KEPT = 50
+_SIGNALS: TypeAdapter[dict[str, m.RecordedSignal]] = TypeAdapter(dict[str, m.RecordedSignal])
 _Row = tuple[float, tuple[float, ...], tuple[float, ...]]
 _OVERVIEW: TypeAdapter[dict[str, list[_Row]]] = TypeAdapter(dict[str, list[_Row]])
 
@@ -86,7 +88,9 @@ class RecordingFile:
         self.begin = min(piece.begin for piece in pieces) / _NS
         self.end = max(piece.end for piece in pieces) / _NS
         self.robots = self._robots()
-        self._overview = self._samples_a_second()
+        self.signals = self._attached(m.SIGNALS, _SIGNALS, {})
+        """What each signal is, by name."""
+        self._overview = self._attached(m.OVERVIEW, _OVERVIEW, {})
 
     def _refused(self, why: str) -> Exception:
         return refusal(
@@ -106,14 +110,15 @@ class RecordingFile:
                     raise self._refused(f"its robots cannot be read: {error}") from error
         raise self._refused("it tells of no robots")
 
-    def _samples_a_second(self) -> dict[str, list[_Row]]:
-        for name, _, data in self._contents.attachments:
-            if name == m.OVERVIEW:
+    def _attached(self, name: str, kind: TypeAdapter[_T], otherwise: _T) -> _T:
+        """What an attachment holds, where there is one."""
+        for own, _, data in self._contents.attachments:
+            if own == name:
                 try:
-                    return _OVERVIEW.validate_json(data)
+                    return kind.validate_json(data)
                 except ValidationError as error:
-                    raise self._refused("its overview cannot be read") from error
-        return {}
+                    raise self._refused(f"its {name} cannot be read") from error
+        return otherwise
 
     def sources(self, time: float) -> dict[tuple[str, str], str]:
         """By task and module: the text that was loaded at a time."""

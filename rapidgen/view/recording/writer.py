@@ -6,6 +6,7 @@ motion. The controller's times do not change.
 """
 
 import json
+import math
 from base64 import b64encode
 from collections import deque
 from collections.abc import Callable, Iterable
@@ -29,6 +30,7 @@ from rapidgen.motion.recorder import Recorder
 from rapidgen.runtime.errors import Location
 from rapidgen.runtime.task.task import Task
 from rapidgen.view.recording import messages as m
+from rapidgen.view.robots import Carried
 
 TICK_NS = 16_666_667
 """Between two looks at pointers and values: 60 a second."""
@@ -83,6 +85,8 @@ class RecordingWriter:
         )
         robots = [group_to_manifest(group.config) for group in self._groups.values()]
         self._attach(m.ROBOTS, json.dumps(robots).encode())
+        kinds = {s.name: _kind(s).model_dump() for s in controller.io.signals.values()}
+        self._attach(m.SIGNALS, json.dumps(kinds).encode())
         self._tick()
 
     # -- what is told ----------------------------------------------------------------------------
@@ -297,6 +301,11 @@ def _joints(sample: tuple[Posture, Posture]) -> str:
     return f'{{"commanded":{list(sample[0])},"actual":{list(sample[1])}}}'
 
 
+def _kind(signal: Signal) -> m.RecordedSignal:
+    largest = None if math.isinf(signal.largest) else signal.largest
+    return m.RecordedSignal(kind=signal.spec.type, device=signal.spec.device, largest=largest)
+
+
 def _line(event: Event) -> m.LogLine:
     return m.LogLine.model_construct(
         sequence=event.sequence,
@@ -325,10 +334,8 @@ def _carried(group: MotionGroup, now: int) -> m.CarriedFrames:
         carrier = move.carrier.at(group.positions())
         tool, held, placed = carrier.tool, not carrier.stationary, carrier.object
     else:
-        configured = group.config
-        tool = configured.tool.frame.position, configured.tool.frame.orientation
-        held = configured.tool.held
-        placed = _identity
+        configured = Carried.configured(group.config)
+        tool, held, placed = configured.tool, configured.held, configured.object
     return m.CarriedFrames.model_construct(
         tool=m.RecordedFrame.model_construct(position=tool[0], orientation=tool[1]),
         held=held,
@@ -346,6 +353,3 @@ def _entry(frame: StackFrame) -> m.StackEntry:
 
 def _place(at: Location) -> m.ProgramPlace:
     return m.ProgramPlace.model_construct(module=at.module, routine=at.routine, line=at.span.line)
-
-
-_identity = ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0))

@@ -24,7 +24,14 @@ GRANTS = (
 )  # fmt: skip
 
 _NEEDED: dict[str, tuple[RwsOperation, ...]] = {
-    "UAS_RAPID_EXECUTE": (ops.START, ops.RESET_PP, ops.POINTER_TO_ROUTINE, ops.SET_CYCLE),
+    "UAS_RAPID_EXECUTE": (
+        ops.START,
+        ops.RESET_PP,
+        ops.POINTER_TO_ROUTINE,
+        ops.SET_CYCLE,
+        ops.ACTIVATE,
+        ops.DEACTIVATE,
+    ),
     "UAS_RAPID_LOADPROGRAM": (ops.LOAD_MODULE, ops.UNLOAD_MODULE),
     "UAS_RAPID_CURRVALUE": (ops.SET_SYMBOL,),
     "UAS_IO_WRITE": (ops.SET_SIGNAL,),

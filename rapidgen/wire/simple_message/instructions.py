@@ -27,6 +27,8 @@ OPERANDS: dict[Instruction, str] = {
     Instruction.CALL: "number of the routine, from 0, seconds at most (0: any); of each parameter "
     "a num as float32, a bool as 1 or 0, a string as its length and its characters, four in a "
     "word, a robtarget as position, orientation, joints, a jointtarget as joints",
+    Instruction.SETTINGS: "bits, which hold until the program ends or says otherwise: 1 SingArea "
+    "with Wrist, 2 ConfL with Off",
 }
 """Of each instruction the operands: position x, y, z in m, orientation w, x, y, z, a word each of
 the group's joints in rad or m."""

@@ -139,6 +139,7 @@ class Instruction(IntEnum):
     WAIT_SIGNAL = 6
     SET = 7
     CALL = 8
+    SETTINGS = 9
 
 
 class Modal(IntFlag):

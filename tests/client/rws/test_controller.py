@@ -228,6 +228,30 @@ def test_mastership_within_mastership_lasts_until_the_outer_end(served):
         assert controller.holder("cfg") is None
 
 
+def test_a_task_that_is_left_out_is_not_started(served):
+    with Controller(served.address, **served.keywords) as controller:
+        controller.select_task("T_ROB1", False)
+        assert not controller.tasks()[0].active
+        with pytest.raises(NotObeyed):
+            controller.start()  # agreed to, and nothing runs
+        controller.select_task("T_ROB1", True)
+        controller.start()
+        with pytest.raises(RwsError) as found:
+            controller.select_task("T_ROB1", False)
+        assert found.value.symbol == "E_EXEC_STATE"
+
+
+def test_where_the_robot_stands(served):
+    with Controller(served.address, **served.keywords) as controller:
+        (unit,) = controller.mechanical_units()
+        joints, place = controller.joint_target(unit), controller.rob_target(unit)
+        assert (len(joints.robax), joints.extax) == (6, (9e9,) * 6)
+        assert place.trans[2] > 0
+        assert sum(q * q for q in place.rot) == pytest.approx(1, abs=1e-4)
+        with pytest.raises(RwsError):
+            controller.joint_target("ROB_9")
+
+
 def test_a_restart_that_takes_too_long_is_told(served):
     with Controller(served.address, **served.keywords) as controller:
         controller.panel()

@@ -42,17 +42,24 @@ FLOWS = {
     "backup": lambda c: flows.jobs.backup(c, "b"),
     "restart": lambda c: flows.jobs.restart(c, wait=3),
     "subscribe": lambda c: flows.subscribing.subscribe(c, [topics.symbol("T/x"), topics.log()]),
+    "select_task": lambda c: flows.rapid.select_task(c, "T", True),
+    "joint_target": lambda c: flows.motion.joint_target(c),
+    "rob_target": lambda c: flows.motion.rob_target(c),
+    "grants": lambda c: flows.users.grants(c),
+    "ask_rmmp": lambda c: flows.users.ask_rmmp(c, wait=3),
+    "cancel_rmmp": lambda c: flows.users.cancel_rmmp(c),
     "close": lambda c: flows.connecting.close(c),
 }
 KINDS = (
     "pnl-ctrlstate", "pnl-opmode", "pnl-speedratio", "rap-execution", "rap-task-li", "rap-data",
     "ctrl-identity-info", "pcp-info", "ios-signal-li", "ios-signal", "fs-file", "progress",
     "cfg-dt-instance-li", "elog-message-li", "msh-resource", "rap-sympropvar-li", "rap-builderrs",
+    "user-grant", "user-rmmp-poll", "ms-jointtarget", "ms-robtargets",
 )  # fmt: skip
 FIELDS = (
     "ctrlstate", "opmode", "speedratio", "ctrlexecstate", "name", "lvalue", "value", "fs-size",
     "state", "code", "beginposition", "mastership", "dim", "row", "msgtype", "location",
-    "excstate", "active",
+    "excstate", "active", "status", "rax_1", "eax_a", "x", "q1",
 )  # fmt: skip
 WORDS = (
     "",
@@ -65,6 +72,7 @@ WORDS = (
     "9" * 40,
     "ready",
     "TRUE",
+    "PENDING",
     "\u00b2",
     "a",
 )

@@ -1,6 +1,7 @@
 """The verbs over a real connection: TLS, a pinned certificate, a password that nobody sees."""
 
 import socket
+from contextlib import ExitStack
 
 import pytest
 import typer
@@ -8,6 +9,8 @@ import typer
 from rapidgen.cli.doctor import doctor
 from rapidgen.cli.plan import plan
 from rapidgen.deploy import Access, connect, parse_target
+from rapidgen.deploy.fleet import parse_targets
+from rapidgen.deploy.session import FleetJob, apply_all, plan_all
 from rapidgen.diagnostics import DiagnosticError, render
 from rapidgen.faces.rws.office import Accounts
 from rapidgen.faces.rws.server import serve_rws
@@ -80,3 +83,33 @@ def test_nobody_there_and_somebody_else(served):
     assert "certificate" in found.diagnostics[0].message
     folder = parse_target(f"rws://127.0.0.1:{service.port}/elsewhere")
     assert refusal(connect, folder, Access()).diagnostics[0].code == "RG509"
+
+
+def test_a_fleet_is_deployed_side_by_side(rws, tmp_path, monkeypatch):
+    """Two controllers at a time, and one that is in the way of nobody but itself."""
+    monkeypatch.setenv("RAPIDGEN_PASSWORD", WORD)
+    wanted = rws.build(Generation.ONE)
+    with ExitStack() as stack:
+        cabinets, urls = [], []
+        for name in ("a", "b"):
+            (tmp_path / name).mkdir()
+            cabinet = stack.enter_context(
+                rws.empty_cabinet(tmp_path / name, Generation.ONE, clock="real", speed=20)
+            )
+            cabinet.id = name
+            cabinet.start()
+            accounts = Accounts({"Default User": WORD})
+            service = serve_rws(cabinet, Generation.ONE, accounts=accounts)
+            stack.callback(service.close)
+            cabinets.append(cabinet)
+            urls.append(f"rws://{service.host}:{service.port}")
+        targets = parse_targets(urls)
+        job = FleetJob(
+            "deploy", targets, Access(), lambda _: wanted, True, 2, None, restart=True
+        )  # fmt: skip
+        plans = plan_all(job)
+        assert [plan.live.id for plan in plans] == ["a", "b"]
+        outcomes = apply_all(job, plans, lambda _: None)
+        assert [outcome.word for outcome in outcomes] == ["done", "done"], outcomes
+        assert [cabinet.restarts for cabinet in cabinets] == [1, 1]
+        assert all(plan.is_empty for plan in plan_all(job))

@@ -235,6 +235,29 @@ def test_a_controller_that_restarts_is_busy_for_a_while(rws, cell, wanted):
     assert len(busy) == 10
 
 
+def test_normal_tasks_that_stand_are_updated_without_a_restart(rws, generation, tmp_path):
+    """Commissioning: all tasks of the driver are NORMAL."""
+    slow = ("commissioning=true",)
+    old, new = rws.build(generation, *slow), rws.build(generation, *slow, "trajectory.capacity=500")
+    with rws.empty_cabinet(tmp_path, generation) as cabinet:
+        transport = rws.connect(rws.Line(cabinet, generation))
+        rws.run(transport, old)
+        transport.services.motors(True)
+        transport.services.start()
+        restarts = cabinet.restarts
+        assert "RG542" in refused(rws.run, transport, new, restart=False)  # the user stops it
+        transport.services.stop()
+        said = []
+        plan = rws.run(transport, new, restart=False, said=said)
+        assert not plan.live.restart
+        assert not [step for step in plan.steps if "warm start" in step.what]
+        assert cabinet.restarts == restarts
+        assert make_plan(transport, new).is_empty
+        assert not [line for line in said if line.startswith("!")]  # every pointer is at main
+        transport.services.start()
+        assert transport.services.execution().running
+
+
 def test_an_update_and_the_way_back(rws, cell, wanted):
     _, transport = cell
     newer = rws.build(Generation.ONE, "trajectory.capacity=500")

@@ -131,3 +131,20 @@ def test_who_leaves_late_takes_nothing_from_who_came_since(one):
     assert one.post("/rw/iosystem/signals/aoSpeed?action=set", {"lvalue": "2"}) == 204
     assert len(new) == 1
     assert not old
+
+
+def test_what_public_clients_subscribe_to_can_be(one, two):
+    """[code: abb-rws-client]: all in one group; one that is refused leaves it without events."""
+    for caller, state in ((one, "ctrlstate"), (two, "ctrl-state")):
+        paths = (
+            f"/rw/panel/{state}",
+            "/rw/panel/opmode",
+            "/rw/panel/speedratio",
+            "/rw/rapid/execution;ctrlexecstate",
+            "/rw/panel/coldetstate",
+            "/rw/elog/0",
+        )
+        form = {"resources": str(len(paths))}
+        for number, path in enumerate(paths, 1):
+            form |= {str(number): path, f"{number}-p": "1"}
+        assert caller.post("/subscription", form) == 201

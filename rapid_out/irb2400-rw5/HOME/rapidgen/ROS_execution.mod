@@ -8,18 +8,39 @@ MODULE ROS_execution
     ! In the motion task. All was checked before it came into the ring; ROS_motion takes it out there, and
     ! leaves an instruction that is under way when the robot was stopped.
 
-    CONST string ROS_BUILD_EXECUTION := "a62caf2b7eae";
+    CONST string ROS_BUILD_EXECUTION := "7e3c71a9d4ea";
 
     ! The instruction at hand, and why it could not be carried out, 0: it could.
     VAR ROS_order ROS_ordered;
     VAR num ROS_order_fault := 0;
     LOCAL VAR zonedata zone;
+    ! What is other than usual on lines.
+    LOCAL VAR num ways := 0;
 
     ! What holds at the beginning of each program: the path is the one that was checked, or none.
     PROC ROS_prepare_program()
         ConfJ \On;
-        ConfL \On;
-        SingArea \Off;
+        set_ways 0;
+    ENDPROC
+
+    ! A program that asked for other ways is over.
+    PROC ROS_plain_ways()
+        IF ways <> 0 set_ways 0;
+    ENDPROC
+
+    ! 1: the wrist may turn on lines as it likes, 2: any configuration; both, or none.
+    LOCAL PROC set_ways(num bits)
+        ways := bits;
+        IF bits MOD 2 = 1 THEN
+            SingArea \Wrist;
+        ELSE
+            SingArea \Off;
+        ENDIF
+        IF bits DIV 2 = 1 THEN
+            ConfL \Off;
+        ELSE
+            ConfL \On;
+        ENDIF
     ENDPROC
 
     ! Take the instruction at a place of the ring to hand.
@@ -41,6 +62,9 @@ MODULE ROS_execution
     PROC ROS_execute(bool stops)
         ROS_order_fault := ROS_REASON_NONE;
         TEST ROS_ordered.kind
+        CASE ROS_DO_SETTINGS:
+            set_ways ROS_ordered.value;
+            RETURN;
         CASE ROS_DO_WAIT:
             WaitTime ROS_ordered.seconds;
             RETURN;

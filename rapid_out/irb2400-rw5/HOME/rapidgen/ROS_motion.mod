@@ -9,7 +9,7 @@ MODULE ROS_motion
     ! check was made before a point was put in. A point whose successor is there is passed
     ! through its zone; without one it is a stop point, so the planner never runs dry in a corner.
 
-    CONST string ROS_BUILD_MOTION := "a62caf2b7eae";
+    CONST string ROS_BUILD_MOTION := "7e3c71a9d4ea";
 
     ! With \T in the move the speed is only formal.
     LOCAL CONST speeddata SPEED := [1000,500,1000,1000];
@@ -127,6 +127,7 @@ MODULE ROS_motion
             RETURN;
         ENDIF
         ROS_drop_points reason;
+        ROS_plain_ways;
         ROS_start_robot IsStopMoveAct(\FromMoveTask);
         IF IsStopMoveAct(\FromMoveTask) THEN
             WaitTime 0.1;
@@ -154,6 +155,7 @@ MODULE ROS_motion
 
     ! All points of the trajectory were executed: it is done, or it was cut behind them.
     LOCAL PROC finish()
+        ROS_plain_ways;
         IF ROS_closed_code = ROS_REASON_NONE THEN
             ROS_done := closed;
         ELSE

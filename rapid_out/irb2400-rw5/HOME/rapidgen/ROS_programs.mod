@@ -10,7 +10,7 @@ MODULE ROS_programs
     ! pose. So the limits are those of the joints, the configuration is the one that the controller
     ! gives, and a client whose robot is another one is refused before anything moves.
 
-    CONST string ROS_BUILD_PROGRAMS := "a62caf2b7eae";
+    CONST string ROS_BUILD_PROGRAMS := "7e3c71a9d4ea";
 
     ! mm/s and deg/s of a speed, mm and deg of a zone, at most.
     LOCAL CONST num TCP_SPEED := 1000;
@@ -152,6 +152,10 @@ MODULE ROS_programs
         TEST order.kind
         CASE ROS_DO_MOVE_ABSJ:
             take_joints data;
+        CASE ROS_DO_SETTINGS:
+            order.value := plain(data);
+            IF NOT (0 <= order.value AND order.value <= 3 AND order.value = Trunc(order.value))
+                ROS_object ROS_REASON_BAD_VALUE;
         CASE ROS_DO_MOVE_J, ROS_DO_MOVE_L:
             take_pose data, order.target;
             take_joints data;
@@ -306,16 +310,22 @@ MODULE ROS_programs
         RAISE;
     ENDFUNC
 
+    LOCAL FUNC robtarget pose_of_joints()
+        TEST order.tool
+        DEFAULT:
+            RETURN pose_with(torch);
+        ENDTEST
+    ERROR
+        RAISE;
+    ENDFUNC
+
     ! The joints have to reach the pose; then the target has the configuration that they have, and
     ! their external axes.
     LOCAL PROC meet_pose()
         VAR robtarget reached;
 
         IF ROS_fault <> ROS_REASON_NONE RETURN;
-        TEST order.tool
-        CASE 0:
-            reached := pose_with(torch);
-        ENDTEST
+        reached := pose_of_joints();
         IF NOT (VectMagn(reached.trans - order.target.trans) <= NEAR
             AND Abs(along(reached.rot, order.target.rot)) >= UNTURNED)
             ROS_object ROS_REASON_POSE_MISMATCH;

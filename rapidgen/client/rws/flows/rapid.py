@@ -34,6 +34,19 @@ def _task(item: Item) -> TaskState:
     )
 
 
+def select_task(core: RwsCore, task: str, selected: bool) -> Flow[None]:
+    """Whether a NORMAL task is started with the program (the task selection panel); read back.
+
+    The program must stand. Raises NotObeyed (RG655).
+    """
+    operation = ops.ACTIVATE if selected else ops.DEACTIVATE
+    yield from held(core, "rapid", ask(core, operation, {"task": task}, {"task": task}))
+    now = yield from tasks(core)
+    if not any(t.name.lower() == task.lower() and t.active == selected for t in now):
+        word = "selected" if selected else "left out"
+        raise NotObeyed.because("RG655", f"{core.where} agreed, and {task} is not {word}")
+
+
 def modules(core: RwsCore, task: str) -> Flow[tuple[TaskModule, ...]]:
     """Modules of a task."""
     names, query = _of_task(core, task)

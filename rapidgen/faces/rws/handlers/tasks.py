@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 from rapidgen.controller.programs import CannotLoad
 from rapidgen.faces.rws.asking import Denied, RwsRequest, Served, show
 from rapidgen.faces.rws.disks import disk_path
+from rapidgen.faces.rws.handlers.execution import execution
 from rapidgen.faces.rws.routing import serves
 from rapidgen.runtime.loading import module_text
 from rapidgen.runtime.task.pointer import CannotStep
@@ -52,7 +53,7 @@ def _item(office: "Office", task: Task, kind: str, asked: RwsRequest) -> Item:
         "excstate": execution_state(task, asked),
     }
     if task.spec.type == "NORMAL":
-        told["active"] = "On"
+        told["active"] = "Off" if task.name in office.controller.operation.left_out else "On"
         told["motiontask"] = "TRUE" if task.spec.motion else "FALSE"
     if kind == "rap-task":
         told |= {"trust": task.spec.trust, "prodentrypt": task.spec.entry}
@@ -74,10 +75,19 @@ def get_task(office: "Office", asked: RwsRequest) -> Served:
 
 @serves(ops.ACTIVATE, ops.DEACTIVATE)
 def activate(office: "Office", asked: RwsRequest) -> None:
-    """The task selection panel: here all tasks are selected, and none can be left out."""
-    find_task(office, asked.names.get("task") or asked.field("task"), asked)
+    """The task selection panel: which NORMAL tasks are started with the program."""
+    # RobotWare 6 takes mastership by itself [RWS manual].
+    office.masters.need(asked, "rapid", by_itself=asked.is_one)
+    task = find_task(office, asked.names.get("task") or asked.field("task"), asked)
+    if task.spec.type != "NORMAL":
+        raise Denied(403, "E_REJECT", f"{task.name} is a background task", -2)
+    if execution(office.controller) == "running":
+        raise Denied(400 if asked.is_one else 403, "E_EXEC_STATE", "the program runs", -508)
+    left_out = office.controller.operation.left_out
     if "deactivate" in (asked.query.get("action"), asked.path.rpartition("/")[2]):
-        raise Denied(403, "E_REJECT", "a task cannot be left out here", -2)
+        left_out.add(task.name)
+    else:
+        left_out.discard(task.name)
 
 
 # -- modules -------------------------------------------------------------------------------------

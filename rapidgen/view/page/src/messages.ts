@@ -108,7 +108,7 @@ export interface Evaluate {
 /** A request and the number that its reply will have. */
 export interface FromPage {
   readonly id: number;
-  readonly request: Act | SetMode | SetOverride | SetPace | AnswerQuestion | Jog | Copy | SetSignal | Cut | ReadSource | SetBreakpoint | RemoveBreakpoint | Drive | RunTo | StopOnErrors | LookAt | Evaluate | Assign | SetWatch | Cover;
+  readonly request: Act | SetMode | SetOverride | SetPace | AnswerQuestion | Jog | Copy | SetSignal | Cut | ReadSource | SetBreakpoint | RemoveBreakpoint | Drive | RunTo | StopOnErrors | LookAt | Evaluate | Assign | SetWatch | Cover | Seek | Play | ReadCurves;
 }
 
 /** What the routine that is looked at holds, and the watch list. */
@@ -143,6 +143,7 @@ export interface LoadedPrograms {
 export interface Log {
   readonly type: "log";
   readonly entries: readonly LogEntry[];
+  readonly fresh: boolean;
 }
 
 /** One event with ABB's number. */
@@ -179,6 +180,22 @@ export interface PanelState {
   readonly pace: number | null;
 }
 
+/** Let it run, at so many seconds in a second; 0 stops. */
+export interface Play {
+  readonly do: "play";
+  readonly rate: number;
+}
+
+/** Where a recording is looked at; times in s. `rate` 0: it stands. */
+export interface Playback {
+  readonly type: "playback";
+  readonly begin: number;
+  readonly end: number;
+  readonly time: number;
+  readonly rate: number;
+  readonly cut: boolean;
+}
+
 /** Program pointers and motion pointers. */
 export interface Pointers {
   readonly type: "pointers";
@@ -197,6 +214,15 @@ export interface Positions {
   readonly type: "positions";
   readonly time: number;
   readonly groups: readonly RobotPlace[];
+}
+
+/** The reply's text is PlotData (JSON) of a robot's axes or of a signal. */
+export interface ReadCurves {
+  readonly do: "curves";
+  readonly robot: string;
+  readonly signal: string;
+  readonly begin: number;
+  readonly end: number;
 }
 
 /** The reply's text is a source. */
@@ -252,6 +278,12 @@ export interface Scene {
 export interface Screen {
   readonly type: "screen";
   readonly rows: readonly string[];
+}
+
+/** Go to a moment. */
+export interface Seek {
+  readonly do: "seek";
+  readonly time: number;
 }
 
 /** A breakpoint, and in which line it lies (0: nowhere, `doubt` says why). */
@@ -384,6 +416,6 @@ export interface StopOnErrors {
   readonly errors: "never" | "unhandled" | "all";
 }
 
-export type ToPage = AllSignals | Connections | Covered | Debugging | Dialogs | HeldValues | LoadedPrograms | Log | PanelState | Pointers | Positions | Replied | Scene | Screen | SignalValues;
+export type ToPage = AllSignals | Connections | Covered | Debugging | Dialogs | HeldValues | LoadedPrograms | Log | PanelState | Playback | Pointers | Positions | Replied | Scene | Screen | SignalValues;
 
-export type Request = Act | AnswerQuestion | Assign | Copy | Cover | Cut | Drive | Evaluate | Jog | LookAt | ReadSource | RemoveBreakpoint | RunTo | SetBreakpoint | SetMode | SetOverride | SetPace | SetSignal | SetWatch | StopOnErrors;
+export type Request = Act | AnswerQuestion | Assign | Copy | Cover | Cut | Drive | Evaluate | Jog | LookAt | Play | ReadCurves | ReadSource | RemoveBreakpoint | RunTo | Seek | SetBreakpoint | SetMode | SetOverride | SetPace | SetSignal | SetWatch | StopOnErrors;

@@ -69,8 +69,8 @@ export function draw(data: PlotData, into: HTMLElement): uPlot[] {
 }
 
 function faint(ink: string): string {
-  return ink.replace(/^rgba?\(([^)/]*?)(?:,[^,]*)?\)$/, (_, parts: string) =>
-    `rgba(${parts.split(",").slice(0, 3).join(",")}, 0.15)`);
+  const [red = 0, green = 0, blue = 0] = ink.match(/[\d.]+/g)?.map(Number) ?? [];
+  return `rgba(${red}, ${green}, ${blue}, 0.15)`;
 }
 
 const given = document.getElementById("plot-data");

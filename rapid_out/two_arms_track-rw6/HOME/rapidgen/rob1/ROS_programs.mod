@@ -10,7 +10,7 @@ MODULE ROS_programs
     ! pose. So the limits are those of the joints, the configuration is the one that the controller
     ! gives, and a client whose robot is another one is refused before anything moves.
 
-    CONST string ROS_BUILD_PROGRAMS := "4960b44d8a3c";
+    CONST string ROS_BUILD_PROGRAMS := "a79f808325b7";
 
     ! mm/s and deg/s of a speed, mm and deg of a zone, at most.
     LOCAL CONST num TCP_SPEED := 5000;
@@ -153,6 +153,12 @@ MODULE ROS_programs
         TEST order.kind
         CASE ROS_DO_MOVE_ABSJ:
             take_joints data;
+            ! Signals are set on the way to a pose: to the one that these joints have.
+            IF order.marks > 0 meet_joints;
+        CASE ROS_DO_SETTINGS:
+            order.value := plain(data);
+            IF NOT (0 <= order.value AND order.value <= 3 AND order.value = Trunc(order.value))
+                ROS_object ROS_REASON_BAD_VALUE;
         CASE ROS_DO_MOVE_J, ROS_DO_MOVE_L:
             take_pose data, order.target;
             take_joints data;
@@ -379,21 +385,37 @@ MODULE ROS_programs
         RAISE;
     ENDFUNC
 
+    LOCAL FUNC robtarget pose_of_joints()
+        TEST order.tool
+        DEFAULT:
+            RETURN pose_with(torch);
+        ENDTEST
+    ERROR
+        RAISE;
+    ENDFUNC
+
     ! The joints have to reach the pose; then the target has the configuration that they have, and
     ! their external axes.
     LOCAL PROC meet_pose()
         VAR robtarget reached;
 
         IF ROS_fault <> ROS_REASON_NONE RETURN;
-        TEST order.tool
-        CASE 0:
-            reached := pose_with(torch);
-        ENDTEST
+        reached := pose_of_joints();
         IF NOT (VectMagn(reached.trans - order.target.trans) <= NEAR
             AND Abs(along(reached.rot, order.target.rot)) >= UNTURNED)
             ROS_object ROS_REASON_POSE_MISMATCH;
         order.target.robconf := reached.robconf;
         order.target.extax := reached.extax;
+    ERROR
+        SkipWarn;
+        ROS_object ROS_REASON_NO_GEOMETRY;
+        RETURN;
+    ENDPROC
+
+    LOCAL PROC meet_joints()
+        IF ROS_fault <> ROS_REASON_NONE RETURN;
+        order.target := pose_of_joints();
+        order.kind := ROS_DO_MOVE_J;
     ERROR
         SkipWarn;
         ROS_object ROS_REASON_NO_GEOMETRY;

@@ -8,12 +8,14 @@ MODULE ROS_execution
     ! In the motion task. All was checked before it came into the ring; ROS_motion takes it out there, and
     ! leaves an instruction that is under way when the robot was stopped.
 
-    CONST string ROS_BUILD_EXECUTION := "4960b44d8a3c";
+    CONST string ROS_BUILD_EXECUTION := "a79f808325b7";
 
     ! The instruction at hand, and why it could not be carried out, 0: it could.
     VAR ROS_order ROS_ordered;
     VAR num ROS_order_fault := 0;
     LOCAL VAR zonedata zone;
+    ! What is other than usual on lines.
+    LOCAL VAR num ways := 0;
     ! Signals on its way, and triggers for four moves: those of the moves before may be under way.
     LOCAL VAR ROS_mark mark{8};
     LOCAL VAR triggdata trigger{4, 8};
@@ -31,9 +33,28 @@ MODULE ROS_execution
     ! What holds at the beginning of each program: the path is the one that was checked, or none.
     PROC ROS_prepare_program()
         ConfJ \On;
-        ConfL \On;
-        SingArea \Off;
+        set_ways 0;
         link_signals;
+    ENDPROC
+
+    ! A program that asked for other ways is over.
+    PROC ROS_plain_ways()
+        IF ways <> 0 set_ways 0;
+    ENDPROC
+
+    ! 1: the wrist may turn on lines as it likes, 2: any configuration; both, or none.
+    LOCAL PROC set_ways(num bits)
+        ways := bits;
+        IF bits MOD 2 = 1 THEN
+            SingArea \Wrist;
+        ELSE
+            SingArea \Off;
+        ENDIF
+        IF bits DIV 2 = 1 THEN
+            ConfL \Off;
+        ELSE
+            ConfL \On;
+        ENDIF
     ENDPROC
 
     ! Take the instruction at a place of the ring to hand.
@@ -58,6 +79,9 @@ MODULE ROS_execution
     PROC ROS_execute(bool stops)
         ROS_order_fault := ROS_REASON_NONE;
         TEST ROS_ordered.kind
+        CASE ROS_DO_SETTINGS:
+            set_ways ROS_ordered.value;
+            RETURN;
         CASE ROS_DO_WAIT:
             WaitTime ROS_ordered.seconds;
             RETURN;

@@ -9,7 +9,7 @@ MODULE ROS_motion
     ! check was made before a point was put in. A point whose successor is there is passed
     ! through its zone; without one it is a stop point, so the planner never runs dry in a corner.
 
-    CONST string ROS_BUILD_MOTION := "4960b44d8a3c";
+    CONST string ROS_BUILD_MOTION := "a79f808325b7";
 
     ! With \T in the move the speed is only formal.
     LOCAL CONST speeddata SPEED := [5000,500,5000,1000];
@@ -119,6 +119,7 @@ MODULE ROS_motion
             RETURN;
         ENDIF
         ROS_drop_points reason;
+        ROS_plain_ways;
         ROS_start_robot IsStopMoveAct(\FromMoveTask);
         IF IsStopMoveAct(\FromMoveTask) THEN
             WaitTime 0.1;
@@ -146,6 +147,7 @@ MODULE ROS_motion
 
     ! All points of the trajectory were executed: it is done, or it was cut behind them.
     LOCAL PROC finish()
+        ROS_plain_ways;
         IF ROS_closed_code_2 = ROS_REASON_NONE THEN
             ROS_done_2 := closed;
         ELSE

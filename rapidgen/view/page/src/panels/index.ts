@@ -6,6 +6,7 @@ import { connectionsPanel } from "./connections";
 import { logPanel } from "./log";
 import { pendantPanel } from "./pendant";
 import { programPanel } from "./program";
+import { recordingPanel } from "./recording";
 import { signalsPanel } from "./signals";
 
-export const PANELS: readonly MakePanel[] = [pendantPanel, programPanel, axesPanel, signalsPanel, logPanel, connectionsPanel];
+export const PANELS: readonly MakePanel[] = [pendantPanel, recordingPanel, programPanel, axesPanel, signalsPanel, logPanel, connectionsPanel];

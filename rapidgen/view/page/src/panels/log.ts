@@ -28,7 +28,11 @@ export const logPanel: MakePanel = ({ link }) => {
     known.clear();
     list.replaceChildren();
   });
-  link.on("log", ({ entries }) => {
+  link.on("log", ({ entries, fresh }) => {
+    if (fresh) {
+      known.clear();
+      list.replaceChildren();
+    }
     for (const entry of entries) {
       if (known.has(entry.sequence)) continue;
       const element = row(entry);

@@ -11,6 +11,12 @@ const KEYS: Record<string, Drive["how"]> = { F5: "resume", F6: "pause", F10: "ov
 
 export const programPanel: MakePanel = (view) => new ProgramPanel(view);
 
+/** What a recording has not. */
+function live(element: HTMLElement): HTMLElement {
+  element.classList.add("live");
+  return element;
+}
+
 class ProgramPanel {
   readonly id = "program";
   readonly title = "Program";
@@ -47,7 +53,7 @@ class ProgramPanel {
     h("option", { value: "all" }, "Pause at handled errors, too"));
   private readonly counts = h("input", { type: "checkbox", id: "counts",
     onchange: () => this.view.order({ do: "cover", on: this.counts.checked }) });
-  private readonly halt = h("p", { class: "halt", role: "status" });
+  private readonly halt = h("p", { class: "halt", role: "status", hidden: true });
   private readonly stack = h("ol", { class: "stack" });
   private readonly variables = h("table", { class: "values" });
   private readonly watch = h("table", { class: "values" });
@@ -70,17 +76,17 @@ class ProgramPanel {
     this.element = h("div", { class: "panel program", onkeydown: (event) => this.key(event as KeyboardEvent) },
       h("div", { class: "tools" },
         h("div", { class: "row" }, this.tasks, this.modules, h("label", {}, this.follow, " Follow")),
-        h("div", { class: "row" }, this.go, ...this.steps, this.cursor),
+        h("div", { class: "row commands" }, this.go, ...this.steps, this.cursor),
         this.halt),
       this.editor.element,
       section("Call stack", this.stack),
-      section("Values", this.variables),
-      section("Watch list", this.watch, add),
-      section("Breakpoints", this.points, h("div", { class: "row" }, this.errors),
-        h("label", { class: "row" }, this.counts, "Count how often lines are reached")),
-      section("Log points", this.output),
-      h("p", { class: "soft" }, "Everything pauses, time and robots included. A step does not enter traps, event routines and " +
-        "modules with NOSTEPIN: a breakpoint in one is noticed."));
+      live(section("Values", this.variables)),
+      section("Watch list", this.watch, live(add)),
+      live(section("Breakpoints", this.points, h("div", { class: "row" }, this.errors),
+        h("label", { class: "row" }, this.counts, "Count how often lines are reached"))),
+      live(section("Log points", this.output)),
+      live(h("p", { class: "soft" }, "Everything pauses, time and robots included. A step does not enter traps, event routines and " +
+        "modules with NOSTEPIN: a breakpoint in one is noticed.")));
     link.on("loaded", (loaded) => {
       this.sources.take(loaded);
       this.tasks.replaceChildren(...this.sources.tasks.map((name) => h("option", { value: name }, name)));

@@ -12,7 +12,7 @@ const FROM: Record<ViewName, [number, number, number]> = {
 };
 
 export class Stage {
-  readonly element: HTMLElement;
+  readonly element: HTMLCanvasElement;
   readonly robots = new Map<string, Robot>();
   /** Pictures drawn so far, and the time of the state that the last one shows. */
   drawn = { pictures: 0, time: 0 };
@@ -113,6 +113,12 @@ export class Stage {
       this.renderer.render(this.space, this.camera);
       this.drawn = { pictures: this.drawn.pictures + 1, time: this.time };
     });
+  }
+
+  /** The picture as a PNG. */
+  picture(taken: (blob: Blob) => void): void {
+    this.renderer.render(this.space, this.camera);
+    this.element.toBlob((blob) => { if (blob) taken(blob); });
   }
 
   /** Show markers alone, without the robots that are around them. */

@@ -1,0 +1,63 @@
+"""Shipped models as they were checked, kept like Python keeps its compiled files: beside the code.
+
+Checking a YAML file needs its schema, which takes longer to make than a small program to run. The
+file in robots/ stays the only source: what is kept holds for its very bytes and for the code that
+read it, and is not written where Python itself may write nothing (`PYTHONDONTWRITEBYTECODE`, an
+installation that cannot be written).
+"""
+
+import hashlib
+import json
+import os
+import sys
+from pathlib import Path
+
+from rapidgen import __version__
+from rapidgen.config.manifest import group_from_manifest, group_to_manifest
+from rapidgen.config.model import GroupConfig
+from rapidgen.config.registry import find_shipped
+
+_FOLDER = Path(__file__).parent
+
+
+def shipped_groups(name: str) -> tuple[GroupConfig, ...]:
+    """The motion groups of a shipped model by name. DiagnosticError RG009: there is none."""
+    source = find_shipped(name)
+    if source.stem != name:
+        raise ValueError(f"{name} is no shipped model")
+    kept = _FOLDER / "__pycache__" / f"{name}.{sys.implementation.cache_tag}.json"
+    key = _key(source)
+    try:
+        found = json.loads(kept.read_text(encoding="utf-8"))
+        if found["key"] == key:
+            return tuple(group_from_manifest(group, source) for group in found["groups"])
+    except (OSError, ValueError, KeyError, TypeError):
+        pass  # Not there, of another time, or damaged: it is made anew.
+    from rapidgen.config.load import load_config
+
+    groups = load_config(name).groups
+    if not sys.dont_write_bytecode:
+        _keep(kept, {"key": key, "groups": [group_to_manifest(group) for group in groups]})
+    return groups
+
+
+def _key(source: Path) -> str:
+    """Of the file's bytes, and of the code as Python tells its own: size and time."""
+    made = hashlib.blake2b(f"{__version__} {source.name}\n".encode(), digest_size=16)
+    made.update(source.read_bytes())
+    for entry in sorted(os.scandir(_FOLDER), key=lambda entry: entry.name):
+        if entry.name.endswith(".py"):
+            stat = entry.stat()
+            made.update(f"{entry.name} {stat.st_size} {stat.st_mtime_ns}\n".encode())
+    return made.hexdigest()
+
+
+def _keep(path: Path, found: object) -> None:
+    """Write it whole or not at all."""
+    half = path.with_name(f"{path.name}.{os.getpid()}")
+    try:
+        path.parent.mkdir(exist_ok=True)
+        half.write_text(json.dumps(found), encoding="utf-8")
+        half.replace(path)
+    except OSError:
+        half.unlink(missing_ok=True)

@@ -1,0 +1,81 @@
+"""Where tasks meet: statements that name what they share, and which of them followed which.
+
+Two tasks meet where both name a persistent, or order something of the robot. A pair is such a
+statement of one task and the next such statement, of another: all that a schedule can decide is
+which pairs there are.
+"""
+
+from collections.abc import Mapping
+from typing import TypeAlias
+
+from rapidgen.controller.controller import VirtualController
+from rapidgen.rapid import parse
+from rapidgen.rapid.syntax import nodes as n
+from rapidgen.runtime.compiler.symbols import Routine
+from rapidgen.system.model import System
+
+Spot: TypeAlias = tuple[str, int]
+"""A module file's path and a line."""
+Pair: TypeAlias = tuple[int, int]
+"""Numbers of two spots, the earlier one first."""
+
+ROBOT = ("stopmove", "startmove", "clearpath", "moveabsj", "movej", "movel", "movec", "storepath")
+"""Instructions by which tasks meet at the robot."""
+
+
+def spots(system: System) -> dict[Spot, int]:
+    """Lines where tasks meet, numbered."""
+    texts = {module.path: module.data for task in system.tasks for module in task.modules}
+    trees = {path: parse(data, path=path) for path, data in texts.items()}
+    names = {
+        declaration.name.casefold()
+        for tree in trees.values()
+        for declaration in tree.declarations
+        if isinstance(declaration, n.DataDeclaration)
+        and declaration.kind == "PERS"
+        and not declaration.scope
+    }
+    names.update(ROBOT)
+    found = {
+        (path, tree.source.line(number))
+        for path, tree in trees.items()
+        for number, token in enumerate(tree.source.tokens)
+        if token.casefold() in names
+    }
+    return {spot: number for number, spot in enumerate(sorted(found))}
+
+
+class Pairs:
+    """The pairs of one controller, from now on."""
+
+    def __init__(self, controller: VirtualController, spots: Mapping[Spot, int]) -> None:
+        self._spots = spots
+        self._numbers: dict[int, int] = {}
+        self._nodes: list[n.Statement] = []
+        self._last: tuple[str, int] | None = None
+        self._found: set[Pair] = set()
+        controller.statements.tracers.append(self._statement)
+
+    def found(self) -> tuple[Pair, ...]:
+        """The pairs so far, in order."""
+        return tuple(sorted(self._found))
+
+    def _statement(self, task: str, routine: Routine, node: n.Statement) -> None:
+        number = self._numbers.get(id(node))
+        if number is None:
+            number = self._number(routine, node)
+        if number < 0:
+            return
+        last = self._last
+        if last is not None and last[0] != task:
+            self._found.add((last[1], number))
+        self._last = task, number
+
+    def _number(self, routine: Routine, node: n.Statement) -> int:
+        module = routine.module
+        assert module is not None
+        line = module.tree.source.line(node.first)
+        number = self._numbers[id(node)] = self._spots.get((module.file.path, line), -1)
+        # As long as it is kept nothing else has its id.
+        self._nodes.append(node)
+        return number

@@ -1,0 +1,196 @@
+"""What a schedule is made of: steps and where they disturb, which task runs when, the network.
+
+A schedule has a name, from which all of it is drawn: a seed, or a seed and what was changed since,
+as `17`, `17~4`, `17~4~2` (what was drawn from 17, changed by 4, then by 2). What is taken away to
+make it smaller follows behind slashes: `17~4/steps=1,3/turns/calm`.
+"""
+
+import random
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Literal, TypeAlias, get_args
+
+from rapidgen.diagnostics import DiagnosticError, refusal
+
+Order: TypeAlias = Literal["random", "pers", "priorities"]
+"""Which task runs when: any, for any time; at each access to a PERS another, perhaps; the one of
+the highest priority, which it loses a few times."""
+Network: TypeAlias = Literal["good", "delay", "split", "merge"]
+
+ACTS: Mapping[str, tuple[str, ...]] = {
+    "whole": ("a pause",),
+    "stopped": ("STOP", "STOP", "STOP", "two STOP"),
+    "interrupted": ("stop", "stop pp-to-main", "stop pp-to-main", "e-stop", "motors-off"),
+    "controlled": ("STOP over the control port",),
+}
+"""How a step disturbs the driver; what is not here does not."""
+WEIGHTS = {"stopped": 2, "interrupted": 2, "controlled": 2}
+"""How often a step is drawn, for others' once."""
+BUSY = (0, 5, 40)
+"""ms that a statement may take before which something happens."""
+PASSES = (1, 1, 1, 1, 1, 2, 3, 8)
+BY_TIME = 0.2
+"""Share of disturbances that come at some time, not at a statement."""
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """A line that a driver executes; `meets`: tasks meet there."""
+
+    task: str
+    module: str
+    line: int
+    meets: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Where:
+    """The `count`-th time that a statement is reached, which then takes `busy` ms."""
+
+    place: Place
+    count: int
+    busy: int
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """One step; its other chances are drawn from `seed`. `where`: None, at some time."""
+
+    name: str
+    act: str
+    where: Where | None
+    seed: str
+
+
+@dataclass(frozen=True, slots=True)
+class Plan:
+    """A whole schedule."""
+
+    steps: tuple[Step, ...]
+    order: Order | Literal["turns"]
+    network: Network
+    seed: str
+    """Of which task runs when, and of the network."""
+
+
+@dataclass(frozen=True, slots=True)
+class Ground:
+    """What schedules are drawn from: steps that a driver knows, statements that it executes.
+
+    `fault`: what is wrong with it while nothing disturbs it.
+    """
+
+    steps: tuple[str, ...]
+    places: tuple[Place, ...] = ()
+    task: str = ""
+    """The task that moves the robot."""
+    fault: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Name:
+    """What a plan is drawn from."""
+
+    seed: int
+    changes: tuple[int, ...] = ()
+    steps: tuple[int, ...] | None = None
+    """Those that are left, by number; None: all."""
+    turns: bool = False
+    """Tasks run in turns, each for a whole slice."""
+    calm: bool = False
+    """The network is good."""
+
+    def __str__(self) -> str:
+        parts = ["~".join(str(number) for number in (self.seed, *self.changes))]
+        if self.steps is not None:
+            parts.append("steps=" + ",".join(str(number) for number in self.steps))
+        return "/".join(parts + ["turns"] * self.turns + ["calm"] * self.calm)
+
+
+_NAME = re.compile(r"(\d+)((?:~\d+)*)(?:/steps=(\d+(?:,\d+)*)?)?(/turns)?(/calm)?")
+
+
+def named(text: str) -> Name:
+    """The name that a text is. Raises DiagnosticError RG807."""
+    found = _NAME.fullmatch(text)
+    if found is None:
+        raise _no_name(text)
+    seed, changes, steps, turns, calm = found.groups()
+    chosen = tuple(int(number) for number in (steps or "").split(",") if number)
+    return Name(
+        int(seed),
+        tuple(int(number) for number in changes.split("~") if number),
+        chosen if "/steps=" in text else None,
+        bool(turns),
+        bool(calm),
+    )
+
+
+def _no_name(text: str) -> DiagnosticError:
+    mend = "copy it whole from the report: 17, 17~4, 17~4/steps=1,3/turns/calm"
+    return refusal("RG807", None, f"'{text}' names no schedule", mend)
+
+
+def drawn(name: Name, ground: Ground) -> Plan:
+    """The plan of that name: the same for the same driver."""
+    plan = _fresh(name.seed, ground)
+    for change in name.changes:
+        plan = _changed(plan, change, ground)
+    if name.steps is not None:
+        plan = replace(plan, steps=tuple(s for n, s in enumerate(plan.steps) if n in name.steps))
+    if name.turns:
+        plan = replace(plan, order="turns")
+    return replace(plan, network="good") if name.calm else plan
+
+
+def _fresh(seed: int, ground: Ground) -> Plan:
+    chance = random.Random(f"{seed} plan")
+    names = [name for name in ground.steps for _ in range(WEIGHTS.get(name, 1))]
+    steps = tuple(
+        _step(chance.choice(names), f"{seed} {number}", chance, ground)
+        for number in range(chance.randrange(3, 7))
+    )
+    networks: tuple[Network, ...] = ("good", "good", "good", "delay", "split", "merge")
+    return Plan(steps, chance.choice(get_args(Order)), chance.choice(networks), str(seed))
+
+
+def _step(name: str, seed: str, chance: random.Random, ground: Ground) -> Step:
+    acts = ACTS.get(name)
+    if acts is None:
+        return Step(name, "", None, seed)
+    act = chance.choice(acts)
+    by_time = not ground.places or chance.random() < BY_TIME
+    return Step(name, act, None if by_time else _where(chance, ground), seed)
+
+
+def _where(chance: random.Random, ground: Ground) -> Where:
+    """Mostly where the task that moves meets others: races are there."""
+    moving = [place for place in ground.places if place.task == ground.task]
+    meeting = [place for place in moving if place.meets] or moving
+    chosen = chance.choice((meeting, meeting, meeting, moving, ground.places)) or ground.places
+    return Where(chance.choice(chosen), chance.choice(PASSES), chance.choice(BUSY))
+
+
+def _changed(plan: Plan, change: int, ground: Ground) -> Plan:
+    """The same with another order of tasks, or with one step that disturbs elsewhere."""
+    chance = random.Random(f"{plan.seed} {change}")
+    seed = f"{plan.seed}~{change}"
+    disturbing = [n for n, step in enumerate(plan.steps) if step.where is not None]
+    if not disturbing or chance.random() < 0.3:
+        return replace(plan, order=chance.choice(get_args(Order)), seed=seed)
+    number = chance.choice(disturbing)
+    step = plan.steps[number]
+    assert step.where is not None
+    moved = _where(chance, ground)
+    if chance.random() < 0.6:
+        # Near to where something new has happened there may be more of it.
+        near = [p for p in ground.places if _near(p, step.where.place)]
+        moved = replace(moved, place=chance.choice(near))
+    steps = (*plan.steps[:number], replace(step, where=moved), *plan.steps[number + 1 :])
+    return replace(plan, steps=steps, seed=seed)
+
+
+def _near(one: Place, other: Place) -> bool:
+    same = (one.task, one.module) == (other.task, other.module)
+    return same and abs(one.line - other.line) <= 5

@@ -1,0 +1,236 @@
+"""What a plot shows, as data: charts of curves over one time, in degrees and mm."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from rapidgen.client.core.group import Group
+from rapidgen.client.recording import JointRecording
+from rapidgen.client.trajectory import Array, Trajectory
+from rapidgen.motion.recorder import Recording
+
+Plottable = Trajectory | JointRecording | Recording
+MOVES = "moves reached (program) and under way (robot)"
+_MOST = 600
+"""Points of a joint's curve; more are thinned to the least and greatest of each piece."""
+_SEARCHED = 0.5
+"""s around the moment at which the controller took a motion in which its beginning is searched."""
+_NEAR = 0.5
+"""A limit is drawn when it is nearer to the curves than this share of their own height."""
+_FLAT = 1.0
+"""deg, mm: what a joint that stands does is noise below that."""
+
+
+@dataclass(frozen=True, slots=True)
+class Series:
+    """Joints over time, of one origin: `times` (n,) s, `positions` (n, k) rad or m."""
+
+    label: str
+    names: tuple[str, ...]
+    times: Array
+    positions: Array
+
+    def column(self, name: str) -> Array | None:
+        """The values of a joint, None where there is none."""
+        if name not in self.names or not len(self.times):
+            return None
+        values: Array = self.positions[:, self.names.index(name)]
+        return values
+
+
+@dataclass(frozen=True, slots=True)
+class Curve:
+    """`times` (n,) s rising, `values` (n,) in the unit of its chart."""
+
+    label: str
+    times: Array
+    values: Array
+    is_limit: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Chart:
+    """Curves of one unit."""
+
+    title: str
+    unit: str
+    curves: tuple[Curve, ...]
+    least_height: float = 0.0
+    """Curves of less height are not enlarged to their noise."""
+
+    @property
+    def heading(self) -> str:
+        """Its title with its unit."""
+        return f"{self.title} [{self.unit}]" if self.unit else self.title
+
+
+def layers_of(shown: Sequence[Plottable], labels: Sequence[str]) -> list[Series]:
+    """What is shown as layers over one time.
+
+    A trajectory beside a recording of a robot begins when the controller took it. Where the
+    recording has the controller's own time, which no clock of this machine knows exactly, it begins
+    where what was executed fits it best.
+    """
+    taken: list[float] = []
+    executed: Series | None = None
+    found: list[Series] = []
+    for thing in shown:
+        if isinstance(thing, JointRecording):
+            taken, executed = list(thing.begins), _series(thing.trajectory(), "executed")
+            found.append(executed)
+        elif isinstance(thing, Recording):
+            found += _of_simulation(thing)
+        else:
+            found.append(_series(thing, "commanded" if len(shown) > 1 else "joints"))
+    begins = iter(taken)
+    fits = any(isinstance(thing, JointRecording) and thing.by_controller for thing in shown)
+    for index, layer in enumerate(found):
+        if layer is executed or not taken or not len(layer.times):
+            continue
+        begin = next(begins, taken[-1])
+        moved = replace(layer, times=layer.times + begin)
+        if fits and executed is not None:
+            moved = replace(moved, times=moved.times + _late(moved, executed))
+        found[index] = moved
+    named = [*labels, *(layer.label for layer in found[len(labels) :])]
+    return _told_apart([replace(f, label=label) for f, label in zip(found, named, strict=False)])
+
+
+def _series(trajectory: Trajectory, label: str) -> Series:
+    count = trajectory.positions.shape[1]
+    names = trajectory.names or tuple(f"joint_{i + 1}" for i in range(count))
+    return Series(label, names, trajectory.times, trajectory.positions)
+
+
+def _of_simulation(recording: Recording) -> Iterator[Series]:
+    """Joints, the tool, and how far program and robot were in the moves."""
+    times = recording.time - recording.time[:1]
+    order: dict[str, int] = {}
+    for move in (*recording.program_pointer, *recording.motion_pointer):
+        order.setdefault(move, len(order))
+    for label, joints, moves in (
+        ("commanded", recording.commanded, recording.program_pointer),
+        ("actual", recording.actual, recording.motion_pointer),
+    ):
+        columns = [joints, np.array([[order[move]] for move in moves], dtype=np.float64)]
+        names = [*recording.joints, MOVES]
+        if label == "commanded" and recording.tcp is not None:
+            columns.append(recording.tcp[:, :3])
+            names += ["x", "y", "z"]
+        yield Series(label, tuple(names), times, np.hstack(columns))
+
+
+def _told_apart(layers: list[Series]) -> list[Series]:
+    seen: dict[str, int] = {}
+    told = []
+    for layer in layers:
+        seen[layer.label] = seen.get(layer.label, 0) + 1
+        count = seen[layer.label]
+        told.append(layer if count == 1 else replace(layer, label=f"{layer.label} {count}"))
+    return told
+
+
+def _late(commanded: Series, executed: Series) -> float:
+    """s by which `commanded` must be moved so that `executed` fits it best."""
+    names = [name for name in commanded.names if name in executed.names]
+    late = np.arange(-_SEARCHED, _SEARCHED, 0.005)
+    misses = np.zeros(len(late))
+    for name in names:
+        asked, done = commanded.column(name), executed.column(name)
+        if asked is None or done is None:
+            continue
+        for i, shift in enumerate(late):
+            at = np.interp(commanded.times + shift, executed.times, done)
+            misses[i] += float(np.square(at - asked).sum())
+    return float(late[int(np.argmin(misses))]) if np.ptp(misses) > 0 else 0.0
+
+
+def charts_of(layers: Sequence[Series], group: Group | None, linear: Sequence[str]) -> list[Chart]:
+    """A chart for each joint, with limits where a group tells them; then the difference of the
+    second layer from the first, where they have joints in common."""
+    metres = {"x", "y", "z", *linear}
+    if group is not None:
+        metres |= {joint.name for joint in group.joints if joint.kind == "prismatic"}
+    limits = joint_limits(group) if group is not None else {}
+    names = list(dict.fromkeys(name for layer in layers for name in layer.names))
+    charts = []
+    for name in names:
+        unit, factor = _unit(name, metres)
+        curves = []
+        for layer in layers:
+            values = layer.column(name)
+            if values is not None:
+                curves.append(Curve(layer.label, *_finite(layer.times, values * factor)))
+        if name in limits:
+            curves += _near_limits(curves, [limit * factor for limit in limits[name]])
+        charts.append(Chart(name, unit, tuple(curves), _FLAT))
+    return charts + list(_differences(layers, metres))
+
+
+def joint_limits(group: Group) -> dict[str, tuple[float, float]]:
+    """Limits of joints (rad, m) whose axis depends on no other, by name."""
+    joints = group.joints
+    low = group.map.to_urdf([joint.lower for joint in joints])
+    high = group.map.to_urdf([joint.upper for joint in joints])
+    pairs = zip(group.names, low, high, strict=True)
+    bounds = {name: (min(pair), max(pair)) for name, *pair in pairs}
+    coupled = {joint.name for joint in joints if joint.axis == "rax_3" and group.map.coupling}
+    return {
+        name: bound
+        for name, bound in bounds.items()
+        if name not in coupled and np.isfinite(bound).all()
+    }
+
+
+def _unit(name: str, metres: set[str]) -> tuple[str, float]:
+    if name == MOVES:
+        return "", 1.0
+    return ("mm", 1000.0) if name in metres else ("deg", 180.0 / np.pi)
+
+
+def _near_limits(curves: Sequence[Curve], limits: Sequence[float]) -> Iterator[Curve]:
+    """Limits far from the curves would make these flat: they are left out."""
+    values = np.concatenate([curve.values for curve in curves]) if curves else np.zeros(0)
+    if not len(values):
+        return
+    least, most = float(values.min()), float(values.max())
+    reach = _NEAR * max(most - least, _FLAT)
+    times = np.array([min(c.times[0] for c in curves if len(c.times)), 0.0])
+    times[1] = max(c.times[-1] for c in curves if len(c.times))
+    for side, limit in zip(("least", "most"), limits, strict=True):
+        if least - reach <= limit <= most + reach:
+            yield Curve(f"{side} {limit:.1f}", times, np.full(2, limit), is_limit=True)
+
+
+def _differences(layers: Sequence[Series], metres: set[str]) -> Iterator[Chart]:
+    if len(layers) < 2:
+        return
+    asked, done = layers[:2]
+    by_unit: dict[str, list[Curve]] = {}
+    for name in asked.names:
+        first, second = asked.column(name), done.column(name)
+        if first is None or second is None or name == MOVES:
+            continue
+        unit, factor = _unit(name, metres)
+        within = (done.times >= asked.times[0]) & (done.times <= asked.times[-1])
+        times = done.times[within]
+        values = (second[within] - np.interp(times, asked.times, first)) * factor
+        by_unit.setdefault(unit, []).append(Curve(name, *_finite(times, values)))
+    for unit, curves in by_unit.items():
+        yield Chart(f"{done.label} minus {asked.label}", unit, tuple(curves))
+
+
+def _finite(times: Array, values: Array) -> tuple[Array, Array]:
+    """What can be drawn, at most about _MOST points that draw the same curve: extremes survive."""
+    sound = np.isfinite(times) & np.isfinite(values)
+    times, values = times[sound], values[sound]
+    if len(times) <= _MOST:
+        return times, values
+    keep = {0, len(times) - 1}
+    edges = np.linspace(0, len(times), _MOST // 2 + 1).astype(int)
+    for start, end in zip(edges[:-1].tolist(), edges[1:].tolist(), strict=True):
+        piece = values[start:end]
+        keep |= {start + int(np.argmin(piece)), start + int(np.argmax(piece))}
+    chosen = np.array(sorted(keep))
+    return times[chosen], values[chosen]

@@ -1,0 +1,34 @@
+"""`sim --coverage --plot`: what was reached until it ended, and until each restart."""
+
+import pytest
+
+from rapidgen.cli.observed import Outputs, observing
+from rapidgen.controller.booting import load_target
+from rapidgen.controller.cabinet import Cabinet
+from rapidgen.diagnostics import DiagnosticError
+
+TEXT = (
+    "MODULE m\n PERS num n := 0;\n PROC main()\n  IF n = 0 THEN\n   n := 1;\n  ENDIF\n"
+    "  MoveAbsJ [[10,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]], v1000, fine, tool0;\n"
+    "  WaitTime 100;\n ENDPROC\nENDMODULE\n"
+)
+
+
+def test_what_was_reached_is_written_at_the_end_and_before_a_restart(tmp_path):
+    path = tmp_path / "m.mod"
+    path.write_text(TEXT)
+    wanted = Outputs(coverage=(tmp_path / "c.lcov",), plot=tmp_path / "p.html")
+    found = load_target([path])
+    with Cabinet.boot(found, tracing=wanted.tracing) as cabinet, observing(cabinet, wanted):
+        cabinet.run(lambda: cabinet.controller.now > 2)
+        assert not (tmp_path / "c.lcov").exists()
+        cabinet.ask_restart()
+        cabinet.run(lambda: cabinet.restarts > 0)
+    before, after = ((tmp_path / name).read_text() for name in ("c-1.lcov", "c.lcov"))
+    assert ("DA:5,1" in before, "DA:5,0" in after) == (True, True), "nothing ran behind it"
+    assert sorted(p.name for p in tmp_path.glob("p*")) == ["p-1.html", "p-1.png", "p.html", "p.png"]
+
+
+def test_one_file_for_two_things_is_refused(tmp_path):
+    with pytest.raises(DiagnosticError, match="written twice"):
+        Outputs(coverage=(tmp_path / "a.html",), plot=tmp_path / "a").refuse_unwritable()

@@ -1,0 +1,95 @@
+"""Every example runs as it is, and says what it says."""
+
+import ast
+import json
+import re
+import runpy
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from rapidgen.view import plotting
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+SAYS = {
+    "joint_trajectory.py": r"3 points in .* s\n.*0\.0.* degrees",
+    "numpy_trajectory.py": r"instead of 3\.0 s\njoint_1 at most \d+ degrees/s\n<Execution",
+    "streaming.py": r"76 points by stream",
+    "cartesian_program.py": r"3 instructions in",
+    "gripper.py": r"there: False\n.*closed: True\n.*open: True",
+    "own_routine.py": r"height 100\.5 mm\nRG\d+: .*measure.*7",
+    "two_arms.py": r"rob_l: 2 points.*\nrob_r: 2 points",
+    "record_and_plot.py": r"executed\.svg\nexecuted minus commanded \d\.\d+ degrees",
+}
+APART = {"deployment.py", "web_services.py", "test_counting.py", "trying.py"}
+
+
+@pytest.fixture
+def here(tmp_path, monkeypatch):
+    """Where an example runs, as `python EXAMPLE.py` would run it."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.syspath_prepend(str(EXAMPLES))
+    monkeypatch.setattr(sys, "argv", ["example"])
+    return tmp_path
+
+
+def test_all_are_named():
+    named = (EXAMPLES / "README.md").read_text()
+    files = {path.name for path in EXAMPLES.iterdir() if path.is_file()} - {"README.md"}
+    assert [name for name in sorted(files) if f"`{name}`" not in named] == []
+    assert {name for name in files if name.endswith(".py")} == {*SAYS, *APART}
+
+
+@pytest.mark.parametrize("name", SAYS)
+def test_programs(here, capsys, name):
+    runpy.run_path(str(EXAMPLES / name), run_name="__main__")
+    assert re.search(SAYS[name], capsys.readouterr().out)
+
+
+def run(*words, cwd):
+    words = [sys.executable, *map(str, words)]
+    return subprocess.run(words, cwd=cwd, capture_output=True, text=True, timeout=200, check=False)
+
+
+def test_a_test_of_a_program(here):
+    done = run(
+        "-m", "pytest", "-q", "-p", "no:cacheprovider", EXAMPLES / "test_counting.py", cwd=here
+    )
+    assert "3 passed" in done.stdout, done.stdout + done.stderr
+
+
+def test_deployment(here):
+    done = run(EXAMPLES / "deployment.py", f"dir://{here}", cwd=here)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert (here / "HOME").is_dir() or list(here.rglob("*.mod*"))
+
+
+def test_web_services(here):
+    done = run(EXAMPLES / "web_services.py", cwd=here)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "T_ROB1" in done.stdout
+
+
+@pytest.mark.parametrize("path", sorted(EXAMPLES.glob("*.ipynb")), ids=lambda path: path.stem)
+def test_notebooks(here, monkeypatch, path):
+    """Cell by cell; what a cell ends with shows itself, as in a notebook."""
+    for name in ("plot.js", "plot.css"):
+        (here / name).write_text("/**/")
+    monkeypatch.setattr(plotting, "ASSETS", here)
+    cells = json.loads(path.read_text())["cells"]
+    assert all(not cell.get("outputs") for cell in cells)
+    names, shown = {}, 0
+    for cell in cells:
+        if cell["cell_type"] != "code":
+            continue
+        tree = ast.parse("".join(cell["source"]))
+        last = tree.body.pop() if isinstance(tree.body[-1], ast.Expr) else None
+        exec(compile(tree, path.name, "exec"), names)
+        if last is not None:
+            value = eval(compile(ast.Expression(last.value), path.name, "eval"), names)
+            html = getattr(value, "_repr_html_", None)
+            assert (html() if html is not None else repr(value)) or value is None
+            shown += html is not None
+    assert shown >= 2

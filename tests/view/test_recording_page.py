@@ -1,0 +1,91 @@
+"""A recording in the page: scrubbed there and back, program, signals and robot are as they were."""
+
+import numpy as np
+import pytest
+
+from rapidgen.controller import VirtualController
+from rapidgen.view.recording.reader import RecordingFile
+from rapidgen.view.recording.writer import record
+from tests.view.bench import STATE, served, until
+from tests.view.test_recording import PROGRAM
+
+pytestmark = pytest.mark.browser
+SEEN = "rapidgen.panels.recording.seen"
+PROGRAM_SEEN = "rapidgen.panels.program.seen"
+
+
+@pytest.fixture(scope="module")
+def recorded(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("recorded")
+    text = PROGRAM.replace("SocketAccept", "!").replace("SocketReceive", "!")
+    (folder / "m.mod").write_text(text.replace("SocketSend", "!"))
+    (folder / "cell.yaml").write_text("signals:\n  do1: {kind: DO}\n")
+    with VirtualController.from_files([folder / "m.mod"], cell=folder / "cell.yaml") as controller:
+        end = record(controller, folder / "run.mcap", [("T_ROB1", "passes")])
+        controller.run_for(20.0)
+        end()
+    return folder / "run.mcap"
+
+
+@pytest.fixture
+def page(recorded, open_page):
+    with served("view", str(recorded)) as (ready, _):
+        page = open_page(ready["view"])
+        page.get_by_role("tab", name="Recording").click()
+        until(page, f"window.rapidgen && {SEEN}.time !== undefined")
+        yield page
+        page.close()
+
+
+def seek(page, time):
+    moment = page.get_by_label("Moment in seconds")
+    moment.fill(f"{time:.3f}")
+    moment.press("Enter")
+    until(page, f"{SEEN}.time", lambda now: now is not None and abs(now - time) < 1e-6)
+
+
+def test_scrubbed_there_and_back(page, recorded):
+    with RecordingFile(recorded) as file:
+        moments = {time: file.at(time) for time in (3.0, 17.2, 8.4, 3.0)}
+    for time in (3.0, 17.2, 8.4, 3.0):
+        moment = moments[time]
+        seek(page, time)
+        joints = moment.joints["rob1"].actual
+        until(page, f"{STATE}.groups[0].axes", lambda axes, j=joints: np.allclose(axes, j))
+        until(page, "rapidgen.stage.drawn.time === rapidgen.state().time")
+        page.get_by_role("tab", name="Program").click()
+        place = moment.tasks["T_ROB1"].stack[-1]
+        until(page, f"{PROGRAM_SEEN}.program", lambda line, at=place: line == at.line)
+        assert "PROC there" in page.evaluate(f"{PROGRAM_SEEN}.text")
+        watched = moment.watch["T_ROB1", "passes"].text
+        page.get_by_role("row", name="passes").get_by_text(watched, exact=True).wait_for()
+        page.get_by_role("tab", name="Signals").click()
+        value = int(moment.signals["do1"])
+        lamp = "document.querySelector('[aria-label=\"Set do1\"]').textContent"
+        until(page, lamp, lambda text, value=value: text == str(value))
+        page.get_by_role("tab", name="Recording").click()
+
+
+def test_curves_share_the_cursor_and_a_click_in_one_goes_there(page):
+    until(page, f"{SEEN}.charts", lambda count: count == 1)
+    seek(page, 5.0)
+    before = page.evaluate(f"{SEEN}.cursor")
+    seek(page, 15.0)
+    assert page.evaluate(f"{SEEN}.cursor") > before + 50
+    over = page.locator(".curves .u-over")
+    width = over.bounding_box()["width"]
+    over.click(position={"x": width / 2, "y": 40})
+    until(page, f"{SEEN}.time", lambda time: 9 < time < 11)
+    page.get_by_label("Curve").select_option("signal do1")
+    until(page, "document.querySelector('.curves .u-title').textContent", lambda t: t == "do1")
+
+
+def test_it_plays_and_refuses_to_command(page):
+    seek(page, 1.0)
+    page.get_by_label("Rate").select_option("10")
+    until(page, f"{SEEN}.time", lambda time: time > 4)
+    page.get_by_role("button", name="Stop").click()
+    page.get_by_role("button", name="Play").wait_for()
+    refused = page.evaluate("rapidgen.link.ask({do: 'act', action: 'start'}).catch(e => e.message)")
+    assert "not commanded" in refused
+    assert not page.get_by_role("button", name="Step in").is_visible()
