@@ -11,6 +11,7 @@ from typing import Annotated, Literal, TypeAlias
 from pydantic import Field, TypeAdapter
 
 from rapidgen.view import program_messages as p
+from rapidgen.view import trajectory_messages as t
 from rapidgen.view.spoken import Spoken
 
 Finite = Annotated[float, Field(allow_inf_nan=False)]
@@ -303,6 +304,7 @@ ToPage: TypeAlias = (
     | p.HeldValues
     | p.Covered
     | p.Playback
+    | t.DroppedTrajectory
     | Replied
 )
 Request: TypeAlias = (
@@ -329,6 +331,9 @@ Request: TypeAlias = (
     | p.Seek
     | p.Play
     | p.ReadCurves
+    | t.DropTrajectory
+    | t.RunTrajectory
+    | t.ForgetTrajectory
 )
 
 
