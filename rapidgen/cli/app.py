@@ -49,7 +49,7 @@ VERBS = {
     "io": "Show signals of a driver or a controller, or set one.",
     "symbols": "Show a controller's RAPID data, or set one.",
     "backup": "Bring a backup of a controller here, which `sim` reads.",
-    "plot": "Draw joints over time: FILE.png and FILE.html (which shows values at the pointer).",
+    "plot": "Draw joints over time, and how far the second file is from the first.",
     "plan": "Show what `deploy` would do: files, cfg instances, restarts.",
     "deploy": "Put the driver on one or several controllers: backup, upload, verify, switch.",
     "rollback": "Go back to the set before the last deployment, or to backup ID.",

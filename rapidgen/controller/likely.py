@@ -17,8 +17,16 @@ from rapidgen.config.model import GroupConfig
 from rapidgen.config.of_variant import group_of
 from rapidgen.controller.starts import usual_start
 from rapidgen.rapid import Dialect, parse
-from rapidgen.rapid.binding import DataSymbol, ModuleScope, Scope, TaskScope, match
-from rapidgen.rapid.binding.constants import NotConstant, constant, evaluate
+from rapidgen.rapid.binding import (
+    DataSymbol,
+    ModuleScope,
+    NotConstant,
+    Scope,
+    TaskScope,
+    constant,
+    evaluate,
+    match,
+)
 from rapidgen.rapid.binding.names import called
 from rapidgen.rapid.binding.symbols import RoutineSymbol
 from rapidgen.rapid.builtins.signatures import Value

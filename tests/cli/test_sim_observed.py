@@ -17,7 +17,7 @@ TEXT = (
 def test_what_was_reached_is_written_at_the_end_and_before_a_restart(tmp_path):
     path = tmp_path / "m.mod"
     path.write_text(TEXT)
-    wanted = Outputs(coverage=(tmp_path / "c.lcov",), plot=tmp_path / "p.html")
+    wanted = Outputs(coverage=(tmp_path / "c.lcov",), plot=tmp_path / "p.png")
     found = load_target([path])
     with Cabinet.boot(found, tracing=wanted.tracing) as cabinet, observing(cabinet, wanted):
         cabinet.run(lambda: cabinet.controller.now > 2)
@@ -26,9 +26,9 @@ def test_what_was_reached_is_written_at_the_end_and_before_a_restart(tmp_path):
         cabinet.run(lambda: cabinet.restarts > 0)
     before, after = ((tmp_path / name).read_text() for name in ("c-1.lcov", "c.lcov"))
     assert ("DA:5,1" in before, "DA:5,0" in after) == (True, True), "nothing ran behind it"
-    assert sorted(p.name for p in tmp_path.glob("p*")) == ["p-1.html", "p-1.png", "p.html", "p.png"]
+    assert sorted(p.name for p in tmp_path.glob("p*")) == ["p-1.png", "p.png"]
 
 
 def test_one_file_for_two_things_is_refused(tmp_path):
     with pytest.raises(DiagnosticError, match="written twice"):
-        Outputs(coverage=(tmp_path / "a.html",), plot=tmp_path / "a").refuse_unwritable()
+        Outputs(coverage=(tmp_path / "a.png",), plot=tmp_path / "a.png").refuse_unwritable()
