@@ -52,6 +52,8 @@ class SeenRobot(Spoken):
     axes: tuple[Axis, ...]
     """In wire order, that of `RobotPlace.axes`."""
     has_geometry: bool
+    base: Pose = Pose(position=(0.0, 0.0, 0.0), orientation=(1.0, 0.0, 0.0, 0.0))
+    """Where its root is drawn: apart from robots that would stand in it."""
 
 
 class Scene(Spoken):

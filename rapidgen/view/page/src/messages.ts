@@ -359,6 +359,7 @@ export interface SeenRobot {
   readonly movable: readonly string[];
   readonly axes: readonly Axis[];
   readonly has_geometry: boolean;
+  readonly base: Pose;
 }
 
 /** A task: what it executes, outermost routine first, and what its robot executes. */

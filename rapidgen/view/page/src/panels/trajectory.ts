@@ -49,7 +49,7 @@ export const trajectoryPanel: MakePanel = ({ link, stage, order, notice }) => {
     run.disabled = now.state === "refused" || now.state === "running";
     findings.replaceChildren(...now.findings.map(row));
     const marks = now.findings.flatMap((found) => (found.point === null ? [] : [found.point * now.steps]));
-    stage?.route(now.way, now.pace, marks);
+    stage?.route(now.group, now.way, now.pace, marks);
   });
   const element = h("div", { class: "panel" }, section("Check a trajectory", robot, place), result);
   return { id: "trajectory", title: "Path", element, kinds: ["simulation"] };

@@ -125,8 +125,9 @@ export class Stage {
   }
 
   /** Draw a way of the TCP, coloured by speed (m/s), with marks at some of its points; empty: none. */
-  route(way: readonly (readonly number[])[], pace: readonly number[], marks: readonly number[]): void {
+  route(group: string, way: readonly (readonly number[])[], pace: readonly number[], marks: readonly number[]): void {
     this.way.clear();
+    this.robots.get(group)?.root.add(this.way);
     for (const part of drawnWay(way, pace, marks, this.palette)) this.way.add(part);
     this.draw();
   }
