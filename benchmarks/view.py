@@ -79,7 +79,7 @@ def browse(ready, seconds):
             executable_path=shutil.which("chromium"), args=ARGUMENTS.split()
         )
         # The space beside the panels is 800x600 then.
-        page = chromium.new_context(viewport={"width": 1176, "height": 647}).new_page()
+        page = chromium.new_context(viewport={"width": 1208, "height": 647}).new_page()
         began = time.monotonic()
         page.goto(ready["view"])
         while not page.evaluate("window.rapidgen && rapidgen.state() !== null"):

@@ -5,6 +5,7 @@ import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import type { Scene, Positions } from "../messages";
 import { palette } from "./palette";
 import { axes, Robot } from "./robot";
+import { drawnWay } from "./way";
 
 export type ViewName = "fit" | "front" | "side" | "top";
 const FROM: Record<ViewName, [number, number, number]> = {
@@ -22,6 +23,7 @@ export class Stage {
   private readonly controls: OrbitControls;
   private readonly palette = palette();
   private readonly floor = new THREE.Group();
+  private readonly way = new THREE.Group();
   private due = false;
   private time = 0;
 
@@ -39,7 +41,7 @@ export class Stage {
     this.controls.addEventListener("change", () => this.draw());
     const sun = new THREE.DirectionalLight("#ffffff", 1.9);
     sun.position.set(2, -3, 4);
-    this.space.add(new THREE.HemisphereLight("#ffffff", "#8a9096", 1.6), sun, this.floor);
+    this.space.add(new THREE.HemisphereLight("#ffffff", "#8a9096", 1.6), sun, this.floor, this.way);
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.paint());
     this.paint();
   }
@@ -120,6 +122,14 @@ export class Stage {
   picture(taken: (blob: Blob) => void): void {
     this.renderer.render(this.space, this.camera);
     this.element.toBlob((blob) => { if (blob) taken(blob); });
+  }
+
+  /** Draw a way of the TCP, coloured by speed (m/s), with marks at some of its points; empty: none. */
+  route(group: string, way: readonly (readonly number[])[], pace: readonly number[], marks: readonly number[]): void {
+    this.way.clear();
+    this.robots.get(group)?.root.add(this.way);
+    for (const part of drawnWay(way, pace, marks, this.palette)) this.way.add(part);
+    this.draw();
   }
 
   /** Show markers alone, without the robots that are around them. */
