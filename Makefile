@@ -16,8 +16,8 @@ demo: $(if $(wildcard $(STAMP)),$(STAMP),$(RUNS))
 
 $(RUNS): pyproject.toml
 	@echo "setup    an environment in $(VENV) with what rapidgen needs: once, half a minute"
-	@test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
 	@(while sleep 4; do echo "         $$SECONDS s"; done) & beat=$$!; trap "kill $$beat" EXIT; \
+		(test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)) && \
 		$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-compile --editable '.[plot]'
 	@touch $@
 
@@ -127,6 +127,14 @@ runtime-mutants: $(STAMP) ## 15 min: the same for the conformance files of the r
 
 driver-mutants: $(STAMP) ## 12 min: which mutants of the generated modules the suite notices
 	$(BIN)/python benchmarks/mutation.py --jobs 2 --budget 4 --output build/mutation.jsonl irb120
+
+# A Dask scheduler and WORKERS workers as processes of this machine, until Ctrl-C, for
+# `rapidgen test ... --cluster tcp://127.0.0.1:8786`.
+WORKERS ?= $(shell nproc)
+cluster: $(STAMP)
+	$(BIN)/dask scheduler --host 127.0.0.1 --port 8786 --no-dashboard & trap "kill $$!" EXIT; \
+		$(BIN)/dask worker tcp://127.0.0.1:8786 --nworkers $(WORKERS) --nthreads 1 --no-dashboard
+.PHONY: cluster
 
 program-mutants: $(STAMP) ## 15 min: the same for the modules of motion programs, in a cell with signals, tools, routines and data
 	$(BIN)/python benchmarks/mutation.py --jobs 2 --budget 8 --output build/program-mutation.jsonl --themes programs "own routines" "own data" --only ROS_programs ROS_execution ROS_data -- benchmarks/cell.yaml

@@ -23,7 +23,7 @@ from rapidgen.config import load_config
 from rapidgen.generate import build, make_system
 from rapidgen.proving.explore import ground_of
 from rapidgen.proving.guide import Guide
-from rapidgen.proving.run import Subject, schedules
+from rapidgen.proving.run import DriverUnderTest, schedules
 from rapidgen.proving.workers import Call, Local, in_order
 from tests.foreign.abb_driver import read_system
 from tests.proving.defective import CAPACITY, DEFECTS, small_driver
@@ -75,7 +75,7 @@ def main():
     small = replace(config, trajectory=replace(config.trajectory, capacity=CAPACITY))
     for defect in DEFECTS:
         system, firsts, seconds = small_driver(defect), [], 0.0
-        with Local(Subject(small, system), given.jobs) as workers:
+        with Local(DriverUnderTest(small, system), given.jobs) as workers:
             for campaign in range(given.campaigns):
                 found, count, spent, _ = explored(
                     small, system, given.seeds, workers, 10_000 * campaign, bool
@@ -92,7 +92,7 @@ def main():
         ("no defect", small, small_driver()),
         ("generated", config, make_system(config, build(config))),
     ):
-        with Local(Subject(own, system), given.jobs) as workers:
+        with Local(DriverUnderTest(own, system), given.jobs) as workers:
             found, count, seconds, guide = explored(own, system, given.seeds, workers)
         print(f"{name:10} {len(found)} findings in {count} schedules, {seconds:.0f} s", flush=True)
         print(f"           pairs: {' '.join(f'{n}:{pairs}' for n, pairs in guide.curve[::10])}")
@@ -101,7 +101,7 @@ def main():
     if given.folder is not None:
         foreign = replace(config, trajectory=replace(config.trajectory, capacity=ABB_CAPACITY))
         system = read_system(given.folder)
-        with Local(Subject(foreign, system), given.jobs) as workers:
+        with Local(DriverUnderTest(foreign, system), given.jobs) as workers:
             found, count, seconds, _ = explored(foreign, system, given.seeds, workers)
         print(f"abb_driver {len(found)} findings in {count} schedules, {seconds:.0f} s")
         for kind in (*DEFECTS, "other"):

@@ -16,13 +16,14 @@ WHOLE = "import sys; sys.argv[0] = 'rapidgen'; from rapidgen.cli.app import run;
 HEADER = 20
 
 
-def until_stop(words):
-    """s from the start of a process until its STOP has come to a motion port."""
+def until_stop(words, *, config=()):
+    """s from the start of a process until its STOP has come to a motion port; `config` are words
+    before the address."""
     with socket.create_server(("127.0.0.1", 0)) as server:
         server.settimeout(60)
         begin = time.perf_counter()
         process = subprocess.Popen(
-            [sys.executable, *words, "stop", f"127.0.0.1:{server.getsockname()[1]}"],
+            [sys.executable, *words, "stop", *config, f"127.0.0.1:{server.getsockname()[1]}"],
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,
         )
@@ -49,6 +50,7 @@ def main():
     measured = {
         "import socket": lambda: until_end(["-c", "import socket"]),
         "rapidgen stop": lambda: until_stop(["-m", "rapidgen.cli"]),
+        "with a model": lambda: until_stop(["-m", "rapidgen.cli"], config=["irb14000", "--to"]),
         "whole way": lambda: until_stop(["-c", WHOLE]),
     }
     times = {name: [] for name in measured}

@@ -4,15 +4,12 @@ import sys
 from typing import TYPE_CHECKING
 
 from rapidgen.cli.loudness import is_quiet
+from rapidgen.cli.progress import EVERY
 
 if TYPE_CHECKING:
     from rich.progress import Progress, TaskID
 
     from rapidgen.client import Execution, Result
-
-
-EVERY = 10.0
-"""s between two lines."""
 
 
 def follow(execution: "Execution") -> "Result":

@@ -5,6 +5,8 @@ import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING, TextIO
 
+from rapidgen.cli.loudness import is_quiet
+
 if TYPE_CHECKING:
     from rich.progress import TaskID
 
@@ -39,7 +41,7 @@ class Bars:
             TextColumn("{task.fields[rate]}"),
             TimeRemainingColumn(),
             console=Console(file=self._stream),
-            disable=not self._terminal,
+            disable=not self._terminal or is_quiet(),
         )
         self._tasks: dict[str, TaskID] = {}
         self._begun: dict[str, tuple[float, int]] = {}
@@ -58,7 +60,7 @@ class Bars:
         rate = (done - before) / (now - begun) if now > begun else 0.0
         if self._terminal:
             self._show(what, done, total, rate)
-        elif now - self._told >= EVERY:
+        elif now - self._told >= EVERY and not is_quiet():
             self._told = now
             left = f", {_time((total - done) / rate)} left" if rate else ""
             self._stream.write(f"{what}: {done} of {total}, {rate:.3g} in a second{left}\n")

@@ -9,6 +9,7 @@ import os
 import re
 import socket
 from collections.abc import Sequence
+from contextlib import suppress
 from struct import pack
 
 STOP = pack("<5i12f", 64, 11, 2, 0, -4, *[0.0] * 12)
@@ -31,17 +32,22 @@ Keys = dict[tuple[str, ...], str]
 
 def send(words: Sequence[str]) -> None:
     """Send STOP to the motion ports that the words behind `stop` name; says nothing."""
+    links = []
     for host, port in addresses(words):
         try:
-            with socket.create_connection((host, port), _CONNECT) as link:
-                link.sendall(STOP)
-                link.settimeout(_ANSWER)
-                link.recv(64)
+            link = socket.create_connection((host, port), _CONNECT)
+            links.append(link)
+            link.sendall(STOP)
         except TimeoutError:
-            return
+            # The others are at the same host.
+            break
         except (OSError, UnicodeError):
             # Refused: perhaps another group is there. The whole way tells what was wrong.
             continue
+    for link in links:
+        with link, suppress(OSError):
+            link.settimeout(_ANSWER)
+            link.recv(64)
 
 
 def addresses(words: Sequence[str]) -> list[tuple[str, int]]:

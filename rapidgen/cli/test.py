@@ -10,8 +10,12 @@ from rapidgen.cli.progress import Bars
 from rapidgen.diagnostics import DiagnosticError, error, refusal, suggest
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from rapidgen.config.model import RobotConfig
     from rapidgen.proving.model import Proof
+    from rapidgen.proving.run import DriverUnderTest
+    from rapidgen.proving.workers import Workers
 
 
 def test(
@@ -55,6 +59,10 @@ def test(
     html: Annotated[
         Path | None, typer.Option(help="Write a report with plots.", metavar="FILE")
     ] = None,
+    cluster: Annotated[
+        str | None,
+        typer.Option(help="Work on the workers of this Dask scheduler.", metavar="ADDRESS"),
+    ] = None,
     results: Annotated[
         Path | None,
         typer.Option(help="Keep every result in FILE as it comes.", metavar="FILE"),
@@ -90,6 +98,7 @@ def test(
     from rapidgen.proving.report import write_html, write_junit
     from rapidgen.proving.run import prove
     from rapidgen.proving.settings import assumed
+    from rapidgen.proving.workers import WorkersLost
 
     model = load_config(config, overrides=overrides or ())
     if backup is not None:
@@ -106,19 +115,24 @@ def test(
         raise _resumes_nothing()
     for path in (junit, html, results):
         _check_writable(path)
-    with Bars() as progress:
-        report = prove(
-            model,
-            seeds=seeds,
-            jobs=jobs,
-            only=case or (),
-            strength=0 if quick else together,
-            assuming=assuming,
-            progress=progress,
-            limits=limits,
-            results=results,
-            resume=resume,
-        )
+    try:
+        with Bars() as progress:
+            report = prove(
+                model,
+                seeds=seeds,
+                jobs=jobs,
+                hire=None if cluster is None else _of_cluster(cluster),
+                only=case or (),
+                strength=0 if quick else together,
+                assuming=assuming,
+                progress=progress,
+                limits=limits,
+                results=results,
+                resume=resume,
+            )
+    except WorkersLost as lost:
+        mend = "take fewer --jobs; keep what is found with --results FILE, and --resume"
+        raise refusal("RG809", None, str(lost), mend) from lost
     if junit is not None:
         write_junit(report, junit)
     if html is not None:
@@ -126,7 +140,7 @@ def test(
     if as_json:
         typer.echo(json.dumps(report_as_json(report), indent=1))
     else:
-        _show(report, uncovered, durations)
+        _show(report, uncovered, durations, _command(config, overrides, backup))
     if report.broken_off:
         raise KeyboardInterrupt
     return 0 if report.passed else 1
@@ -177,6 +191,25 @@ def _check_writable(path: Path | None) -> None:
         ) from fault
 
 
+def _of_cluster(address: str) -> "Callable[[DriverUnderTest], Workers]":
+    try:
+        from rapidgen.proving.cluster import Cluster
+    except ModuleNotFoundError as missing:
+        mend = 'pip install "rapidgen[cluster]"'
+        raise refusal("RG808", None, f"{missing.name} is not installed", mend) from missing
+    return lambda driver: Cluster(address, driver, lambda text: typer.echo(text, err=True))
+
+
+def _command(config: str, overrides: list[str] | None, backup: Path | None) -> str:
+    """What proves the same driver again, for a shell."""
+    import shlex
+
+    words = ["rapidgen", "test", config]
+    words += [word for text in overrides or () for word in ("--set", text)]
+    words += ["--backup", str(backup)] if backup is not None else []
+    return shlex.join(words)
+
+
 _UNITS = {"s": 1, "min": 60, "h": 3600, "d": 86400}
 
 
@@ -217,7 +250,7 @@ def _list(as_json: bool) -> int:
     return 0
 
 
-def _show(report: "Proof", uncovered: bool, durations: int) -> None:
+def _show(report: "Proof", uncovered: bool, durations: int, command: str) -> None:
     from rich.console import Console
     from rich.table import Table
 
@@ -246,7 +279,8 @@ def _show(report: "Proof", uncovered: bool, durations: int) -> None:
         if not outcome.passed:
             console.print(f"failed: {complaint(outcome)}", markup=False)
     for finding in report.findings:
-        console.print(f"failed: --replay {finding.schedule}: {finding.detail}", markup=False)
+        console.print(f"failed: {finding.detail}", markup=False)
+        console.print(f"  {command} --replay {finding.schedule}", markup=False, soft_wrap=True)
     if report.curve:
         console.print(met(report), markup=False)
     verdict = "everything held" if report.passed else "something did not hold"

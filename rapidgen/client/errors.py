@@ -28,6 +28,7 @@ import socket
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
+from rapidgen._running import running
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, error
 from rapidgen.python310 import Self
 
@@ -183,7 +184,17 @@ def not_reached(where: str, raised: OSError, timeout: float) -> ConnectionFailed
         mend = "is the driver's task running? `rapidgen sim` starts a virtual controller"
     if isinstance(raised, socket.gaierror):
         mend = "mend the name of the host; for a configuration give its file, with the suffix .yaml"
-    return ConnectionFailed.because("RG601", message, mend)
+    # Who named no address meant this machine, and what runs there may have other ports.
+    notes = _simulators() if where.startswith("127.0.0.1 ") else ()
+    return ConnectionFailed.because("RG601", message, mend, *notes)
+
+
+def _simulators() -> tuple[str, ...]:
+    return tuple(
+        f"a simulator of {one.name} runs at {' and '.join(one.addresses.values())}: `--to sim`"
+        for one in running()[0]
+        if one.addresses
+    )
 
 
 def os_reason(raised: OSError) -> str:

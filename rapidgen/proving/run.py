@@ -1,7 +1,7 @@
 """The whole suite for one robot: every case under every setting, and schedules, as a campaign."""
 
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TextIO
@@ -18,11 +18,12 @@ from rapidgen.proving.campaign import Campaign, Limits, Progress, Workload
 from rapidgen.proving.explore import Explored, explore, ground_of
 from rapidgen.proving.guide import Guide
 from rapidgen.proving.identity import identity
-from rapidgen.proving.model import Proof, Verdict
-from rapidgen.proving.plan import Ground
+from rapidgen.proving.model import Finding, Proof, Verdict
+from rapidgen.proving.plan import Ground, drawn, named
 from rapidgen.proving.report import series
 from rapidgen.proving.results import Results
 from rapidgen.proving.settings import Setting, assumed, rows, settings
+from rapidgen.proving.smaller import smaller
 from rapidgen.proving.suite import CASES
 from rapidgen.proving.workers import Local, Workers, each, in_a_fork
 from rapidgen.system.model import System
@@ -57,7 +58,7 @@ class Suspects:
 
 
 @dataclass(frozen=True, slots=True)
-class Subject:
+class DriverUnderTest:
     """What every worker has: a configuration and its generated system."""
 
     config: RobotConfig
@@ -66,7 +67,7 @@ class Subject:
     """The controller that a worker keeps, by what its setting assumes."""
 
     @classmethod
-    def of(cls, config: RobotConfig) -> "Subject":
+    def of(cls, config: RobotConfig) -> "DriverUnderTest":
         """The driver of a configuration, in its cell. Raises DiagnosticError."""
         system = make_system(config, build(config), open_words=True)
         return cls(config, in_its_cell(system, config))
@@ -77,6 +78,7 @@ def prove(
     *,
     seeds: int = 200,
     jobs: int | None = None,
+    hire: Callable[["DriverUnderTest"], Workers] | None = None,
     only: Sequence[str] = (),
     cases: bool = True,
     strength: int = 2,
@@ -90,18 +92,19 @@ def prove(
 
     The answers to any `strength` open questions meet in some setting (0: the default alone);
     `assuming`: in that one only. `progress(what, done, total)` is called for every piece of work.
+    `hire`: who works, by default `jobs` processes of this machine.
     Results are kept in a file, in which `resume` finds those that are known already.
     A KeyboardInterrupt ends the run; the report has what it had seen, and says so. Raises
     DiagnosticError RG805, WorkersLost.
     """
-    driver = Subject.of(config)
+    driver = DriverUnderTest.of(config)
     started = time.monotonic()
     report = Proof(config.name, driver.system.build_id)
     report.rows = {"as asked": tuple(assuming)} if assuming else rows(strength)
     attempts = _attempts(config, report.rows, only) if cases or only else []
     with (
         Results(results, f"{identity()} {report.build_id}", resume=resume) as kept,
-        Local(driver, jobs) as workers,
+        hire(driver) if hire else Local(driver, jobs) as workers,
     ):
         campaign = Campaign(workers, kept, limits or Limits(), progress)
         try:
@@ -111,7 +114,7 @@ def prove(
             if not only and not assuming:
                 for outcome in report.outcomes:
                     add_lines(report.lines, outcome.lines)
-                _explored(report, campaign, seeds)
+                _explored(report, campaign, seeds, progress)
         except KeyboardInterrupt:
             report.broken_off = True
     report.left = campaign.left
@@ -119,7 +122,7 @@ def prove(
     return report
 
 
-def _explored(report: Proof, campaign: Campaign, seeds: int) -> None:
+def _explored(report: Proof, campaign: Campaign, seeds: int, progress: Progress | None) -> None:
     (found,) = each(campaign.workers, range(1), ground)
     guide = Guide(found)
     # Of a run that is broken off, too.
@@ -128,6 +131,11 @@ def _explored(report: Proof, campaign: Campaign, seeds: int) -> None:
         report.schedules += 1
         if explored.finding is not None:
             report.findings.append(explored.finding)
+    few = report.findings[:EXPLAINED]
+    for number, finding in enumerate(each(campaign.workers, few, minimised)):
+        report.findings[number] = finding
+        if progress is not None:
+            progress("smaller schedules", number + 1, len(few))
 
 
 def _attempts(
@@ -191,7 +199,7 @@ def _explained(report: Proof, workers: Workers, progress: Progress | None) -> li
 # -- pieces of work -----------------------------------------------------------------------------
 
 
-def explain(driver: Subject, broken: Suspects) -> dict[str, tuple[str, ...]]:
+def explain(driver: DriverUnderTest, broken: Suspects) -> dict[str, tuple[str, ...]]:
     """By setting, the smallest part of what it assumes that breaks a case."""
 
     def breaks(texts: Sequence[str]) -> bool:
@@ -202,7 +210,7 @@ def explain(driver: Subject, broken: Suspects) -> dict[str, tuple[str, ...]]:
     return blamed(broken.rows, lambda texts: in_a_fork(lambda: breaks(texts)))
 
 
-def attempt(driver: Subject, job: Attempt) -> Verdict:
+def attempt(driver: DriverUnderTest, job: Attempt) -> Verdict:
     """A case under a setting."""
     # Jobs come setting by setting, so one controller is kept.
     if job.name not in driver.booted:
@@ -213,15 +221,22 @@ def attempt(driver: Subject, job: Attempt) -> Verdict:
     return replace(driver.booted[job.name].attempt(CASES[job.case]), setting=job.name)
 
 
-def ground(driver: Subject, _item: object) -> Ground:
+def ground(driver: DriverUnderTest, _item: object) -> Ground:
     """What schedules are drawn from."""
     return ground_of(driver.config, driver.system)
 
 
-def schedule(driver: Subject, name: str) -> Explored:
+def schedule(driver: DriverUnderTest, name: str) -> Explored:
     """One schedule."""
     # A controller leaves things behind in its process.
     return in_a_fork(lambda: explore(driver.config, driver.system, name))
+
+
+def minimised(driver: DriverUnderTest, finding: Finding) -> Finding:
+    """The same finding in the smallest schedule that has it."""
+    name = named(finding.schedule)
+    steps = len(drawn(name, ground_of(driver.config, driver.system)).steps)
+    return smaller(name, steps, finding, lambda tried: schedule(driver, str(tried)).finding)
 
 
 class Starter:
@@ -266,5 +281,5 @@ def _verdict(case: Behaviour, bench: Bench) -> Verdict:
 
 def replay(config: RobotConfig, name: str, trace: TextIO | None = None) -> Explored:
     """One schedule again, exactly; every statement of RAPID goes to `trace`."""
-    driver = Subject.of(config)
+    driver = DriverUnderTest.of(config)
     return explore(driver.config, driver.system, name, trace=trace)

@@ -78,8 +78,11 @@ class Workers(Protocol):
         Raises what a piece has raised, and WorkersLost.
         """
 
-    def close(self) -> None:
-        """Let the workers end what they are at, and go."""
+    def __enter__(self) -> Self:
+        """They are there."""
+
+    def __exit__(self, *_: object) -> None:
+        """They end what they are at, and go."""
 
 
 def in_order(

@@ -6,7 +6,7 @@ from itertools import count
 
 from pydantic import BaseModel, ValidationError
 
-from rapidgen.view.aspect import Aspect, Handler, NotDone, Subject
+from rapidgen.view.aspect import Aspect, Declined, Handler, Viewed
 from rapidgen.view.messages import FromPage, Positions, Replied
 
 
@@ -26,7 +26,7 @@ Deliver = Callable[[Parcel], None]
 class Hub:
     """Who views, and what they are told. Everything but `post`ing belongs to the watched thread."""
 
-    watched: Subject
+    watched: Viewed
     _viewers: dict[int, Deliver] = field(default_factory=dict)
     _numbers: "count[int]" = field(default_factory=lambda: count(1))
     _aspects: tuple[Aspect, ...] = ()
@@ -82,7 +82,7 @@ class Hub:
         else:
             try:
                 text = handler(asked.request)
-            except NotDone as why:
+            except Declined as why:
                 refused = str(why)
         deliver(_parcel(Replied(id=asked.id, error=refused, text=text)))
 

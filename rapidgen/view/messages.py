@@ -100,12 +100,14 @@ class PanelState(Spoken):
     e_stop: bool | None
     execution_error: bool
     failed: bool
-    running: bool
+    running: bool | None
+    """A program runs; of a robot that is watched: it can move."""
+    connected: bool = True
     tasks: Mapping[str, str]
     """Positions of each task, in a word."""
-    override: float
+    override: float | None
     """Speed of programs, 0..1."""
-    pace: float
+    pace: float | None
     """Simulated seconds in a second; 0: time stands."""
 
 
@@ -164,7 +166,7 @@ class ShownSignal(Spoken):
     largest: float | None
 
 
-class Signals(Spoken):
+class AllSignals(Spoken):
     """All signals."""
 
     type: Literal["signals"] = "signals"
@@ -172,7 +174,7 @@ class Signals(Spoken):
 
 
 class SignalValues(Spoken):
-    """Signals that have changed."""
+    """AllSignals that have changed."""
 
     type: Literal["values"] = "values"
     values: Mapping[str, float]
@@ -292,7 +294,7 @@ ToPage: TypeAlias = (
     | Log
     | Screen
     | Dialogs
-    | Signals
+    | AllSignals
     | SignalValues
     | Connections
     | p.LoadedPrograms
@@ -316,7 +318,7 @@ Request: TypeAlias = (
     | p.ReadSource
     | p.SetBreakpoint
     | p.RemoveBreakpoint
-    | p.Drive
+    | p.Proceed
     | p.RunTo
     | p.StopOnErrors
     | p.LookAt

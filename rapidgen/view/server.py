@@ -15,7 +15,7 @@ from typing import Final
 from aiohttp import WSMsgType, web
 
 from rapidgen.diagnostics import refusal
-from rapidgen.view.aspect import Subject
+from rapidgen.view.aspect import Viewed
 from rapidgen.view.doorkeeper import HEADERS, Doorkeeper
 from rapidgen.view.hub import Hub, Parcel
 
@@ -50,7 +50,7 @@ class Page:
         self._stop()
 
 
-def serve_page(watched: Subject, host: str = "127.0.0.1", port: int = 0) -> Page:
+def serve_page(watched: Viewed, host: str = "127.0.0.1", port: int = 0) -> Page:
     """Serve the page of what is watched.
 
     DiagnosticError RG920 (not built), RG921 (port), RG922 (token).
@@ -98,7 +98,7 @@ class _Viewer:
 class _Server:
     """One port, and the thread with its loop."""
 
-    def __init__(self, watched: Subject, assets: dict[str, tuple[bytes, str]]) -> None:
+    def __init__(self, watched: Viewed, assets: dict[str, tuple[bytes, str]]) -> None:
         self.hub = Hub(watched)
         self.door = Doorkeeper()
         self.port = 0

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from rapidgen._data import data_folder
+from rapidgen.cli import quick_stop
 from rapidgen.cli.quick_stop import STOP, addresses, motion_ports
 from rapidgen.client.core.robot import STOP_FRAME
 from rapidgen.config import load_config, shipped_names
@@ -111,6 +112,18 @@ def test_the_first_bytes_of_the_command_are_stop():
         finally:
             process.kill()
             process.wait()
+
+
+def test_no_group_waits_for_the_answer_of_another(monkeypatch):
+    servers = [socket.create_server(("127.0.0.1", 0)) for _ in range(2)]
+    places = [("127.0.0.1", server.getsockname()[1]) for server in servers]
+    monkeypatch.setattr(quick_stop, "addresses", lambda _: places)
+    # Nobody answers; what was sent waits in the backlogs.
+    quick_stop.send([])
+    for server in servers:
+        server.settimeout(5)
+        with server, server.accept()[0] as link:
+            assert link.makefile("rb").read(len(STOP)) == STOP
 
 
 def test_nothing_heavy_is_imported_before_it():

@@ -97,6 +97,15 @@ def test_damaged_files_are_passed_over(own):
     assert os.listdir(own) == ["notes"]
 
 
+def test_it_is_told_of_where_nobody_answers_on_this_machine(capsys):
+    with published(ARM):
+        assert main(["monitor", "irb120", "--to", "127.0.0.1:1,1"]) == 1
+    told = "note: a simulator of irb120 runs at 127.0.0.1:11000,11002,11001: `--to sim`"
+    assert told in capsys.readouterr().err
+    assert main(["monitor", "irb120", "--to", "127.0.0.1:1,1"]) == 1
+    assert "a simulator of" not in capsys.readouterr().err
+
+
 def test_the_verbs_find_it(start, capsys):
     sim = start("irb120", "--ports", "auto")
     assert sim.ready["address"]["rob1"] == "127.0.0.1:{motion},{state},{control}".format(

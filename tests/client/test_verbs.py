@@ -333,3 +333,34 @@ def test_stop_over_the_control_port_when_the_motion_port_is_dead(streaming, caps
     streaming._servers["motion"].close()
     assert main(["stop", streaming.address]) == 0
     assert len(streaming.stops) == 1
+
+
+def test_in_a_pipe_a_line_tells_how_far_it_is(monkeypatch, capsys):
+    from types import SimpleNamespace
+
+    from rapidgen.cli import following
+    from rapidgen.cli.loudness import set_up
+    from rapidgen.client import RobotTimeout, TrajectoryState
+
+    class Execution:
+        is_over = False
+        waits = 0
+
+        @property
+        def progress(self):
+            return SimpleNamespace(state=TrajectoryState.MOVING, reached=self.waits, total=9)
+
+        def result(self, timeout):
+            assert timeout == 10
+            self.waits += 1
+            if self.waits < 3:
+                raise RobotTimeout.because("RG603", "not yet")
+            return "done"
+
+    monkeypatch.setattr("sys.stderr.isatty", lambda: False)
+    assert following.follow(Execution()) == "done"
+    assert capsys.readouterr().err == "moving: 1 of 9 points\nmoving: 2 of 9 points\n"
+    set_up(["-q"])
+    assert following.follow(Execution()) == "done"
+    assert capsys.readouterr().err == ""
+    set_up([])

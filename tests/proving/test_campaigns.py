@@ -107,7 +107,12 @@ def test_workers_end_with_whoever_gives_them_work():
 
 
 def told(report):
-    return {name: value for name, value in as_json(report).items() if name != "elapsed"}
+    """A report without what was measured."""
+    found = as_json(report)
+    del found["elapsed"]
+    for outcome in found["outcomes"]:
+        del outcome["elapsed"]
+    return found
 
 
 def test_results_are_the_same_whatever_the_workers_and_where_it_was_broken_off(tmp_path):
@@ -128,7 +133,14 @@ def test_results_are_the_same_whatever_the_workers_and_where_it_was_broken_off(t
 
 def test_schedules_are_the_same_whatever_the_workers(tmp_path):
     found = [
-        prove(SIX_AXES, seeds=10, jobs=jobs, cases=False, results=tmp_path / f"{jobs}.jsonl")
+        prove(
+            SIX_AXES,
+            seeds=10,
+            jobs=jobs,
+            cases=False,
+            strength=0,
+            results=tmp_path / f"{jobs}.jsonl",
+        )
         for jobs in (1, 3)
     ]
     assert told(found[0]) == told(found[1])
@@ -153,6 +165,16 @@ def test_the_first_failure_ends_it(tmp_path, monkeypatch, capsys):
 
 def _ill(bench):
     raise Broken("it is ill")
+
+
+def test_work_that_ends_its_workers_is_told(monkeypatch, capsys):
+    monkeypatch.setattr("rapidgen.proving.bench.Bench.compile", _ends)
+    assert main(["test", "irb120", "--quick", "--case", "ping", "--jobs", "1"]) == 2
+    assert "RG809" in capsys.readouterr().err
+
+
+def _ends(bench):
+    os.kill(os.getpid(), signal.SIGKILL)
 
 
 def test_results_of_something_else_are_not_gone_on_with(tmp_path):

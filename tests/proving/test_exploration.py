@@ -12,7 +12,10 @@ from rapidgen.generate import build, make_system
 from rapidgen.proving.bench import with_module
 from rapidgen.proving.explore import STEPS, Explored, explore, ground_of
 from rapidgen.proving.guide import Guide
+from rapidgen.proving.model import Finding
 from rapidgen.proving.plan import drawn, named
+from rapidgen.proving.run import DriverUnderTest, minimised
+from rapidgen.proving.smaller import smaller
 from rapidgen.rapid import check, parse
 from tests.proving.defective import CAPACITY, DEFECTS, FOLDER, small_driver, with_defect
 
@@ -142,3 +145,29 @@ def test_replay_tells_the_story(tmp_path, capsys):
     assert "ROS_motionServer/" in trace.read_text(encoding="utf-8")
     assert main(["test", "irb120", "--replay", "3", "--trace", str(tmp_path / "no" / "f")]) == 2
     assert "RG803" in capsys.readouterr().err
+
+
+def test_a_schedule_is_made_smaller_as_long_as_the_same_demand_does_not_hold():
+    def run(tried):
+        steps = tried.steps if tried.steps is not None else (0, 1, 2, 3)
+        if not {1, 3} <= set(steps):
+            return Finding(str(tried), "something else", "") if 1 in steps else None
+        # It needs the order in which tasks ran, and comes at another time in each.
+        return None if tried.turns else Finding(str(tried), f"at {len(steps)}.5 s it moved", "")
+
+    whole = run(named("7~2"))
+    assert smaller(named("7~2"), 4, whole, run) == Finding(
+        "7~2/steps=1,3/calm", "at 2.5 s it moved", ""
+    )
+
+
+def test_a_race_in_its_smallest_schedule_is_still_there():
+    driver = DriverUnderTest(SMALL, small_driver("R7a"))
+    guide = Guide(ground_of(SMALL, driver.system))
+    names = (guide.name(number) for number in range(8))
+    found = (explore(SMALL, driver.system, name).finding for name in names)
+    finding = next(one for one in found if one is not None)
+    least = minimised(driver, finding)
+    assert len(named(least.schedule).steps) == 2
+    assert named(least.schedule).turns
+    assert explore(SMALL, driver.system, least.schedule).finding == least

@@ -13,8 +13,15 @@ PATIENCE = 60.0
 @contextmanager
 def simulator(*arguments, environment=None):
     """`rapidgen sim ... --view` in a process of its own; what `ready` says, and the process."""
+    with served("sim", *arguments, "--ports", "auto", "--view", environment=environment) as found:
+        yield found
+
+
+@contextmanager
+def served(*arguments, environment=None):
+    """`rapidgen ...` that serves something; what `ready` says, and the process."""
     process = subprocess.Popen(
-        [sys.executable, "-m", "rapidgen.cli", "sim", *arguments, "--ports", "auto", "--view"],
+        [sys.executable, "-m", "rapidgen.cli", *arguments],
         stdout=subprocess.PIPE,
         stderr=subprocess.DEVNULL,
         text=True,

@@ -1,10 +1,12 @@
 """A recording in the page: scrubbed there and back, program, signals and robot are as they were."""
 
+import json
 import subprocess
 import sys
 
 import numpy as np
 import pytest
+from PIL import Image
 
 from rapidgen.controller import VirtualController
 from rapidgen.view.recording.reader import RecordingFile
@@ -38,7 +40,8 @@ def page(recorded, open_page):
         text=True,
     ) as process:
         try:
-            page = open_page(process.stdout.readline().strip())
+            ready = process.stdout.readline().removeprefix("ready ")
+            page = open_page(json.loads(ready)["view"])
             page.get_by_role("tab", name="Recording").click()
             until(page, f"window.rapidgen && {SEEN}.time !== undefined")
             yield page
@@ -99,3 +102,25 @@ def test_it_plays_and_refuses_to_command(page):
     refused = page.evaluate("rapidgen.link.ask({do: 'act', action: 'start'}).catch(e => e.message)")
     assert "not commanded" in refused
     assert not page.get_by_role("button", name="Step in").is_visible()
+
+
+def test_pictures_and_films_are_saved(page, tmp_path):
+    with page.expect_download() as found:
+        page.get_by_role("button", name="PNG of the robots").click()
+    found.value.save_as(tmp_path / "robots.png")
+    with Image.open(tmp_path / "robots.png") as picture:
+        assert picture.size[0] > 300
+        assert len(picture.convert("RGB").getcolors(1 << 20)) > 20
+    page.get_by_role("button", name="Film the robots").click()
+    page.get_by_role("button", name="Play").click()
+    until(page, f"{SEEN}.time", lambda time: time > 0.5)
+    with page.expect_download() as found:
+        page.get_by_role("button", name="End the film").click()
+    found.value.save_as(tmp_path / "robots.webm")
+    data = (tmp_path / "robots.webm").read_bytes()
+    assert data.startswith(b"\x1a\x45\xdf\xa3")  # EBML, which WebM is
+    assert len(data) > 5000
+    with page.expect_download() as found:
+        page.get_by_role("button", name="CSV").click()
+    found.value.save_as(tmp_path / "curves.csv")
+    assert (tmp_path / "curves.csv").read_text().startswith('"time","joint_1"')

@@ -1,5 +1,6 @@
 """Routines of the customer's own that a program calls: arguments, results, errors, how they end."""
 
+import random
 import struct
 from collections.abc import Sequence
 from dataclasses import replace
@@ -11,7 +12,7 @@ from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import RawLink
 from rapidgen.proving.messages import RawInstruction, RawReason, RawTrajectoryState
 from rapidgen.proving.model import Broken
-from rapidgen.proving.programs import ALL, Programmer
+from rapidgen.proving.programs import ALL, Programmer, orders
 from rapidgen.proving.suite.control import stop
 from rapidgen.system.model import ModuleFile, System
 
@@ -133,7 +134,9 @@ def _alone(bench: Bench) -> None:
             seen = other.progress(watcher)
             if (seen.reason, own["cell:undone"], own["cell:calls"]) != (reason, True, 1):
                 raise Broken(f"{reason.name} of a routine: PROGRESS says {seen}")
-        other.moves_through(client.link, points)
+        program = orders(other, 2, random.Random(28))
+        client.takes("a program behind a routine", program)
+        other.wait_until_at(program[-1].joints, 60)
 
 
 def _weld(seam: float, *, dry: int = 0, text: str = "ab") -> list[int]:

@@ -13,7 +13,7 @@ from rapidgen.proving import messages
 from rapidgen.proving.batches import millionths
 from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
-from rapidgen.proving.messages import RawInstruction, RawReason
+from rapidgen.proving.messages import RawInstruction, RawReason, RawTrajectoryState
 from rapidgen.proving.model import Broken
 from rapidgen.proving.programs import (
     ALL,
@@ -106,8 +106,10 @@ def _eight(bench: Bench, client: Programmer, order: RawOrder, number: int) -> No
     start = bench.position
     back = replace(order, joints=start, pose=reached(bench, start))
     client.takes("eight signals", [replace(o, marks=marks) for o in (order, back) * 2])
-    bench.run(1)
-    bench.wait_until_standing(60)
+    watcher = bench.watcher()
+    for _ in range(600):
+        if bench.progress(watcher).state == RawTrajectoryState.DONE:
+            break
     signal.changed.remove(note)
     if seen != [1, 0] * 16:
         raise Broken(f"{signal.name} was to change 32 times on four moves, and was {seen}")
@@ -172,8 +174,9 @@ def _sets(bench: Bench) -> None:
             told = _sends(client, WAIT_SIGNAL, [float(index), 1.0, 1.0])
             client.refused(told, RawReason.BAD_VALUE, 0, f"a wait for {signal.name}")
             continue
-        if bench.controller.signals[signal.name] == 0:
-            _accepted(_sends(client, WAIT_SIGNAL, [float(index), 0.0, 0.0], before=there))
+        if signal.name in bench.controller.signals:
+            now = float(bench.controller.signals[signal.name])
+            _accepted(_sends(client, WAIT_SIGNAL, [float(index), now, 0.0], before=there))
             bench.wait_until_at(there.joints, 60)
         if signal.kind[1] == "I":
             _waits(bench, client, index, signal.name)

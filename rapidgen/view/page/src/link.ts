@@ -14,6 +14,10 @@ export class Link {
   private readonly watchers: ((state: Connection) => void)[] = [];
   private readonly pending = new Map<number, (error: string, text: string) => void>();
 
+  get isOpen(): boolean {
+    return this.socket?.readyState === WebSocket.OPEN;
+  }
+
   /** Call a function for each message of a type. */
   on<T extends ToPage["type"]>(type: T, listener: (message: Of<T>) => void): void {
     this.listeners.set(type, [...(this.listeners.get(type) ?? []), listener as (m: never) => void]);

@@ -6,6 +6,12 @@ export interface Act {
   readonly action: "e-stop" | "reset-e-stop" | "motors-on" | "motors-off" | "start" | "stop" | "pp-to-main" | "power-loss";
 }
 
+/** All signals. */
+export interface AllSignals {
+  readonly type: "signals";
+  readonly signals: readonly ShownSignal[];
+}
+
 /** What the operator chose or typed. */
 export interface AnswerQuestion {
   readonly do: "answer";
@@ -86,13 +92,6 @@ export interface Dialogs {
   readonly waiting: readonly Dialog[];
 }
 
-/** Pause, go on, step a task. */
-export interface Drive {
-  readonly do: "drive";
-  readonly how: "pause" | "resume" | "in" | "over" | "out";
-  readonly task: string;
-}
-
 /** The reply's text is the value of an expression where it is looked at. */
 export interface Evaluate {
   readonly do: "evaluate";
@@ -102,7 +101,7 @@ export interface Evaluate {
 /** A request and the number that its reply will have. */
 export interface FromPage {
   readonly id: number;
-  readonly request: Act | SetMode | SetOverride | SetPace | AnswerQuestion | Jog | Copy | SetSignal | Cut | ReadSource | SetBreakpoint | RemoveBreakpoint | Drive | RunTo | StopOnErrors | LookAt | Evaluate | Assign | SetWatch | Cover | Seek | Play | ReadCurves;
+  readonly request: Act | SetMode | SetOverride | SetPace | AnswerQuestion | Jog | Copy | SetSignal | Cut | ReadSource | SetBreakpoint | RemoveBreakpoint | Proceed | RunTo | StopOnErrors | LookAt | Evaluate | Assign | SetWatch | Cover | Seek | Play | ReadCurves;
 }
 
 /** What the routine that is looked at holds, and the watch list. */
@@ -167,10 +166,11 @@ export interface PanelState {
   readonly e_stop: boolean | null;
   readonly execution_error: boolean;
   readonly failed: boolean;
-  readonly running: boolean;
+  readonly running: boolean | null;
+  readonly connected: boolean;
   readonly tasks: Readonly<Record<string, string>>;
-  readonly override: number;
-  readonly pace: number;
+  readonly override: number | null;
+  readonly pace: number | null;
 }
 
 /** Let it run, at so many seconds in a second; 0 stops. */
@@ -186,7 +186,7 @@ export interface Playback {
   readonly end: number;
   readonly time: number;
   readonly rate: number;
-  readonly cut: boolean;
+  readonly fault: string;
 }
 
 /** Program pointers and motion pointers. */
@@ -207,6 +207,13 @@ export interface Positions {
   readonly type: "positions";
   readonly time: number;
   readonly groups: readonly RobotPlace[];
+}
+
+/** Pause, go on, step a task. */
+export interface Proceed {
+  readonly do: "drive";
+  readonly how: "pause" | "resume" | "in" | "over" | "out";
+  readonly task: string;
 }
 
 /** The reply's text is PlotData (JSON) of a robot's axes or of a signal. */
@@ -397,16 +404,10 @@ export interface ShownSocket {
   readonly peer: string;
 }
 
-/** Signals that have changed. */
+/** AllSignals that have changed. */
 export interface SignalValues {
   readonly type: "values";
   readonly values: Readonly<Record<string, number>>;
-}
-
-/** All signals. */
-export interface Signals {
-  readonly type: "signals";
-  readonly signals: readonly ShownSignal[];
 }
 
 /** At which errors everything pauses. */
@@ -415,6 +416,6 @@ export interface StopOnErrors {
   readonly errors: "never" | "unhandled" | "all";
 }
 
-export type ToPage = Connections | Covered | Debugging | Dialogs | HeldValues | LoadedPrograms | Log | PanelState | Playback | Pointers | Positions | Replied | Scene | Screen | SignalValues | Signals;
+export type ToPage = AllSignals | Connections | Covered | Debugging | Dialogs | HeldValues | LoadedPrograms | Log | PanelState | Playback | Pointers | Positions | Replied | Scene | Screen | SignalValues;
 
-export type Request = Act | AnswerQuestion | Assign | Copy | Cover | Cut | Drive | Evaluate | Jog | LookAt | Play | ReadCurves | ReadSource | RemoveBreakpoint | RunTo | Seek | SetBreakpoint | SetMode | SetOverride | SetPace | SetSignal | SetWatch | StopOnErrors;
+export type Request = Act | AnswerQuestion | Assign | Copy | Cover | Cut | Evaluate | Jog | LookAt | Play | Proceed | ReadCurves | ReadSource | RemoveBreakpoint | RunTo | Seek | SetBreakpoint | SetMode | SetOverride | SetPace | SetSignal | SetWatch | StopOnErrors;
