@@ -322,7 +322,7 @@ Request: TypeAlias = (
     | p.ReadSource
     | p.SetBreakpoint
     | p.RemoveBreakpoint
-    | p.Drive
+    | p.Proceed
     | p.RunTo
     | p.StopOnErrors
     | p.LookAt

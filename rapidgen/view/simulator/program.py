@@ -145,7 +145,7 @@ class ProgramAspect:
             p.ReadSource: self._source,
             p.SetBreakpoint: self._break,
             p.RemoveBreakpoint: self._unbreak,
-            p.Drive: self._drive,
+            p.Proceed: self._drive,
             p.RunTo: self._run_to,
             p.StopOnErrors: self._stop_on,
             p.LookAt: self._look,
@@ -193,7 +193,7 @@ class ProgramAspect:
         self._asked[:] = [placed.asked for placed in self._debugger.placed.values()]
 
     def _drive(self, request: Request) -> str:
-        assert isinstance(request, p.Drive)
+        assert isinstance(request, p.Proceed)
         match request.how:
             case "pause":
                 self._debugger.pause()

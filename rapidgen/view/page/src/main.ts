@@ -62,9 +62,9 @@ function showStatus(status: PanelState): void {
   const stop = status.e_stop ? "Emergency stop" : status.motors_on === null ? "Motors unknown"
     : status.motors_on ? "Motors on" : "Motors off";
   mark(chips.motors, stop, status.e_stop ? "bad" : status.motors_on ? "good" : "");
-  const program = status.failed ? "System failure" : status.execution_error ? "Error"
+  const program = held ? "Paused" : status.failed ? "System failure" : status.execution_error ? "Error"
     : watched ? (status.running ? "Can move" : "Cannot move") : status.running ? "Running" : "Stopped";
-  mark(chips.program, program, status.failed || status.execution_error ? "bad" : status.running ? "good" : "");
+  mark(chips.program, program, held || status.failed || status.execution_error ? "bad" : status.running ? "good" : "");
   showTime(status.time);
   if (link.isOpen) {
     banner.hidden = status.connected;
@@ -104,6 +104,8 @@ const tabs = new Tabs(panels);
 document.body.append(bar, banner, h("div", { class: "whole" }, space, tabs.element), notices);
 
 let state: Positions | null = null;
+let panel: PanelState | null = null;
+let held = false;
 link.on("scene", (scene) => {
   say(title, scene.title);
   document.title = `${scene.title} – rapidgen`;
@@ -118,7 +120,14 @@ link.on("positions", (now) => {
   stage?.show(now);
   showTime(now.time);
 });
-link.on("panel", showStatus);
+link.on("panel", (now) => {
+  panel = now;
+  showStatus(now);
+});
+link.on("debugging", ({ halt }) => {
+  held = halt !== null;
+  if (panel) showStatus(panel);
+});
 link.watch((connection) => {
   document.body.dataset["connection"] = connection;
   if (connection === "connecting") return;

@@ -92,13 +92,6 @@ export interface Dialogs {
   readonly waiting: readonly Dialog[];
 }
 
-/** Pause, go on, step a task. */
-export interface Drive {
-  readonly do: "drive";
-  readonly how: "pause" | "resume" | "in" | "over" | "out";
-  readonly task: string;
-}
-
 /** Check a file's text for a robot; nothing moves. */
 export interface DropTrajectory {
   readonly do: "drop";
@@ -136,7 +129,7 @@ export interface ForgetTrajectory {
 /** A request and the number that its reply will have. */
 export interface FromPage {
   readonly id: number;
-  readonly request: Act | SetMode | SetOverride | SetPace | AnswerQuestion | Jog | Copy | SetSignal | Cut | ReadSource | SetBreakpoint | RemoveBreakpoint | Drive | RunTo | StopOnErrors | LookAt | Evaluate | Assign | SetWatch | Cover | Seek | Play | ReadCurves | DropTrajectory | RunTrajectory | ForgetTrajectory;
+  readonly request: Act | SetMode | SetOverride | SetPace | AnswerQuestion | Jog | Copy | SetSignal | Cut | ReadSource | SetBreakpoint | RemoveBreakpoint | Proceed | RunTo | StopOnErrors | LookAt | Evaluate | Assign | SetWatch | Cover | Seek | Play | ReadCurves | DropTrajectory | RunTrajectory | ForgetTrajectory;
 }
 
 /** What the routine that is looked at holds, and the watch list. */
@@ -221,7 +214,7 @@ export interface Playback {
   readonly end: number;
   readonly time: number;
   readonly rate: number;
-  readonly cut: boolean;
+  readonly fault: string;
 }
 
 /** Program pointers and motion pointers. */
@@ -242,6 +235,13 @@ export interface Positions {
   readonly type: "positions";
   readonly time: number;
   readonly groups: readonly RobotPlace[];
+}
+
+/** Pause, go on, step a task. */
+export interface Proceed {
+  readonly do: "drive";
+  readonly how: "pause" | "resume" | "in" | "over" | "out";
+  readonly task: string;
 }
 
 /** The reply's text is PlotData (JSON) of a robot's axes or of a signal. */
@@ -462,4 +462,4 @@ export interface TrajectoryFinding {
 
 export type ToPage = AllSignals | Connections | Covered | Debugging | Dialogs | DroppedTrajectory | HeldValues | LoadedPrograms | Log | PanelState | Playback | Pointers | Positions | Replied | Scene | Screen | SignalValues;
 
-export type Request = Act | AnswerQuestion | Assign | Copy | Cover | Cut | Drive | DropTrajectory | Evaluate | ForgetTrajectory | Jog | LookAt | Play | ReadCurves | ReadSource | RemoveBreakpoint | RunTo | RunTrajectory | Seek | SetBreakpoint | SetMode | SetOverride | SetPace | SetSignal | SetWatch | StopOnErrors;
+export type Request = Act | AnswerQuestion | Assign | Copy | Cover | Cut | DropTrajectory | Evaluate | ForgetTrajectory | Jog | LookAt | Play | Proceed | ReadCurves | ReadSource | RemoveBreakpoint | RunTo | RunTrajectory | Seek | SetBreakpoint | SetMode | SetOverride | SetPace | SetSignal | SetWatch | StopOnErrors;
