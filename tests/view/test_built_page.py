@@ -25,7 +25,7 @@ def initialized(hook, version):
 
 
 def test_a_wheel_without_the_page_is_not_built(hook, tmp_path):
-    with pytest.raises(SystemExit, match="needs Node.js"):
+    with pytest.raises(SystemExit, match="needs Node"):
         initialized(hook, "standard")
     initialized(hook, "editable")
     (tmp_path / "index.html").write_text("built before")
