@@ -1,5 +1,9 @@
 """A recording in the page: scrubbed there and back, program, signals and robot are as they were."""
 
+import json
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 from PIL import Image
@@ -7,7 +11,7 @@ from PIL import Image
 from rapidgen.controller import VirtualController
 from rapidgen.view.recording.reader import RecordingFile
 from rapidgen.view.recording.writer import record
-from tests.view.bench import STATE, served, until
+from tests.view.bench import STATE, until
 from tests.view.test_recording import PROGRAM
 
 pytestmark = pytest.mark.browser
@@ -30,12 +34,20 @@ def recorded(tmp_path_factory):
 
 @pytest.fixture
 def page(recorded, open_page):
-    with served("view", str(recorded)) as (ready, _):
-        page = open_page(ready["view"])
-        page.get_by_role("tab", name="Recording").click()
-        until(page, f"window.rapidgen && {SEEN}.time !== undefined")
-        yield page
-        page.close()
+    with subprocess.Popen(
+        [sys.executable, "-m", "rapidgen.cli", "view", str(recorded)],
+        stdout=subprocess.PIPE,
+        text=True,
+    ) as process:
+        try:
+            ready = process.stdout.readline().removeprefix("ready ")
+            page = open_page(json.loads(ready)["view"])
+            page.get_by_role("tab", name="Recording").click()
+            until(page, f"window.rapidgen && {SEEN}.time !== undefined")
+            yield page
+            page.close()
+        finally:
+            process.terminate()
 
 
 def seek(page, time):
