@@ -16,8 +16,8 @@ demo: $(if $(wildcard $(STAMP)),$(STAMP),$(RUNS))
 
 $(RUNS): pyproject.toml
 	@echo "setup    an environment in $(VENV) with what rapidgen needs: once, half a minute"
-	@test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
 	@(while sleep 4; do echo "         $$SECONDS s"; done) & beat=$$!; trap "kill $$beat" EXIT; \
+		(test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)) && \
 		$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-compile --editable '.[plot]'
 	@touch $@
 
@@ -184,7 +184,7 @@ endurance: $(STAMP) ## 2 min: memory of an idle driver that is watched for ten s
 many-controllers: $(STAMP) ## 2 min: 50 controllers in real time, how late their states come
 	$(BIN)/python benchmarks/many_controllers.py
 
-BENCHES := startup start_of_run programs parsing kernels backup motion state client deploy driver streaming rws recording ready stop_start
+BENCHES := startup start_of_run programs parsing kernels backup motion state client deploy driver streaming rws recording ready stop_start view
 bench: $(STAMP) ## 10 min: the figures of docs/develop/performance.md that need no argument
 	for name in $(BENCHES); do $(BIN)/python benchmarks/$$name.py || exit 1; done
 

@@ -8,5 +8,8 @@ MODULE measuring
         ENDIF
         WaitTime 0.1;
         height := 100 + place / 4;
+    ERROR
+        ! On to whoever has called.
+        RAISE;
     ENDPROC
 ENDMODULE

@@ -49,7 +49,7 @@ VERBS = {
     "symbols": "Show a controller's RAPID data, or set one.",
     "backup": "Bring a backup of a controller here, which `sim` reads.",
     "plot": "Draw joints over time, and how far the second file is from the first.",
-    "view": "Look at a recording: everything as it was at any moment.",
+    "view": "Show a robot or a recording in the browser, read only.",
     "plan": "Show what `deploy` would do: files, cfg instances, restarts.",
     "deploy": "Put the driver on one or several controllers: backup, upload, verify, switch.",
     "rollback": "Go back to the set before the last deployment, or to backup ID.",

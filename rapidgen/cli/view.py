@@ -1,58 +1,158 @@
-"""`rapidgen view`: a recording in the browser."""
+"""`rapidgen view`: a robot or a recording in the browser; neither moves from there."""
 
+from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from rapidgen.cli import options
+from rapidgen.diagnostics import refusal
+
 if TYPE_CHECKING:
-    from rapidgen.view.recording.reader import RecordingFile
+    from rapidgen.client import Robot
+    from rapidgen.client.address import Address
+    from rapidgen.config.model import GroupConfig
+    from rapidgen.view.aspect import Viewed
+
+_LOOK = 3.0
+"""s that a controller may take to answer a look at a port."""
 
 
 def view(
-    file: Annotated[Path, typer.Argument(help="What `rapidgen sim --record` has written.")],
+    target: Annotated[
+        str,
+        typer.Argument(
+            help="Recording (`rapidgen sim --record`), configuration, shipped name, HOST[:M,S,C], "
+            "or `sim`."
+        ),
+    ],
+    to: options.RobotAddress = "",
+    group: options.Group = "",
+    take: Annotated[
+        bool,
+        typer.Option("--take", help="Take the only state connection of a plain driver."),
+    ] = False,
+    host: Annotated[str, typer.Option(help="Address of this machine to serve on.")] = "127.0.0.1",
     port: Annotated[
         int, typer.Option(help="Port of the page; 0: any free port.", min=0, max=65_535)
     ] = 0,
+    reconnect: Annotated[
+        float, typer.Option(help="Try a lost connection again for so many seconds.", min=0)
+    ] = 3600.0,
     csv: Annotated[
-        Path | None, typer.Option(help="Write the positions of a robot, and no page.")
+        Path | None, typer.Option(help="Write a recording's positions of a robot, and no page.")
     ] = None,
     robot: Annotated[str, typer.Option(help="Whose, with --csv; default: the first.")] = "",
 ) -> int:
-    """Look at a recording: everything as it was at any moment.
+    """Show a robot or a recording in the browser, read only. Ctrl-C ends it.
 
-    Prints the link of a page that this process serves until Ctrl-C. A recording that was cut off is
-    shown up to there.
+    When it is served, stdout gets one line: `ready` and a JSON object with the link. With a
+    configuration the robot is drawn, with an address alone there are its axes. It takes one of the
+    three places of a rapidgen driver's state port; the one place of a plain driver only with
+    `--take`: a program that moves the robot loses it, and stops. A recording shows everything as it
+    was at any moment; one that was cut off is shown up to there.
     """
     from rapidgen.view.recording.reader import RecordingFile
+    from rapidgen.view.recording.viewing import RecordingSubject
 
-    with RecordingFile(file) as recording:
-        if csv is not None:
-            try:
-                recording.write_csv(csv, robot)
-            except KeyError as error:
-                known = ", ".join(group.name for group in recording.robots)
-                raise typer.BadParameter(f"--robot is one of {known}") from error
-            typer.echo(csv)
-            return 0
-        return _serve(recording, port)
+    with ExitStack() as stack:
+        if not _is_recording(target):
+            if csv is not None:
+                raise typer.BadParameter("--csv is of a recording")
+            return _serve(_robots(stack, target, to, group, take, reconnect), host, port)
+        recording = stack.enter_context(RecordingFile(Path(target)))
+        if csv is None:
+            return _serve(RecordingSubject(recording), host, port)
+        try:
+            recording.write_csv(csv, robot)
+        except KeyError as error:
+            known = ", ".join(group.name for group in recording.robots)
+            raise typer.BadParameter(f"--robot is one of {known}") from error
+        typer.echo(csv)
+    return 0
 
 
-def _serve(recording: "RecordingFile", port: int) -> int:
+def _is_recording(target: str) -> bool:
+    path = Path(target)
+    return path.suffix.lower() == ".mcap" or (
+        path.is_file() and path.suffix.lower() not in (".yaml", ".yml")
+    )
+
+
+def _serve(viewed: "Viewed", host: str, port: int) -> int:
+    """Serve the page until a signal comes; the exit code."""
+    import json
     import signal
     import threading
 
-    from rapidgen.view.recording.viewing import RecordingSubject
     from rapidgen.view.server import serve_page
 
     ended = threading.Event()
     before = {s: signal.signal(s, lambda *_: ended.set()) for s in (signal.SIGINT, signal.SIGTERM)}
-    page = serve_page(RecordingSubject(recording), "127.0.0.1", port)
     try:
-        typer.echo(page.url)
-        ended.wait()
+        page = serve_page(viewed, host, port)
+        try:
+            typer.echo(f"ready {json.dumps({'view': page.url})}")
+            ended.wait()
+        finally:
+            page.close()
     finally:
-        page.close()
         for number, handler in before.items():
             signal.signal(number, handler)
     return 0
+
+
+# -- robots ---------------------------------------------------------------------------------------
+
+
+def _robots(
+    stack: ExitStack, target: str, to: str, group: str, take: bool, reconnect: float
+) -> "Viewed":
+    """All robots of a configuration, or one at an address, connected until the stack closes."""
+    from rapidgen.client import Robot
+    from rapidgen.client.target import groups_of
+    from rapidgen.view.robot.observed import ObservedRobots
+
+    robots = []
+    for name in [group] if group else groups_of(target):
+        robot = Robot(target, address=to or None, group=name, watch=True, reconnect=reconnect)
+        if not take:
+            _refuse_plain(robot.address)
+        stack.enter_context(robot)
+        if not (take or robot.driver.is_rapidgen):
+            raise _plain(robot.address)
+        robot.next_state(_LOOK)
+        robots.append((robot, _known(target, name, robot)))
+    return ObservedRobots(f"{target} at {robots[0][0].address.host}", robots)
+
+
+def _known(target: str, group: str, robot: "Robot") -> "GroupConfig":
+    """The robot's configuration; of an address alone what the driver has told of its joints."""
+    from rapidgen.config import load_config
+    from rapidgen.config.model import GroupConfig, Ports
+
+    if group:
+        found = {own.name: own for own in load_config(target).groups}
+        return found[group]
+    return GroupConfig(robot.group.name or "robot", "", "", robot.group.map.joints, Ports())
+
+
+def _refuse_plain(address: "Address") -> None:
+    """Refuse what has no control port, before its state port is touched."""
+    import socket
+
+    try:
+        socket.create_connection((address.host, address.control), _LOOK).close()
+    except OSError as fault:
+        raise _plain(address) from fault
+
+
+def _plain(address: "Address") -> Exception:
+    return refusal(
+        "RG923",
+        None,
+        f"{address} has no control port, so it may serve one client: looking would take its place",
+        "with `--take` it is taken, and a program that moves the robot then stops it",
+        exit_code=1,
+    )

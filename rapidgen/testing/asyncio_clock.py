@@ -99,7 +99,10 @@ class VirtualLoop(asyncio.BaseEventLoop):
             return
         scheduler = self._scheduler
         until = None if timeout is None else scheduler.now + math.ceil(timeout * 1e9)
-        if scheduler.advance(until, lambda: bool(ready)) == "idle":
+        outcome = scheduler.advance(until, lambda: bool(ready))
+        if outcome == "paused":
+            raise Deadlock("asyncio waits, and a debugger holds the controller")
+        if outcome == "idle":
             where = "\n".join(self.controller.where())
             raise Deadlock(f"asyncio waits for something that cannot happen\n{where}")
 

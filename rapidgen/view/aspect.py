@@ -9,10 +9,10 @@ from typing import Protocol, TypeAlias
 from rapidgen.view.messages import Request, ToPage
 
 Handler: TypeAlias = Callable[[Request], str]
-"""Carries a request out; its text, empty in general, goes back. NotDone: it is not."""
+"""Carries a request out; its text, empty in general, goes back. Declined: it is not."""
 
 
-class NotDone(Exception):
+class Declined(Exception):
     """What was asked for is not done; the text says why."""
 
 
@@ -29,7 +29,7 @@ class Aspect(Protocol):
         """What carries out requests, by their class."""
 
 
-class Subject(Protocol):
+class Viewed(Protocol):
     """A simulation, a robot or a recording, seen by the server."""
 
     def post(self, function: Callable[[], None]) -> bool:

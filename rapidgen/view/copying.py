@@ -5,6 +5,23 @@ from collections.abc import Iterable
 from rapidgen.axes import frames
 from rapidgen.axes.kinematics import Kinematics, Posture, orientation
 from rapidgen.axes.mapping import ABSENT, JointMap
+from rapidgen.view.aspect import Declined
+from rapidgen.view.messages import Copy
+from rapidgen.view.robots import Carried
+
+
+def copied(
+    form: Copy, map: JointMap, kinematics: Kinematics | None, posture: Posture, carried: Carried
+) -> str:
+    """A posture in the form that was asked for. Declined: the model has no geometry."""
+    if form.form == "jointtarget":
+        return jointtarget(map, posture)
+    if form.form == "python":
+        return python(map, posture)
+    tcp = carried.tcp(kinematics, posture)
+    if tcp is None or kinematics is None:
+        raise Declined(f"the model of {form.group} has no geometry")
+    return robtarget(kinematics, posture, tcp, carried.object)
 
 
 def jointtarget(map: JointMap, posture: Posture) -> str:

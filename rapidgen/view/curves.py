@@ -23,7 +23,7 @@ _FLAT = 1.0
 
 
 @dataclass(frozen=True, slots=True)
-class Series:
+class JointCurves:
     """Joints over time, of one origin: `times` (n,) s, `positions` (n, k) rad or m."""
 
     label: str
@@ -65,7 +65,7 @@ class Chart:
         return f"{self.title} [{self.unit}]" if self.unit else self.title
 
 
-def layers_of(shown: Sequence[Plottable], labels: Sequence[str]) -> list[Series]:
+def layers_of(shown: Sequence[Plottable], labels: Sequence[str]) -> list[JointCurves]:
     """What is shown as layers over one time.
 
     A trajectory beside a recording of a robot begins when the controller took it. Where the
@@ -73,16 +73,16 @@ def layers_of(shown: Sequence[Plottable], labels: Sequence[str]) -> list[Series]
     where what was executed fits it best.
     """
     taken: list[float] = []
-    executed: Series | None = None
-    found: list[Series] = []
+    executed: JointCurves | None = None
+    found: list[JointCurves] = []
     for thing in shown:
         if isinstance(thing, JointRecording):
-            taken, executed = list(thing.begins), _series(thing.trajectory(), "executed")
+            taken, executed = list(thing.begins), _joint_curves(thing.trajectory(), "executed")
             found.append(executed)
         elif isinstance(thing, Recording):
             found += _of_simulation(thing)
         else:
-            found.append(_series(thing, "commanded" if len(shown) > 1 else "joints"))
+            found.append(_joint_curves(thing, "commanded" if len(shown) > 1 else "joints"))
     begins = iter(taken)
     fits = any(isinstance(thing, JointRecording) and thing.by_controller for thing in shown)
     for index, layer in enumerate(found):
@@ -97,13 +97,13 @@ def layers_of(shown: Sequence[Plottable], labels: Sequence[str]) -> list[Series]
     return _told_apart([replace(f, label=label) for f, label in zip(found, named, strict=False)])
 
 
-def _series(trajectory: Trajectory, label: str) -> Series:
+def _joint_curves(trajectory: Trajectory, label: str) -> JointCurves:
     count = trajectory.positions.shape[1]
     names = trajectory.names or tuple(f"joint_{i + 1}" for i in range(count))
-    return Series(label, names, trajectory.times, trajectory.positions)
+    return JointCurves(label, names, trajectory.times, trajectory.positions)
 
 
-def _of_simulation(recording: Recording) -> Iterator[Series]:
+def _of_simulation(recording: Recording) -> Iterator[JointCurves]:
     """Joints, the tool, and how far program and robot were in the moves."""
     times = recording.time - recording.time[:1]
     order: dict[str, int] = {}
@@ -118,10 +118,10 @@ def _of_simulation(recording: Recording) -> Iterator[Series]:
         if label == "commanded" and recording.tcp is not None:
             columns.append(recording.tcp[:, :3])
             names += ["x", "y", "z"]
-        yield Series(label, tuple(names), times, np.hstack(columns))
+        yield JointCurves(label, tuple(names), times, np.hstack(columns))
 
 
-def _told_apart(layers: list[Series]) -> list[Series]:
+def _told_apart(layers: list[JointCurves]) -> list[JointCurves]:
     seen: dict[str, int] = {}
     told = []
     for layer in layers:
@@ -131,7 +131,7 @@ def _told_apart(layers: list[Series]) -> list[Series]:
     return told
 
 
-def _late(commanded: Series, executed: Series) -> float:
+def _late(commanded: JointCurves, executed: JointCurves) -> float:
     """s by which `commanded` must be moved so that `executed` fits it best."""
     names = [name for name in commanded.names if name in executed.names]
     late = np.arange(-_SEARCHED, _SEARCHED, 0.005)
@@ -146,7 +146,9 @@ def _late(commanded: Series, executed: Series) -> float:
     return float(late[int(np.argmin(misses))]) if np.ptp(misses) > 0 else 0.0
 
 
-def charts_of(layers: Sequence[Series], group: Group | None, linear: Sequence[str]) -> list[Chart]:
+def charts_of(
+    layers: Sequence[JointCurves], group: Group | None, linear: Sequence[str]
+) -> list[Chart]:
     """A chart for each joint, with limits where a group tells them; then the difference of the
     second layer from the first, where they have joints in common."""
     metres = {"x", "y", "z", *linear}
@@ -203,7 +205,7 @@ def _near_limits(curves: Sequence[Curve], limits: Sequence[float]) -> Iterator[C
             yield Curve(f"{side} {limit:.1f}", times, np.full(2, limit), is_limit=True)
 
 
-def _differences(layers: Sequence[Series], metres: set[str]) -> Iterator[Chart]:
+def _differences(layers: Sequence[JointCurves], metres: set[str]) -> Iterator[Chart]:
     if len(layers) < 2:
         return
     asked, done = layers[:2]

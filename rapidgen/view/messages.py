@@ -11,6 +11,7 @@ from typing import Annotated, Literal, TypeAlias
 from pydantic import Field, TypeAdapter
 
 from rapidgen.view import program_messages as p
+from rapidgen.view import trajectory_messages as t
 from rapidgen.view.spoken import Spoken
 
 Finite = Annotated[float, Field(allow_inf_nan=False)]
@@ -51,6 +52,8 @@ class SeenRobot(Spoken):
     axes: tuple[Axis, ...]
     """In wire order, that of `RobotPlace.axes`."""
     has_geometry: bool
+    base: Pose = Pose(position=(0.0, 0.0, 0.0), orientation=(1.0, 0.0, 0.0, 0.0))
+    """Where its root is drawn: apart from robots that would stand in it."""
 
 
 class Scene(Spoken):
@@ -100,12 +103,14 @@ class PanelState(Spoken):
     e_stop: bool | None
     execution_error: bool
     failed: bool
-    running: bool
+    running: bool | None
+    """A program runs; of a robot that is watched: it can move."""
+    connected: bool = True
     tasks: Mapping[str, str]
     """Positions of each task, in a word."""
-    override: float
+    override: float | None
     """Speed of programs, 0..1."""
-    pace: float
+    pace: float | None
     """Simulated seconds in a second; 0: time stands."""
 
 
@@ -164,7 +169,7 @@ class ShownSignal(Spoken):
     largest: float | None
 
 
-class Signals(Spoken):
+class AllSignals(Spoken):
     """All signals."""
 
     type: Literal["signals"] = "signals"
@@ -172,7 +177,7 @@ class Signals(Spoken):
 
 
 class SignalValues(Spoken):
-    """Signals that have changed."""
+    """AllSignals that have changed."""
 
     type: Literal["values"] = "values"
     values: Mapping[str, float]
@@ -292,7 +297,7 @@ ToPage: TypeAlias = (
     | Log
     | Screen
     | Dialogs
-    | Signals
+    | AllSignals
     | SignalValues
     | Connections
     | p.LoadedPrograms
@@ -301,6 +306,7 @@ ToPage: TypeAlias = (
     | p.HeldValues
     | p.Covered
     | p.Playback
+    | t.DroppedTrajectory
     | Replied
 )
 Request: TypeAlias = (
@@ -316,7 +322,7 @@ Request: TypeAlias = (
     | p.ReadSource
     | p.SetBreakpoint
     | p.RemoveBreakpoint
-    | p.Drive
+    | p.Proceed
     | p.RunTo
     | p.StopOnErrors
     | p.LookAt
@@ -327,6 +333,9 @@ Request: TypeAlias = (
     | p.Seek
     | p.Play
     | p.ReadCurves
+    | t.DropTrajectory
+    | t.RunTrajectory
+    | t.ForgetTrajectory
 )
 
 

@@ -143,7 +143,7 @@ class RemoveBreakpoint(Spoken):
     number: int
 
 
-class Drive(Spoken):
+class Proceed(Spoken):
     """Pause, go on, step a task."""
 
     do: Literal["drive"] = "drive"
@@ -215,8 +215,8 @@ class Playback(Spoken):
     end: float
     time: float
     rate: float
-    cut: bool
-    """The recording was cut off."""
+    fault: str
+    """What of it cannot be shown, or is lost."""
 
 
 class Seek(Spoken):

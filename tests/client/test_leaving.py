@@ -149,8 +149,8 @@ def test_the_log_tells_what_was_done(connected, caplog):
 
 
 def test_the_log_warns_of_what_nobody_is_told(connected, caplog, comes):
-    with connected(control=True, reconnect=60) as (robot, controller):
+    with connected(control=True) as (robot, controller):
         robot.execute(LONG)
-        controller.drop()
+        controller.drop("state")
         assert comes(lambda: any(r.levelno == logging.WARNING for r in caplog.records))
         assert "nobody sees the robot any more" in caplog.text

@@ -46,6 +46,13 @@ ROUTINES = {
     },
     "routines.told": {"call": "told", "returns": "string"},
     "routines.divides": {"call": "cell:divides"},
+    "routines.slowly": {
+        "call": "cell:slowly",
+        "parameters": [
+            {"name": "seconds", "type": "num"},
+            {"name": "count", "type": "num", "mode": "inout"},
+        ],
+    },
     "routines.nobody": {"call": "cell:nobody"},
     "routines.other": {"call": "cell:weld"},
 }
@@ -74,6 +81,10 @@ CELL_MODULE = b"""MODULE cell
         MoveAbsJ back \\NoEOffs, v100, fine, tool0;
         steps := steps + 1;
     ENDPROC
+    PROC slowly(num seconds, INOUT num count)
+        WaitTime seconds;
+        count := count + 1;
+    ENDPROC
     PROC divides()
         VAR num none := 0;
         none := 1 / none;
@@ -101,6 +112,13 @@ ENDMODULE
 
 def with_routines():
     return driven(overrides=ROUTINES, modules=[ModuleFile("cell", "cell.mod", CELL_MODULE)])
+
+
+def test_a_result_is_that_of_its_own_call_whenever_it_ends():
+    # PROGRESS may tell the end before RESULT is asked for again.
+    with with_routines() as (robot, _):
+        for n in range(30):
+            assert robot.call("slowly", 0.04 + 0.007 * n, float(n)) == (n + 1.0,)
 
 
 def test_a_routine_is_called_and_tells_its_results():

@@ -1,20 +1,32 @@
 """A simulator with its page in a process of its own, and waiting for what a page shows."""
 
+import io
 import json
 import os
 import subprocess
 import sys
 import time
 from contextlib import contextmanager
+from pathlib import Path
 
+from PIL import Image
+
+DOCS = Path(__file__).parents[2] / "docs" / "use"
 PATIENCE = 60.0
 
 
 @contextmanager
 def simulator(*arguments, environment=None):
     """`rapidgen sim ... --view` in a process of its own; what `ready` says, and the process."""
+    with served("sim", *arguments, "--ports", "auto", "--view", environment=environment) as found:
+        yield found
+
+
+@contextmanager
+def served(*arguments, environment=None):
+    """`rapidgen ...` that serves something; what `ready` says, and the process."""
     process = subprocess.Popen(
-        [sys.executable, "-m", "rapidgen.cli", "sim", *arguments, "--ports", "auto", "--view"],
+        [sys.executable, "-m", "rapidgen.cli", *arguments],
         stdout=subprocess.PIPE,
         stderr=subprocess.DEVNULL,
         text=True,
@@ -43,3 +55,10 @@ def until(page, expression, wanted=lambda value: value):
 
 
 STATE = "window.rapidgen && rapidgen.state()"
+
+
+def picture_for_docs(page, name):
+    """docs/use/NAME.png as the page is now, where RAPIDGEN_PICTURES asks for it."""
+    if os.environ.get("RAPIDGEN_PICTURES"):
+        shot = Image.open(io.BytesIO(page.screenshot()))
+        shot.quantize(160, dither=Image.Dither.NONE).save(DOCS / f"{name}.png", optimize=True)

@@ -28,7 +28,7 @@ PROGRAM = """MODULE work
 ENDMODULE
 """
 SEEN = "rapidgen.panels.program.seen"
-HALTED = "(at => !at.hidden && at.textContent)(document.querySelector('.halt'))"
+HALTED = "(at => !at.hidden && at.textContent)(document.querySelector('.program .halt'))"
 
 
 @pytest.fixture
@@ -111,6 +111,7 @@ def test_steps_stack_and_setting_a_value(page):
 def test_a_condition_a_hover_and_a_log_point(page):
     set_breakpoint(page, 11)
     halted(page, 11)
+    before = values(page, "i")
     condition = page.get_by_placeholder("Condition")
     condition.fill("i MOD 3 = 0")
     condition.press("Enter")
@@ -118,9 +119,9 @@ def test_a_condition_a_hover_and_a_log_point(page):
     until(
         page,
         f"({HALTED}) && document.querySelector('[aria-label=\"Value of i\"]').value",
-        lambda value: value and int(value) % 3 == 0,
+        lambda value: value and value != before and int(value) % 3 == 0,
     )
-    page.locator(".cm-content").get_by_text("i := i + 1").hover(position={"x": 52, "y": 8})
+    page.locator(".cm-content").get_by_text("total := total + n").hover(position={"x": 45, "y": 8})
     page.locator(".cm-value").wait_for()
     tell = page.get_by_placeholder("Tell, do not pause")
     tell.fill("i is {i}")

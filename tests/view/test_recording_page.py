@@ -1,15 +1,13 @@
 """A recording in the page: scrubbed there and back, program, signals and robot are as they were."""
 
-import subprocess
-import sys
-
 import numpy as np
 import pytest
+from PIL import Image
 
 from rapidgen.controller import VirtualController
 from rapidgen.view.recording.reader import RecordingFile
 from rapidgen.view.recording.writer import record
-from tests.view.bench import STATE, until
+from tests.view.bench import STATE, served, until
 from tests.view.test_recording import PROGRAM
 
 pytestmark = pytest.mark.browser
@@ -32,19 +30,12 @@ def recorded(tmp_path_factory):
 
 @pytest.fixture
 def page(recorded, open_page):
-    with subprocess.Popen(
-        [sys.executable, "-m", "rapidgen.cli", "view", str(recorded)],
-        stdout=subprocess.PIPE,
-        text=True,
-    ) as process:
-        try:
-            page = open_page(process.stdout.readline().strip())
-            page.get_by_role("tab", name="Recording").click()
-            until(page, f"window.rapidgen && {SEEN}.time !== undefined")
-            yield page
-            page.close()
-        finally:
-            process.terminate()
+    with served("view", str(recorded)) as (ready, _):
+        page = open_page(ready["view"])
+        page.get_by_role("tab", name="Recording").click()
+        until(page, f"window.rapidgen && {SEEN}.time !== undefined")
+        yield page
+        page.close()
 
 
 def seek(page, time):
@@ -99,3 +90,25 @@ def test_it_plays_and_refuses_to_command(page):
     refused = page.evaluate("rapidgen.link.ask({do: 'act', action: 'start'}).catch(e => e.message)")
     assert "not commanded" in refused
     assert not page.get_by_role("button", name="Step in").is_visible()
+
+
+def test_pictures_and_films_are_saved(page, tmp_path):
+    with page.expect_download() as found:
+        page.get_by_role("button", name="PNG of the robots").click()
+    found.value.save_as(tmp_path / "robots.png")
+    with Image.open(tmp_path / "robots.png") as picture:
+        assert picture.size[0] > 300
+        assert len(picture.convert("RGB").getcolors(1 << 20)) > 20
+    page.get_by_role("button", name="Film the robots").click()
+    page.get_by_role("button", name="Play").click()
+    until(page, f"{SEEN}.time", lambda time: time > 0.5)
+    with page.expect_download() as found:
+        page.get_by_role("button", name="End the film").click()
+    found.value.save_as(tmp_path / "robots.webm")
+    data = (tmp_path / "robots.webm").read_bytes()
+    assert data.startswith(b"\x1a\x45\xdf\xa3")  # EBML, which WebM is
+    assert len(data) > 5000
+    with page.expect_download() as found:
+        page.get_by_role("button", name="CSV").click()
+    found.value.save_as(tmp_path / "curves.csv")
+    assert (tmp_path / "curves.csv").read_text().startswith('"time","joint_1"')

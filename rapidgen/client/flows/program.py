@@ -149,6 +149,9 @@ def call(
     except RobotTimeout:
         yield from stop(core)
         raise
+    if told.trajectory != motion.number:
+        # The motion's end came first: what is known is of the call before.
+        told = yield from _told(core)
     (own,) = (r for r in core.known_group.routines if r.name == routine)
     return (yield from _results(core, own, told))
 

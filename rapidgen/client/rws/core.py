@@ -1,5 +1,6 @@
 """What a client of Robot Web Services knows and decides: no I/O, no thread, no loop."""
 
+import logging
 import socket
 import time
 from collections import deque
@@ -14,6 +15,7 @@ from rapidgen.client.rws.errors import LoginFailed
 from rapidgen.wire.rws.bodies import Generation
 from rapidgen.wire.rws.operations import Route, RwsOperation
 
+_LOG = logging.getLogger("rapidgen.client")
 RATE = 18
 """Requests in a second: RWS 1.0 answers 503 above 20 [RWS manual]."""
 APPLICATION = "rapidgen"
@@ -81,6 +83,10 @@ class RwsCore:
         """The id of this machine as a control station of RobotWare 8: always the same, so that
         write access that was left behind can be given back."""
         return f"{{{str(uuid5(NAMESPACE_DNS, f'{APPLICATION}.{socket.gethostname()}')).upper()}}}"
+
+    def tell(self, text: str, level: int = logging.INFO) -> None:
+        """Log something; no body and no login is ever in it."""
+        _LOG.log(level, "%s: %s", self.where, text)
 
     def check_login(self) -> None:
         """Refuse before a byte is sent. Raises LoginFailed (RG651)."""

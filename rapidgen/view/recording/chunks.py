@@ -9,7 +9,7 @@ import zlib
 from collections import OrderedDict
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from typing import BinaryIO, Final
+from typing import BinaryIO, Final, NamedTuple
 
 import zstandard
 from mcap.data_stream import ReadDataStream
@@ -187,8 +187,7 @@ def _records(data: bytes) -> Iterator[tuple[int, int, int]]:
         yield opcode, begin, at
 
 
-@dataclass(frozen=True, slots=True)
-class StoredMessage:
+class StoredMessage(NamedTuple):
     """One message, not yet decoded."""
 
     time: int

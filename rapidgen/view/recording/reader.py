@@ -27,6 +27,8 @@ _NS = 1_000_000_000
 _M = TypeVar("_M", bound=m.Recorded)
 _T = TypeVar("_T")
 EVENTS_KEPT = 50
+_WHOLE = frozenset({"joints", "carried", "task", "panel"})
+"""What each message tells whole: the last one counts."""
 _SIGNALS: TypeAdapter[dict[str, m.RecordedSignal]] = TypeAdapter(dict[str, m.RecordedSignal])
 _Row = tuple[float, tuple[float, ...], tuple[float, ...]]
 _OVERVIEW: TypeAdapter[dict[str, list[_Row]]] = TypeAdapter(dict[str, list[_Row]])
@@ -137,7 +139,13 @@ class RecordingFile:
         now = round(min(max(time, self.begin), self.end) * _NS)
         start = self._snapshot_before(now)
         moment = Moment(now / _NS)
+        latest: dict[int, StoredMessage] = {}
         for message in self._messages(start, now):
+            if self._topics.get(message.channel, "").partition("/")[0] in _WHOLE:
+                latest[message.channel] = message
+            else:
+                self._apply(moment, message)
+        for message in latest.values():
             self._apply(moment, message)
         return moment
 

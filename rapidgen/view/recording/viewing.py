@@ -11,7 +11,7 @@ from rapidgen.config.model import GroupConfig
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.view import messages as v
 from rapidgen.view import program_messages as p
-from rapidgen.view.aspect import Aspect, Handler, NotDone
+from rapidgen.view.aspect import Aspect, Declined, Handler
 from rapidgen.view.drawing import described
 from rapidgen.view.messages import Request, ToPage
 from rapidgen.view.recording import messages as m
@@ -81,6 +81,7 @@ class RecordedAspect:
         self._moment = file.at(file.begin)
         self._rate = 0.0
         self._looked = 0.0
+        self._fault = ""
         self._task = next((robot.config.task for robot in self._robots), "")
         self._seen: tuple[object, ...] = ()
         self._sources: dict[str, int] = {}
@@ -102,12 +103,9 @@ class RecordedAspect:
         """What differs; while it plays time goes on."""
         now = time.monotonic()
         if self._rate:
-            ahead = self._moment.time + (now - self._looked) * self._rate
-            self._moment = self._file.at(ahead)
-            if ahead >= self._file.end:
-                self._rate = 0.0
+            self._go_on((now - self._looked) * self._rate)
         self._looked = now
-        seen = (self._moment, self._rate, self._task)
+        seen = (self._moment, self._rate, self._task, self._fault)
         if seen == self._seen:
             return
         self._seen = seen
@@ -115,6 +113,15 @@ class RecordedAspect:
             if self._told.get(type(message)) != message:
                 self._told[type(message)] = message
                 yield message
+
+    def _go_on(self, seconds: float) -> None:
+        ahead = self._moment.time + seconds
+        try:
+            self._moment = self._file.at(ahead)
+        except DiagnosticError as error:
+            self._fault, self._rate = error.diagnostics[0].message, 0.0
+        if ahead >= self._file.end:
+            self._rate = 0.0
 
     def _now(self) -> Iterable[ToPage]:
         moment = self._moment
@@ -124,7 +131,7 @@ class RecordedAspect:
         if moment.panel is not None:
             yield self._panel(moment, moment.panel)
         yield v.Log(entries=tuple(map(_entry, moment.log)), fresh=True)
-        yield v.Signals(
+        yield v.AllSignals(
             signals=tuple(
                 v.ShownSignal(name=name, value=moment.signals[name], **known.model_dump())
                 for name, known in self._file.signals.items()
@@ -140,7 +147,7 @@ class RecordedAspect:
             end=self._file.end,
             time=moment.time,
             rate=self._rate,
-            cut=self._file.cut,
+            fault=self._fault or ("it was cut off, and ends here" if self._file.cut else ""),
         )
 
     def _panel(self, moment: Moment, panel: m.RecordedPanel) -> v.PanelState:
@@ -197,6 +204,7 @@ class RecordedAspect:
 
     def _play(self, request: Request) -> str:
         assert isinstance(request, p.Play)
+        self._fault = ""
         self._rate, self._looked = request.rate, time.monotonic()
         if self._moment.time >= self._file.end and request.rate:
             self._moment = self._file.at(self._file.begin)
@@ -206,7 +214,7 @@ class RecordedAspect:
         assert isinstance(request, p.ReadSource)
         found = next((t for t, number in self._sources.items() if number == request.number), None)
         if found is None:
-            raise NotDone("it is not in the recording")
+            raise Declined("it is not in the recording")
         return found
 
     def _curves(self, request: Request) -> str:
@@ -232,7 +240,7 @@ class RecordedAspect:
             curves = [{"name": request.signal, "values": values}]
             charts = [{"title": request.signal, "curves": curves}]
         else:
-            raise NotDone("there is nothing of that name in the recording")
+            raise Declined("there is nothing of that name in the recording")
         return json.dumps({"time": times, "charts": charts})
 
 
@@ -243,7 +251,7 @@ def _read(handler: Handler) -> Handler:
         try:
             return handler(request)
         except DiagnosticError as error:
-            raise NotDone(error.diagnostics[0].message) from error
+            raise Declined(error.diagnostics[0].message) from error
 
     return carried_out
 

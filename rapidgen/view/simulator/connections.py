@@ -4,7 +4,7 @@ from collections.abc import Iterable, Mapping
 
 from rapidgen.controller.cabinet import Cabinet
 from rapidgen.machine.network.sockets import SocketDevice
-from rapidgen.view.aspect import Handler, NotDone
+from rapidgen.view.aspect import Declined, Handler
 from rapidgen.view.messages import Connections, Cut, Request, ShownSocket, ToPage
 
 
@@ -39,7 +39,7 @@ class ConnectionsAspect:
             if id(device) == request.number and _peer(device):
                 self._sockets.cut(device)
                 return ""
-        raise NotDone("this connection has gone")
+        raise Declined("this connection has gone")
 
 
 def _peer(device: SocketDevice) -> str:

@@ -5,11 +5,11 @@ from collections.abc import Iterable, Mapping
 from rapidgen.controller.cabinet import Cabinet
 from rapidgen.motion.group import MotionGroup
 from rapidgen.runtime.task.task import Task
-from rapidgen.view.aspect import Handler, NotDone
-from rapidgen.view.copying import jointtarget, python, robtarget
+from rapidgen.view.aspect import Declined, Handler
+from rapidgen.view.copying import copied
 from rapidgen.view.drawing import Drawing, described
 from rapidgen.view.messages import Copy, Jog, Positions, Request, RobotPlace, Scene, ToPage
-from rapidgen.view.robots import Carried, group_of, pose_of
+from rapidgen.view.robots import Carried, group_of, pose_of, side_by_side
 
 
 class MotionAspect:
@@ -24,14 +24,12 @@ class MotionAspect:
 
     def whole(self) -> Iterable[ToPage]:
         """What is there and where it is."""
+        configs = [group.config for group in self._groups]
         yield Scene(
             title=self._controller.system.name,
             kind="simulation",
             may_command=True,
-            groups=tuple(
-                group_of(group.config, drawing)
-                for group, drawing in zip(self._groups, self._drawings, strict=True)
-            ),
+            groups=tuple(side_by_side(configs, [*map(group_of, configs, self._drawings)])),
         )
         yield self._state(self._now())
 
@@ -82,34 +80,26 @@ class MotionAspect:
         group = self._group(request.group)
         joints = group.config.joints
         if len(request.axes) != len(joints):
-            raise NotDone(f"{group.name} has {len(joints)} axes")
+            raise Declined(f"{group.name} has {len(joints)} axes")
         for joint, value in zip(joints, request.axes, strict=True):
             if not joint.lower <= value <= joint.upper:
-                raise NotDone(f"{joint.name} would leave its range")
+                raise Declined(f"{joint.name} would leave its range")
         if any(t.state == "running" and t.spec.motion for t in self._tasks()):
-            raise NotDone("a program has the robot: stop it first")
+            raise Declined("a program has the robot: stop it first")
         try:
             group.jog(request.axes)
         except ValueError as error:
-            raise NotDone(str(error)) from error
+            raise Declined(str(error)) from error
         return ""
 
     def _copy(self, request: Request) -> str:
         assert isinstance(request, Copy)
         group = self._group(request.group)
-        posture = group.positions()
-        if request.form == "jointtarget":
-            return jointtarget(group.map, posture)
-        if request.form == "python":
-            return python(group.map, posture)
-        carried = self._carried(group)
-        tcp = carried.tcp(group.kinematics, posture)
-        if tcp is None or group.kinematics is None:
-            raise NotDone(f"the model of {group.name} has no geometry")
-        return robtarget(group.kinematics, posture, tcp, carried.object)
+        posture, carried = group.positions(), self._carried(group)
+        return copied(request, group.map, group.kinematics, posture, carried)
 
     def _group(self, name: str) -> MotionGroup:
         group = self._controller.motion.groups.get(name)
         if group is None:
-            raise NotDone(f"there is no robot {name}")
+            raise Declined(f"there is no robot {name}")
         return group

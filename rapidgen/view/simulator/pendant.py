@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Mapping
 
 from rapidgen.controller.cabinet import Cabinet
-from rapidgen.view.aspect import Handler, NotDone
+from rapidgen.view.aspect import Declined, Handler
 from rapidgen.view.messages import Act, PanelState, Request, SetMode, SetOverride, SetPace, ToPage
 
 _EVERY = 0.5
@@ -60,9 +60,9 @@ class PendantAspect:
         assert isinstance(request, Act)
         c = self._controller
         if request.action == "start" and not c.start_program():
-            raise NotDone("the start was refused: the event log says why")
+            raise Declined("the start was refused: the event log says why")
         if request.action == "pp-to-main" and self._status().running:
-            raise NotDone("a program runs: stop it first")
+            raise Declined("a program runs: stop it first")
         if request.action != "start":
             c.perform(request.action)
         return ""

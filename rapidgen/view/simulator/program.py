@@ -8,7 +8,7 @@ from rapidgen.controller.debugger.stack import Level, StackFrame
 from rapidgen.controller.tracing import Coverage
 from rapidgen.runtime.errors import Location
 from rapidgen.view import program_messages as p
-from rapidgen.view.aspect import Handler, NotDone
+from rapidgen.view.aspect import Declined, Handler
 from rapidgen.view.messages import Request, ToPage
 
 _LINES = 200
@@ -145,7 +145,7 @@ class ProgramAspect:
             p.ReadSource: self._source,
             p.SetBreakpoint: self._break,
             p.RemoveBreakpoint: self._unbreak,
-            p.Drive: self._drive,
+            p.Proceed: self._drive,
             p.RunTo: self._run_to,
             p.StopOnErrors: self._stop_on,
             p.LookAt: self._look,
@@ -160,7 +160,7 @@ class ProgramAspect:
         assert isinstance(request, p.ReadSource)
         found = next((t for t, number in self._texts.items() if number == request.number), None)
         if found is None:
-            raise NotDone("it is not loaded any more")
+            raise Declined("it is not loaded any more")
         return found
 
     def _break(self, request: Request) -> str:
@@ -176,10 +176,10 @@ class ProgramAspect:
         try:
             placed = self._debugger.add(asked)
         except ValueError as error:
-            raise NotDone(str(error)) from error
+            raise Declined(str(error)) from error
         if not placed.line:
             self._debugger.remove(placed.number)
-            raise NotDone(placed.doubt)
+            raise Declined(placed.doubt)
         self._keep()
         return str(placed.number)
 
@@ -193,7 +193,7 @@ class ProgramAspect:
         self._asked[:] = [placed.asked for placed in self._debugger.placed.values()]
 
     def _drive(self, request: Request) -> str:
-        assert isinstance(request, p.Drive)
+        assert isinstance(request, p.Proceed)
         match request.how:
             case "pause":
                 self._debugger.pause()
@@ -252,7 +252,7 @@ class ProgramAspect:
 
     def _known(self, task: str) -> None:
         if task not in self._tasks:
-            raise NotDone(f"there is no task {task}")
+            raise Declined(f"there is no task {task}")
 
 
 def _told(handler: Callable[[Request], str]) -> Handler:
@@ -262,7 +262,7 @@ def _told(handler: Callable[[Request], str]) -> Handler:
         try:
             return handler(request)
         except NotNow as reason:
-            raise NotDone(str(reason)) from reason
+            raise Declined(str(reason)) from reason
 
     return carried_out
 

@@ -5,8 +5,8 @@ from collections.abc import Iterable, Mapping
 
 from rapidgen.controller.cabinet import Cabinet
 from rapidgen.machine.io import Signal
-from rapidgen.view.aspect import Handler, NotDone
-from rapidgen.view.messages import Request, SetSignal, ShownSignal, Signals, SignalValues, ToPage
+from rapidgen.view.aspect import Declined, Handler
+from rapidgen.view.messages import AllSignals, Request, SetSignal, ShownSignal, SignalValues, ToPage
 
 
 class SignalsAspect:
@@ -18,7 +18,7 @@ class SignalsAspect:
 
     def whole(self) -> Iterable[ToPage]:
         """All of them."""
-        yield Signals(signals=tuple(map(_shown, self._io.signals.values())))
+        yield AllSignals(signals=tuple(map(_shown, self._io.signals.values())))
 
     def changes(self) -> Iterable[ToPage]:
         """The values that are new."""
@@ -36,11 +36,11 @@ class SignalsAspect:
         assert isinstance(request, SetSignal)
         signal = self._io.get(request.name)
         if signal is None:
-            raise NotDone(f"there is no signal {request.name}")
+            raise Declined(f"there is no signal {request.name}")
         try:
             self._io.set(signal, request.value)
         except ValueError as error:
-            raise NotDone(str(error)) from error
+            raise Declined(str(error)) from error
         return ""
 
 

@@ -5,7 +5,7 @@ from typing import Literal
 
 from rapidgen.controller.cabinet import Cabinet
 from rapidgen.machine.log import Event, EventType
-from rapidgen.view.aspect import Handler, NotDone
+from rapidgen.view.aspect import Declined, Handler
 from rapidgen.view.messages import (
     AnswerQuestion,
     Dialog,
@@ -71,9 +71,9 @@ class TellingAspect:
         try:
             self._controller.operator.answer(request.number, request.value)
         except KeyError as error:
-            raise NotDone("the dialog has gone") from error
+            raise Declined("the dialog has gone") from error
         except ValueError as error:
-            raise NotDone(str(error)) from error
+            raise Declined(str(error)) from error
         return ""
 
 

@@ -2,6 +2,7 @@
 
 import asyncio
 import inspect
+import logging
 import threading
 from concurrent.futures import ThreadPoolExecutor
 
@@ -50,6 +51,18 @@ def test_a_controller_is_read_and_driven(served):
         assert controller.module_text("T_ROB1", "MainModule").startswith("MODULE MainModule")
         assert controller.log(count=1)[0].title == "Program stopped"
     assert served.on_controller(lambda: served.cabinet.controller.signals["do x;1"]) == 1
+
+
+def test_the_log_tells_what_was_asked_for_and_no_secret(served, caplog):
+    caplog.set_level(logging.DEBUG, "rapidgen.client")
+    with Controller(served.address, **served.keywords) as controller:
+        controller.set_symbol("T_ROB1/MainModule/name", '"secret value"')
+    told = [r for r in caplog.records if r.name == "rapidgen.client"]
+    assert any("logged in as" in r.getMessage() for r in told if r.levelno == logging.INFO)
+    assert any("POST /rw/" in r.getMessage() for r in told if r.levelno == logging.INFO)
+    assert not any(r.getMessage().split(": ")[1].startswith("GET") and r.levelno > 10 for r in told)
+    assert served.service.password not in caplog.text
+    assert "secret value" not in caplog.text
 
 
 def test_a_task_comes_with_cfg_files_and_a_restart(served):

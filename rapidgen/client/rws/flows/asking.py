@@ -1,5 +1,6 @@
 """One operation asked for: media types, forms, repeats, refusals."""
 
+import logging
 from collections.abc import Mapping
 
 from rapidgen.client.rws.core import RwsCore
@@ -11,6 +12,8 @@ from rapidgen.wire.rws.forms import Fields, form_type, write_form
 from rapidgen.wire.rws.grants import needed
 from rapidgen.wire.rws.operations import RwsOperation
 
+_LEVELS = {True: logging.DEBUG, False: logging.INFO}
+"""What is only looked at, and what is asked to be done."""
 _TRIES = 6
 _BREATH = 0.25
 """s after a 503 [code: a public client waits 200 ms]."""
@@ -68,6 +71,9 @@ def _send(
     for _ in range(_TRIES):
         core.requests += 1
         response = yield Exchange(method, target, headers, body, repeat=method == "GET")
+        core.tell(
+            f"{method} {target.partition('?')[0]}: {response.status}", _LEVELS[method == "GET"]
+        )
         if response.status == 503:
             yield Pause(_BREATH)
             continue

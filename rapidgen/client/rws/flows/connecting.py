@@ -55,6 +55,7 @@ def connect(core: RwsCore) -> Flow[None]:
     if core.generation is Generation.TWO and whole(core.robotware.partition(".")[0]) >= 8:
         core.generation = Generation.EIGHT
     core.connected = True
+    core.tell(f"logged in as {core.user}: '{core.system}', RobotWare {core.robotware}")
     yield from ask(
         core,
         ops.REGISTER_USER,

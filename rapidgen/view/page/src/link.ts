@@ -14,6 +14,10 @@ export class Link {
   private readonly watchers: ((state: Connection) => void)[] = [];
   private readonly pending = new Map<number, (error: string, text: string) => void>();
 
+  get isOpen(): boolean {
+    return this.socket?.readyState === WebSocket.OPEN;
+  }
+
   /** Call a function for each message of a type. */
   on<T extends ToPage["type"]>(type: T, listener: (message: Of<T>) => void): void {
     this.listeners.set(type, [...(this.listeners.get(type) ?? []), listener as (m: never) => void]);
@@ -42,7 +46,9 @@ export class Link {
     const socket = new WebSocket(`ws://${location.host}/link`);
     this.socket = socket;
     socket.onopen = () => this.tell("open");
-    socket.onmessage = (event) => this.take(JSON.parse(event.data as string) as ToPage);
+    socket.onmessage = (event) => {
+      for (const message of JSON.parse(event.data as string) as ToPage[]) this.take(message);
+    };
     socket.onclose = () => {
       this.socket = null;
       for (const settle of this.pending.values()) settle("the connection was lost", "");

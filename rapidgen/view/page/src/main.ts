@@ -25,6 +25,7 @@ function stageOrNone(): Stage | null {
 }
 
 const link = new Link();
+let watched = false;
 const stage = stageOrNone();
 const notices = h("div", { class: "notices", role: "panel", "aria-live": "polite" });
 const view: View = {
@@ -58,12 +59,17 @@ const MODES = { auto: "Auto", manual_reduced: "Manual", manual_full: "Manual ful
 
 function showStatus(status: PanelState): void {
   mark(chips.mode, status.mode ? MODES[status.mode] : "Mode unknown", status.mode === "auto" ? "good" : "");
-  const stop = status.e_stop ? "Emergency stop" : status.motors_on ? "Motors on" : "Motors off";
+  const stop = status.e_stop ? "Emergency stop" : status.motors_on === null ? "Motors unknown"
+    : status.motors_on ? "Motors on" : "Motors off";
   mark(chips.motors, stop, status.e_stop ? "bad" : status.motors_on ? "good" : "");
-  const program = status.failed ? "System failure" : status.execution_error ? "Error"
-    : status.running ? "Running" : "Stopped";
-  mark(chips.program, program, status.failed || status.execution_error ? "bad" : status.running ? "good" : "");
+  const program = held ? "Paused" : status.failed ? "System failure" : status.execution_error ? "Error"
+    : watched ? (status.running ? "Can move" : "Cannot move") : status.running ? "Running" : "Stopped";
+  mark(chips.program, program, held || status.failed || status.execution_error ? "bad" : status.running ? "good" : "");
   showTime(status.time);
+  if (link.isOpen) {
+    banner.hidden = status.connected;
+    say(banner, "The connection to the robot is lost: what you see is old.");
+  }
 }
 
 function mark(element: HTMLElement, text: string, kind: "" | "good" | "bad"): void {
@@ -98,10 +104,14 @@ const tabs = new Tabs(panels);
 document.body.append(bar, banner, h("div", { class: "whole" }, space, tabs.element), notices);
 
 let state: Positions | null = null;
+let panel: PanelState | null = null;
+let held = false;
 link.on("scene", (scene) => {
   say(title, scene.title);
   document.title = `${scene.title} – rapidgen`;
   document.body.dataset["kind"] = scene.kind;
+  tabs.fit(scene.kind);
+  watched = scene.kind === "robot";
   document.body.classList.toggle("reads", !scene.may_command);
   stage?.build(scene);
 });
@@ -110,7 +120,14 @@ link.on("positions", (now) => {
   stage?.show(now);
   showTime(now.time);
 });
-link.on("panel", showStatus);
+link.on("panel", (now) => {
+  panel = now;
+  showStatus(now);
+});
+link.on("debugging", ({ halt }) => {
+  held = halt !== null;
+  if (panel) showStatus(panel);
+});
 link.watch((connection) => {
   document.body.dataset["connection"] = connection;
   if (connection === "connecting") return;

@@ -6,6 +6,12 @@ export interface Act {
   readonly action: "e-stop" | "reset-e-stop" | "motors-on" | "motors-off" | "start" | "stop" | "pp-to-main" | "power-loss";
 }
 
+/** All signals. */
+export interface AllSignals {
+  readonly type: "signals";
+  readonly signals: readonly ShownSignal[];
+}
+
 /** What the operator chose or typed. */
 export interface AnswerQuestion {
   readonly do: "answer";
@@ -86,11 +92,27 @@ export interface Dialogs {
   readonly waiting: readonly Dialog[];
 }
 
-/** Pause, go on, step a task. */
-export interface Drive {
-  readonly do: "drive";
-  readonly how: "pause" | "resume" | "in" | "over" | "out";
-  readonly task: string;
+/** Check a file's text for a robot; nothing moves. */
+export interface DropTrajectory {
+  readonly do: "drop";
+  readonly group: string;
+  readonly file: string;
+  readonly text: string;
+}
+
+/** A trajectory as it was checked; the file's name is empty when there is none. */
+export interface DroppedTrajectory {
+  readonly type: "trajectory";
+  readonly group: string;
+  readonly file: string;
+  readonly seconds: number;
+  readonly points: number;
+  readonly way: readonly (readonly [number, number, number])[];
+  readonly pace: readonly number[];
+  readonly steps: number;
+  readonly findings: readonly TrajectoryFinding[];
+  readonly state: "refused" | "checked" | "running" | "done" | "failed";
+  readonly told: string;
 }
 
 /** The reply's text is the value of an expression where it is looked at. */
@@ -99,10 +121,15 @@ export interface Evaluate {
   readonly expression: string;
 }
 
+/** Take it off the page. */
+export interface ForgetTrajectory {
+  readonly do: "forget";
+}
+
 /** A request and the number that its reply will have. */
 export interface FromPage {
   readonly id: number;
-  readonly request: Act | SetMode | SetOverride | SetPace | AnswerQuestion | Jog | Copy | SetSignal | Cut | ReadSource | SetBreakpoint | RemoveBreakpoint | Drive | RunTo | StopOnErrors | LookAt | Evaluate | Assign | SetWatch | Cover | Seek | Play | ReadCurves;
+  readonly request: Act | SetMode | SetOverride | SetPace | AnswerQuestion | Jog | Copy | SetSignal | Cut | ReadSource | SetBreakpoint | RemoveBreakpoint | Proceed | RunTo | StopOnErrors | LookAt | Evaluate | Assign | SetWatch | Cover | Seek | Play | ReadCurves | DropTrajectory | RunTrajectory | ForgetTrajectory;
 }
 
 /** What the routine that is looked at holds, and the watch list. */
@@ -167,10 +194,11 @@ export interface PanelState {
   readonly e_stop: boolean | null;
   readonly execution_error: boolean;
   readonly failed: boolean;
-  readonly running: boolean;
+  readonly running: boolean | null;
+  readonly connected: boolean;
   readonly tasks: Readonly<Record<string, string>>;
-  readonly override: number;
-  readonly pace: number;
+  readonly override: number | null;
+  readonly pace: number | null;
 }
 
 /** Let it run, at so many seconds in a second; 0 stops. */
@@ -186,7 +214,7 @@ export interface Playback {
   readonly end: number;
   readonly time: number;
   readonly rate: number;
-  readonly cut: boolean;
+  readonly fault: string;
 }
 
 /** Program pointers and motion pointers. */
@@ -207,6 +235,13 @@ export interface Positions {
   readonly type: "positions";
   readonly time: number;
   readonly groups: readonly RobotPlace[];
+}
+
+/** Pause, go on, step a task. */
+export interface Proceed {
+  readonly do: "drive";
+  readonly how: "pause" | "resume" | "in" | "over" | "out";
+  readonly task: string;
 }
 
 /** The reply's text is PlotData (JSON) of a robot's axes or of a signal. */
@@ -256,6 +291,11 @@ export interface RunTo {
   readonly task: string;
   readonly module: string;
   readonly line: number;
+}
+
+/** Execute what was checked, through the simulator's driver. */
+export interface RunTrajectory {
+  readonly do: "run";
 }
 
 /** The first message of a connection, and of a controller that has restarted. */
@@ -319,6 +359,7 @@ export interface SeenRobot {
   readonly movable: readonly string[];
   readonly axes: readonly Axis[];
   readonly has_geometry: boolean;
+  readonly base: Pose;
 }
 
 /** A task: what it executes, outermost routine first, and what its robot executes. */
@@ -397,16 +438,10 @@ export interface ShownSocket {
   readonly peer: string;
 }
 
-/** Signals that have changed. */
+/** AllSignals that have changed. */
 export interface SignalValues {
   readonly type: "values";
   readonly values: Readonly<Record<string, number>>;
-}
-
-/** All signals. */
-export interface Signals {
-  readonly type: "signals";
-  readonly signals: readonly ShownSignal[];
 }
 
 /** At which errors everything pauses. */
@@ -415,6 +450,16 @@ export interface StopOnErrors {
   readonly errors: "never" | "unhandled" | "all";
 }
 
-export type ToPage = Connections | Covered | Debugging | Dialogs | HeldValues | LoadedPrograms | Log | PanelState | Playback | Pointers | Positions | Replied | Scene | Screen | SignalValues | Signals;
+/** What is wrong or doubtful; `point` counts from 0, None: it is of no point. */
+export interface TrajectoryFinding {
+  readonly code: string;
+  readonly severity: string;
+  readonly message: string;
+  readonly help: string;
+  readonly line: number | null;
+  readonly point: number | null;
+}
 
-export type Request = Act | AnswerQuestion | Assign | Copy | Cover | Cut | Drive | Evaluate | Jog | LookAt | Play | ReadCurves | ReadSource | RemoveBreakpoint | RunTo | Seek | SetBreakpoint | SetMode | SetOverride | SetPace | SetSignal | SetWatch | StopOnErrors;
+export type ToPage = AllSignals | Connections | Covered | Debugging | Dialogs | DroppedTrajectory | HeldValues | LoadedPrograms | Log | PanelState | Playback | Pointers | Positions | Replied | Scene | Screen | SignalValues;
+
+export type Request = Act | AnswerQuestion | Assign | Copy | Cover | Cut | DropTrajectory | Evaluate | ForgetTrajectory | Jog | LookAt | Play | Proceed | ReadCurves | ReadSource | RemoveBreakpoint | RunTo | RunTrajectory | Seek | SetBreakpoint | SetMode | SetOverride | SetPace | SetSignal | SetWatch | StopOnErrors;

@@ -1,7 +1,7 @@
 // The seam of the page: what a panel is, and what it may use.
 
 import type { Link } from "./link";
-import type { Request } from "./messages";
+import type { Request, Scene } from "./messages";
 import type { Stage } from "./stage/stage";
 
 /** What a panel is given. */
@@ -20,6 +20,8 @@ export interface Panel {
   readonly id: string;
   readonly title: string;
   readonly element: HTMLElement;
+  /** Of what it is a face; absent: of everything. */
+  readonly kinds?: readonly Scene["kind"][];
   /** Called when the tab is shown and hidden: what nobody sees need not be kept up. */
   shown?(visible: boolean): void;
 }

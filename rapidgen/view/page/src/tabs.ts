@@ -1,6 +1,7 @@
 // Panels behind tabs, by mouse and by keyboard (arrow keys, as the ARIA pattern has them).
 
 import { h } from "./dom";
+import type { Scene } from "./messages";
 import type { Panel } from "./panel";
 
 export class Tabs {
@@ -27,6 +28,17 @@ export class Tabs {
     if (first) this.show(first);
   }
 
+  /** Offer the panels of what is viewed. */
+  fit(kind: Scene["kind"]): void {
+    const fitting = this.panels.filter((panel) => panel.kinds?.includes(kind) ?? true);
+    this.panels.forEach((panel, i) => {
+      const button = this.buttons[i];
+      if (button) button.hidden = !fitting.includes(panel);
+    });
+    const first = fitting[0];
+    if (first && this.shown && !fitting.includes(this.shown)) this.show(first);
+  }
+
   private show(panel: Panel): void {
     if (this.shown === panel) return;
     const before = this.shown;
@@ -45,7 +57,9 @@ export class Tabs {
     const step = { ArrowRight: 1, ArrowLeft: -1 }[(event as KeyboardEvent).key];
     if (!step || !this.shown) return;
     const count = this.panels.length;
-    const at = (this.panels.indexOf(this.shown) + step + count) % count;
+    let at = this.panels.indexOf(this.shown);
+    do at = (at + step + count) % count;
+    while (this.buttons[at]?.hidden);
     const panel = this.panels[at];
     if (panel) this.show(panel);
     this.buttons[at]?.focus();

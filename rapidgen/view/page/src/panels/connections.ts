@@ -22,5 +22,5 @@ export const connectionsPanel: MakePanel = ({ link, order }) => {
   const element = h("div", { class: "panel" },
     section("Sockets of the program", h("table", { class: "sockets" }, body)),
     h("div", { class: "commands" }, section("Let something go wrong", h("div", { class: "row" }, ...faults))));
-  return { id: "connections", title: "Network", element };
+  return { id: "connections", title: "Network", element, kinds: ["simulation"] };
 };

@@ -44,10 +44,10 @@ export const pendantPanel: MakePanel = ({ link, order }) => {
     say(stop, now.e_stop ? "Reset emergency stop" : "Emergency stop");
     mode.show(now.mode);
     motors.show(now.motors_on === null ? null : now.motors_on ? "motors-on" : "motors-off");
-    if (document.activeElement !== speed) speed.value = String(Math.round(now.override * 100));
+    if (document.activeElement !== speed) speed.value = String(Math.round((now.override ?? 1) * 100));
     say(speedText, `${speed.value} %`);
     say(pause, now.pace ? "Pause" : "Go on");
-    if (now.pace) pace.value = String(PACES.find((value) => value >= now.pace) ?? 100);
+    if (now.pace) pace.value = String(PACES.find((value) => value >= (now.pace ?? 1)) ?? 100);
     tasks.replaceChildren(...Object.entries(now.tasks).map(([name, word]) =>
       h("tr", {}, h("th", { scope: "row" }, name), h("td", { "data-state": word }, word))));
   });
@@ -69,7 +69,7 @@ export const pendantPanel: MakePanel = ({ link, order }) => {
     section("Operator window", rows),
     section("Tasks", h("table", {}, tasks)),
   );
-  return { id: "pendant", title: "Pendant", element };
+  return { id: "pendant", title: "Pendant", element, kinds: ["simulation", "recording"] };
 };
 
 function dialog(question: Dialog, answer: (value: string) => void): HTMLElement {

@@ -1,13 +1,13 @@
 // Programs: their sources with pointers and breakpoints, steps, call stack, values.
 
 import { h, say, section } from "../dom";
-import type { Debugging, Drive, Pointers, SeenBreakpoint, SeenPlace, SeenValue } from "../messages";
+import type { Debugging, Proceed, Pointers, SeenBreakpoint, SeenPlace, SeenValue } from "../messages";
 import type { MakePanel, View } from "../panel";
 import { SourceEditor } from "../program/editor";
 import { Sources } from "../program/sources";
 
 const REASONS = { breakpoint: "At a breakpoint", step: "Stepped", cursor: "At the cursor", error: "Error", pause: "Paused" };
-const KEYS: Record<string, Drive["how"]> = { F5: "resume", F6: "pause", F10: "over", F11: "in" };
+const KEYS: Record<string, Proceed["how"]> = { F5: "resume", F6: "pause", F10: "over", F11: "in" };
 
 export const programPanel: MakePanel = (view) => new ProgramPanel(view);
 
@@ -20,6 +20,7 @@ function live(element: HTMLElement): HTMLElement {
 class ProgramPanel {
   readonly id = "program";
   readonly title = "Program";
+  readonly kinds = ["simulation", "recording"] as const;
   readonly element: HTMLElement;
   private readonly sources: Sources;
   private readonly editor: SourceEditor;
@@ -125,7 +126,7 @@ class ProgramPanel {
     return { ...this.editor.seen, module: this.module };
   }
 
-  private drive(how: Drive["how"]): void {
+  private drive(how: Proceed["how"]): void {
     this.follow.checked = true;
     this.view.order({ do: "drive", how, task: this.task });
   }

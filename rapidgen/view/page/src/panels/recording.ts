@@ -13,6 +13,7 @@ export const recordingPanel: MakePanel = (view) => new RecordingPanel(view);
 class RecordingPanel {
   readonly id = "recording";
   readonly title = "Recording";
+  readonly kinds = ["recording"] as const;
   readonly element: HTMLElement;
   private playback: Playback | null = null;
   private wanted: number | null = null;
@@ -36,8 +37,10 @@ class RecordingPanel {
   private readonly span = h("select", { "aria-label": "Span", onchange: () => void this.plot() },
     h("option", { value: 10 }, "10 s around"), h("option", { value: 60 }, "a minute around"),
     h("option", { value: 0, selected: true }, "all"));
+  private readonly video = h("button", { type: "button", onclick: () => this.film() }, "Film the robots");
+  private filming: MediaRecorder | null = null;
   private readonly curves = h("div", { class: "curves" });
-  private readonly cut = h("p", { class: "halt", hidden: true }, "The recording was cut off: it ends before what was recorded did.");
+  private readonly cut = h("p", { class: "halt", role: "status", hidden: true });
 
   constructor(private readonly view: View) {
     const step = (by: number, text: string): HTMLElement => h("button", { type: "button",
@@ -50,7 +53,7 @@ class RecordingPanel {
       section("Curves", h("div", { class: "row" }, this.what, this.span,
         h("button", { type: "button", onclick: () => void this.plot() }, "Draw"),
         h("button", { type: "button", onclick: () => this.csv() }, "CSV"),
-        h("button", { type: "button", onclick: () => this.png() }, "PNG of the robots")), this.curves),
+        h("button", { type: "button", onclick: () => this.png() }, "PNG of the robots"), this.video), this.curves),
       h("p", { class: "soft" }, "Click in a curve to go there. `rapidgen view FILE --csv OUT.csv` writes every sample."));
     view.link.on("scene", (scene) => {
       this.robots = scene.groups;
@@ -83,7 +86,8 @@ class RecordingPanel {
     }
     say(this.length, `of ${playback.end.toFixed(1)} s`);
     say(this.play, playback.rate ? "Stop" : "Play");
-    this.cut.hidden = !playback.cut;
+    this.cut.hidden = !playback.fault;
+    say(this.cut, playback.fault);
     if (this.visible && !this.drawn) void this.plot();
     this.cursor();
   }
@@ -142,6 +146,25 @@ class RecordingPanel {
 
   private png(): void {
     this.view.stage?.picture((blob) => save(blob, "robots.png"));
+  }
+
+  /** Film what is shown from now on, until the next click: a WebM. */
+  private film(): void {
+    if (this.filming) return this.filming.stop();
+    const stage = this.view.stage;
+    if (!stage) return this.view.notice("There is no picture without WebGL", "fault");
+    const pieces: Blob[] = [];
+    const film = new MediaRecorder(stage.element.captureStream(30), { mimeType: "video/webm" });
+    film.ondataavailable = (event) => pieces.push(event.data);
+    film.onstop = () => {
+      this.filming = null;
+      say(this.video, "Film the robots");
+      save(new Blob(pieces, { type: "video/webm" }), "robots.webm");
+    };
+    this.filming = film;
+    say(this.video, "End the film");
+    film.start();
+    stage.draw();
   }
 
   /** For tests. */

@@ -34,7 +34,7 @@ export const signalsPanel: MakePanel = (view) => {
     for (const [name, value] of Object.entries(values)) rows.get(name)?.show(value);
   });
   return {
-    id: "signals", title: "Signals",
+    id: "signals", title: "Signals", kinds: ["simulation", "recording"],
     element: h("div", { class: "panel" }, h("div", { class: "row filter" }, words),
       h("table", { class: "signals" }, body), none),
   };

@@ -1,0 +1,22 @@
+"""`rapidgen demo`, whose reader has never seen any of it."""
+
+import re
+
+from rapidgen.cli.app import main
+from rapidgen.view import plotting
+
+
+def test_it_says_each_step_and_what_comes_next(tmp_path, capsys, monkeypatch):
+    drawn = []
+    monkeypatch.setattr(plotting.Plot, "save", lambda plot, path: drawn.append(plot) or path)
+    assert main(["demo", "--output", str(tmp_path / "demo")]) == 0
+    said = capsys.readouterr()
+    steps = re.findall(r"^(\w+):? {2,}", said.err, re.MULTILINE)
+    assert steps == ["build", "boot", "connect", "move", "draw", "next"]
+    assert "%, joints at" in said.err
+    assert "31 points" in said.out
+    assert (tmp_path / "demo" / "irb120" / "README.md").is_file()
+    # By the controller's clock nothing of the robot's is ahead of its command.
+    difference = drawn[0].charts[-1]
+    assert difference.title == "executed minus commanded"
+    assert max(abs(curve.values).max() for curve in difference.curves) < 1.0

@@ -1,0 +1,49 @@
+"""`rapidgen view`: a robot is watched, and nothing of it can be moved from the page."""
+
+import subprocess
+import sys
+
+import pytest
+
+from tests.view.bench import STATE, served, until
+
+
+def address(ready):
+    return "127.0.0.1:{motion},{state},{control}".format(**ready["ports"]["rob1"])
+
+
+@pytest.mark.browser
+def test_a_robot_is_watched_and_not_moved(irb120, open_page):
+    """The driver of the simulator stands for a robot's: only its state port is known here."""
+    with served("view", "irb120", "--to", address(irb120)) as (ready, _):
+        page = open_page(ready["view"])
+        seen = until(page, STATE)
+        assert seen["groups"][0]["tcp"] is not None
+        until(page, "document.querySelector('header').innerText", lambda t: "Can move" in t)
+        shown = page.locator("[role=tab]:visible").all_inner_texts()
+        assert shown == ["Axes", "Log"]
+        assert page.locator("input[type=range]:enabled:visible").count() == 0
+        for request in (
+            {"do": "jog", "group": "rob1", "axes": [0.1] * 6},
+            {"do": "act", "action": "stop"},
+            {"do": "override", "value": 0},
+        ):
+            asked = "request => rapidgen.link.ask(request).catch(why => why.message)"
+            assert "not commanded from here" in page.evaluate(asked, request)
+        copy = {"do": "copy", "group": "rob1", "form": "jointtarget"}
+        text = page.evaluate("request => rapidgen.link.ask(request)", copy)
+        assert text.endswith(",[9E9,9E9,9E9,9E9,9E9,9E9]]")
+        page.close()
+
+
+def test_the_place_of_a_plain_driver_is_not_taken_unasked():
+    """No control port: its state port is not even touched."""
+    done = subprocess.run(
+        [sys.executable, "-m", "rapidgen.cli", "view", "irb120", "--to", "127.0.0.1:9,9,9"],
+        capture_output=True,
+        text=True,
+        timeout=60,
+    )
+    assert (done.returncode, done.stdout) == (1, "")
+    assert "RG923" in done.stderr
+    assert "--take" in done.stderr
