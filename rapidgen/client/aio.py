@@ -7,9 +7,9 @@ import asyncio
 import warnings
 from collections.abc import AsyncIterable, AsyncIterator, Iterable, Sequence
 from contextlib import nullcontext
-from typing import Self, TypeVar, cast
+from typing import TypeVar, cast
 
-from rapidgen.client import flows
+from rapidgen.client import deadline, flows
 from rapidgen.client.address import Address
 from rapidgen.client.core.job import batches
 from rapidgen.client.core.robot import STOP_FRAME
@@ -29,6 +29,7 @@ from rapidgen.client.surface import (
     RunSurface,
     StreamSurface,
 )
+from rapidgen.python310 import Self
 from rapidgen.wire.simple_message.bulk import FRAME_BYTES
 from rapidgen.wire.simple_message.spec import Port
 
@@ -164,7 +165,7 @@ class Loop:
 
     async def _room(self, link: _Link, timeout: float) -> None:
         try:
-            async with asyncio.timeout(timeout):
+            async with deadline.timeout(timeout):
                 await link.room.wait()
         except TimeoutError as error:
             raise RobotTimeout.because(
@@ -209,7 +210,7 @@ class Loop:
         if old is not None and old.transport is not None:
             old.transport.close()
         try:
-            async with asyncio.timeout(effect.timeout):
+            async with deadline.timeout(effect.timeout):
                 await loop.create_connection(
                     lambda: _Link(self, effect.port), self.address.host, number
                 )

@@ -4,7 +4,7 @@ import asyncio
 import warnings
 from collections.abc import Callable, Coroutine, Iterator, Mapping
 from concurrent.futures import FIRST_EXCEPTION, Future, ThreadPoolExecutor, wait
-from typing import Self, TypeVar
+from typing import TypeVar
 
 from rapidgen.client.aio import AsyncExecution, AsyncRobot
 from rapidgen.client.core.checks import CheckedTrajectory
@@ -19,6 +19,7 @@ from rapidgen.client.flows.motion import ready
 from rapidgen.client.threads import Execution, Robot
 from rapidgen.client.trajectory import Trajectory
 from rapidgen.diagnostics import Diagnostic
+from rapidgen.python310 import Self
 
 T = TypeVar("T")
 

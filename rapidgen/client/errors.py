@@ -26,10 +26,11 @@ states. Time is that of the client's clock, s.
 import os
 import socket
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any
 
 from rapidgen._running import running
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, error
+from rapidgen.python310 import Self
 
 if TYPE_CHECKING:
     from rapidgen.client.core.state import Event, State

@@ -7,7 +7,9 @@ awaited gets a coroutine.
 import inspect
 from collections.abc import Callable, Coroutine, Generator
 from functools import update_wrapper
-from typing import Never, ParamSpec, Protocol, TypeVar, cast, get_args, overload
+from typing import ParamSpec, Protocol, TypeVar, cast, get_args, overload
+
+from rapidgen.python310 import Never
 
 P = ParamSpec("P")
 T = TypeVar("T")

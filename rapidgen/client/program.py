@@ -9,12 +9,13 @@ work object. `robot.check_program` and `robot.run` say whether a robot can do it
 from collections.abc import Mapping, Sequence
 from dataclasses import astuple, dataclass
 from math import radians
-from typing import Self, TypeAlias, TypedDict, Unpack
+from typing import TypeAlias, TypedDict
 
 from rapidgen.axes.frames import Pose
 from rapidgen.axes.kinematics import AxisConfiguration
 from rapidgen.client.errors import InvalidProgram
 from rapidgen.diagnostics import suggest
+from rapidgen.python310 import Self, Unpack
 from rapidgen.wire.simple_message.spec import Instruction, MarkPlace
 
 _MM = 0.001

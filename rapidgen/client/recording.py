@@ -1,7 +1,6 @@
 """Joint messages kept: as arrays, and as CSV `time,<joint names>` in s and rad (m)."""
 
 from pathlib import Path
-from typing import Self
 
 import numpy as np
 
@@ -9,6 +8,7 @@ from rapidgen.client.core.group import Group
 from rapidgen.client.core.state import Feedback, State
 from rapidgen.client.core.state_port import Sample
 from rapidgen.client.trajectory import Array, Trajectory
+from rapidgen.python310 import Self
 
 
 class JointRecording:

@@ -5,7 +5,7 @@ import time
 import warnings
 from collections.abc import Iterable, Iterator, Sequence
 from functools import partial
-from typing import Self, TypeVar
+from typing import TypeVar
 
 from rapidgen.client import flows
 from rapidgen.client.address import Address
@@ -23,6 +23,7 @@ from rapidgen.client.surface import (
     RunSurface,
     StreamSurface,
 )
+from rapidgen.python310 import Self
 from rapidgen.wire.simple_message.spec import Port
 
 T = TypeVar("T")

@@ -11,13 +11,13 @@ import uuid
 import weakref
 from collections.abc import Callable
 from pathlib import Path
-from typing import Self, Unpack
 
 from rapidgen.controller.booting import Bootable
 from rapidgen.controller.controller import Choices, VirtualController
 from rapidgen.controller.debugger.breakpoints import Breakpoint
 from rapidgen.controller.programs import Programs
 from rapidgen.controller.rebooting import boot
+from rapidgen.python310 import Self, Unpack
 from rapidgen.system.compose import eio_cfg, sys_cfg
 from rapidgen.system.controller_cfg import ControllerCfg
 from rapidgen.system.model import System

@@ -4,7 +4,7 @@ import threading
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from os import PathLike
 from pathlib import Path
-from typing import Literal, Self, TypedDict, TypeVar, Unpack
+from typing import Literal, TypedDict, TypeVar
 
 from rapidgen.config.model import GroupConfig, RobotConfig
 from rapidgen.controller.booting import Bootable, Wishes, load_target
@@ -34,6 +34,7 @@ from rapidgen.machine.system_parameters import SystemParameters
 from rapidgen.machine.texts import TextTables
 from rapidgen.motion.recorder import Recorder
 from rapidgen.motion.system import MotionSystem
+from rapidgen.python310 import Self, Unpack
 from rapidgen.rapid.switches import Switches
 from rapidgen.runtime.compiler.context import Options
 from rapidgen.runtime.compiler.linking import Shared

@@ -1,7 +1,7 @@
 """What a run keeps for later: backups, strangers' files, the manifest; and what it throws away."""
 
 from dataclasses import replace
-from datetime import UTC, datetime
+from datetime import datetime, timezone
 
 from rapidgen import __version__
 from rapidgen._json import Members
@@ -144,4 +144,4 @@ def delete_empty_folders(work: Work) -> None:
 
 def now() -> str:
     """UTC, to the second."""
-    return datetime.now(UTC).strftime("%Y-%m-%dT%H:%M:%SZ")
+    return datetime.now(timezone.utc).strftime("%Y-%m-%dT%H:%M:%SZ")

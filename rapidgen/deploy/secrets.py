@@ -4,12 +4,16 @@ import getpass
 import os
 import stat
 import sys
-import tomllib
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from rapidgen.diagnostics import DiagnosticError, refusal
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
 
 ENVIRONMENT = "RAPIDGEN_PASSWORD"
 DEFAULTS = frozenset(

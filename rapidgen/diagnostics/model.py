@@ -1,9 +1,11 @@
 """The one shape of a finding. Nothing here formats text for a terminal: see render.py."""
 
+import sys
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
-from enum import StrEnum
+
+from rapidgen.python310 import StrEnum
 
 
 class Severity(StrEnum):
@@ -86,8 +88,9 @@ class DiagnosticError(Exception):
         found = (diagnostics,) if isinstance(diagnostics, Diagnostic) else tuple(diagnostics)
         super().__init__("; ".join(f"{d.code}: {d.message}" for d in found))
         # Python shows these below a traceback: whoever calls no command sees place and mend, too.
-        for line in dict.fromkeys(line for d in found for line in _beside(d)):
-            self.add_note(line)
+        if sys.version_info >= (3, 11):
+            for line in dict.fromkeys(line for d in found for line in _beside(d)):
+                self.add_note(line)
         self.diagnostics: tuple[Diagnostic, ...] = found
         self.exit_code = exit_code
 

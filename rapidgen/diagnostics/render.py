@@ -3,11 +3,11 @@
 import json
 import re
 from collections.abc import Callable, Iterable, Sequence
-from enum import StrEnum
 from pathlib import Path
 
 from rapidgen._json import Json
 from rapidgen.diagnostics.model import Diagnostic, Severity, Span
+from rapidgen.python310 import StrEnum
 
 _COLOURS = {Severity.ERROR: "1;31", Severity.WARNING: "1;33", Severity.INFO: "1;36"}
 _TAB = "    "

@@ -9,9 +9,10 @@ import os
 import shutil
 import tempfile
 import weakref
-from enum import StrEnum
 from pathlib import Path
 from typing import IO
+
+from rapidgen.python310 import StrEnum
 
 _DEVICES = {
     "home:": "HOME",

@@ -9,7 +9,7 @@ from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from itertools import pairwise
-from typing import Self, TypeAlias
+from typing import TypeAlias
 
 from rapidgen.axes import frames
 from rapidgen.config.model import GroupConfig, Joint, RobotConfig
@@ -32,6 +32,7 @@ from rapidgen.proving.messages import (
 from rapidgen.proving.model import Broken
 from rapidgen.proving.settings import Setting
 from rapidgen.proving.track import SETTLED, Point, Position, distance, on_path, still
+from rapidgen.python310 import Self
 from rapidgen.runtime.errors import FatalError
 from rapidgen.runtime.task.task import Task
 from rapidgen.system.model import System

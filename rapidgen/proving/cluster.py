@@ -12,7 +12,6 @@ import time
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
-from typing import Self
 
 from distributed import Client, Future
 from distributed.client import FutureCancelledError
@@ -22,6 +21,7 @@ from rapidgen.diagnostics import DiagnosticError, refusal
 from rapidgen.proving.engine import Engine, EngineLost
 from rapidgen.proving.identity import identity
 from rapidgen.proving.workers import Call, WorkersLost
+from rapidgen.python310 import Self
 
 CONNECTS = 10
 """s in which the scheduler answers."""

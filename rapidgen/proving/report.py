@@ -3,7 +3,7 @@
 import html
 import platform
 from collections.abc import Sequence
-from datetime import UTC, datetime
+from datetime import datetime, timezone
 from pathlib import Path
 from typing import TYPE_CHECKING
 from xml.etree import ElementTree
@@ -155,7 +155,7 @@ def write_html(report: Proof, path: Path) -> None:
 
 
 def _versions() -> str:
-    when = datetime.now(UTC).isoformat(" ", "minutes")
+    when = datetime.now(timezone.utc).isoformat(" ", "minutes")
     return f"rapidgen {__version__} · Python {platform.python_version()} · {when}"
 
 

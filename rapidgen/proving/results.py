@@ -2,10 +2,10 @@
 
 import json
 from pathlib import Path
-from typing import Self
 
 from rapidgen._json import Json, members, text
 from rapidgen.diagnostics import DiagnosticError, refusal
+from rapidgen.python310 import Self
 
 
 class Results:

@@ -13,14 +13,15 @@ import pickle
 import signal
 import warnings
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import suppress
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
 from multiprocessing import get_context
 from multiprocessing.connection import Connection, wait
 from multiprocessing.process import BaseProcess
-from typing import Protocol, Self, TypeVar, cast
+from typing import Protocol, TypeVar, cast
 
 from rapidgen.machine.files import remove_scratch_folders
+from rapidgen.python310 import Self
 
 R = TypeVar("R")
 
@@ -238,9 +239,12 @@ def in_a_fork(function: Callable[[], R]) -> R:
     return answer
 
 
-def _no_matter_of_threads() -> warnings.catch_warnings:
+@contextmanager
+def _no_matter_of_threads() -> Iterator[None]:
     """Threads of a test runner do not matter: the copy uses none of their locks."""
-    return warnings.catch_warnings(action="ignore", category=DeprecationWarning)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", DeprecationWarning)
+        yield
 
 
 def _outcome(function: Callable[[], object]) -> tuple[bool, object]:

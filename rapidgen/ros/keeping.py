@@ -4,12 +4,13 @@ One `RobotLink` runs on one asyncio loop. What it sees goes to a `Public`, which
 """
 
 import asyncio
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Protocol
 
 from rapidgen.client.aio import AsyncRobot
 from rapidgen.client.core.state import State
 from rapidgen.client.errors import NotReady, RequestRefused, RobotError
+from rapidgen.client.program import Argument
 from rapidgen.ros.following import Follower, GoalFeedback, Policy, UnderWay, reason
 from rapidgen.ros.goals import Code, Ending, Goal, Outcome
 from rapidgen.ros.stamps import Stamps
@@ -152,6 +153,26 @@ class RobotLink:
     async def set_speed(self, percent: float) -> None:
         """Go at 1 to 100 % of the programmed speed. Raises RobotError, ValueError."""
         await self._there().set_speed(percent)
+
+    async def read_signal(self, name: str) -> float:
+        """A signal that the configuration exposes. Raises RobotError."""
+        return await self._there().read_signal(name)
+
+    async def write_signal(self, name: str, value: float) -> float:
+        """Set a signal; the value as it was read then. Raises RobotError."""
+        return await self._there().write_signal(name, value)
+
+    async def call(
+        self, routine: str, arguments: Sequence[Argument]
+    ) -> tuple[float | bool | str, ...]:
+        """Call a routine of the controller's program; what it gave back. Raises RobotError."""
+        robot = self._there()
+        if self._follower is not None and self._follower.is_busy:
+            raise NotReady.because(
+                "RG621", "a goal is executed", "cancel it, or wait for its end, then call"
+            )
+        self._paused_at = None
+        return await robot.call(routine, *arguments)
 
     def _there(self) -> AsyncRobot:
         if self._robot is None:

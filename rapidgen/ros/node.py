@@ -8,7 +8,7 @@ import asyncio
 import threading
 from collections.abc import Callable, Coroutine
 from concurrent.futures import Future
-from typing import Any, TypeVar
+from typing import TypeVar
 
 import rclpy
 from builtin_interfaces.msg import Duration, Time
@@ -34,6 +34,7 @@ from rapidgen.diagnostics import DiagnosticError
 from rapidgen.ros.following import GoalFeedback, UnderWay, reason
 from rapidgen.ros.goals import Ending, Goal, Outcome, Point, Tolerance
 from rapidgen.ros.keeping import RobotLink
+from rapidgen.ros.own_services import ARE_THERE, MISSING, Message, Serve, services
 from rapidgen.ros.parameters import DECLARED, Parameters, read
 from rapidgen.ros.telling import Health, JointStates, RobotStatus
 
@@ -49,7 +50,7 @@ _QOS = QoSProfile(depth=10)
 class RobotNode(LifecycleNode):  # type: ignore[misc]
     """One robot, each of its groups with topics, services and an action of its own."""
 
-    def __init__(self, **options: Any) -> None:  # noqa: ANN401
+    def __init__(self, **options: Message) -> None:
         super().__init__("rapidgen", **options)
         for name, value, told in DECLARED:
             self.declare_parameter(name, value, _described(told))
@@ -76,6 +77,8 @@ class RobotNode(LifecycleNode):  # type: ignore[misc]
         except DiagnosticError as error:
             self.get_logger().error(str(error))
             return TransitionCallbackReturn.FAILURE
+        if not ARE_THERE:
+            self.get_logger().info(MISSING)
         several = len(config.groups) > 1
         for group in config.groups:
             make = _maker(config, parameters, group.name)
@@ -114,7 +117,7 @@ class RobotNode(LifecycleNode):  # type: ignore[misc]
         self.ask(_ended(len(self._running))).result()
         self._running = []
 
-    def _parameters_set(self, parameters: list[Any]) -> SetParametersResult:
+    def _parameters_set(self, parameters: list[Message]) -> SetParametersResult:
         """`speed` acts at once; the others are read when the node is configured."""
         for parameter in parameters:
             if parameter.name != "speed":
@@ -125,7 +128,7 @@ class RobotNode(LifecycleNode):  # type: ignore[misc]
                     return SetParametersResult(successful=False, reason=told)
         return SetParametersResult(successful=True)
 
-    def ask(self, coroutine: Coroutine[Any, Any, T]) -> "Future[T]":
+    def ask(self, coroutine: Coroutine[object, None, T]) -> "Future[T]":
         """Carry out on the links' loop."""
         return asyncio.run_coroutine_threadsafe(coroutine, self._loop)
 
@@ -174,6 +177,12 @@ class Door:
                 ("resume", self.link.resume),
             )
         ]
+        self._services += [
+            node.create_service(
+                kind, f"{space}{name}", self._filling(serve), callback_group=self._callbacks
+            )
+            for kind, name, serve in services(self.link)
+        ]
         self._action = ActionServer(
             node,
             FollowJointTrajectory,
@@ -194,7 +203,7 @@ class Door:
             if publisher is not None:
                 self._node.destroy_publisher(publisher)
 
-    def _publisher(self, kind: type, topic: str) -> Any:  # noqa: ANN401
+    def _publisher(self, kind: type, topic: str) -> Message:
         return self._node.create_publisher(
             kind, topic, _QOS, qos_overriding_options=QoSOverridingOptions.with_default_policies()
         )
@@ -243,14 +252,23 @@ class Door:
 
     # What ROS asks for
 
-    def _serving(self, act: Callable[[], Coroutine[Any, Any, object]]) -> Callable[[Any, Any], Any]:
-        def serve(_: Any, response: Any) -> Any:  # noqa: ANN401
+    def _serving(
+        self, act: Callable[[], Coroutine[object, None, object]]
+    ) -> Callable[[Message, Message], Message]:
+        def serve(_: Message, response: Message) -> Message:
             response.success, response.message = self.asked(act())
             return response
 
         return serve
 
-    def asked(self, coroutine: Coroutine[Any, Any, object]) -> tuple[bool, str]:
+    def _filling(self, serve: Serve) -> Callable[[Message, Message], Message]:
+        def filled(request: Message, response: Message) -> Message:
+            response.success, response.message = self.asked(serve(request, response))
+            return response
+
+        return filled
+
+    def asked(self, coroutine: Coroutine[object, None, object]) -> tuple[bool, str]:
         """Whether the robot did it, and why not."""
         try:
             self._node.ask(coroutine).result()
@@ -260,16 +278,16 @@ class Door:
             return False, str(error)
         return True, "done"
 
-    def _cancel(self, handle: Any) -> CancelResponse:  # noqa: ANN401
+    def _cancel(self, handle: Message) -> CancelResponse:
         self._node.soon(self._under_way(handle).cancel)
         return CancelResponse.ACCEPT
 
-    def _under_way(self, handle: Any) -> UnderWay:  # noqa: ANN401
+    def _under_way(self, handle: Message) -> UnderWay:
         """Of this goal, whose cancellation may come before it is executed."""
         with self._lock:
             return self._goals.setdefault(bytes(handle.goal_id.uuid), UnderWay())
 
-    def _execute(self, handle: Any) -> Any:  # noqa: ANN401
+    def _execute(self, handle: Message) -> Message:
         """A goal, until the robot stands: in a thread of the executor."""
 
         def tell(feedback: GoalFeedback) -> None:
@@ -287,7 +305,7 @@ class Door:
         )
         return _ending(handle, outcome)
 
-    def _goal(self, request: Any) -> Goal:  # noqa: ANN401
+    def _goal(self, request: Message) -> Goal:
         trajectory = request.trajectory
         return Goal(
             names=[name.removeprefix(self._prefix) for name in trajectory.joint_names],
@@ -308,11 +326,11 @@ class Door:
             has_multi_dof=bool(request.multi_dof_trajectory.points),
         )
 
-    def _tolerance(self, told: Any) -> Tolerance:  # noqa: ANN401
+    def _tolerance(self, told: Message) -> Tolerance:
         name = told.name.removeprefix(self._prefix)
         return Tolerance(name, told.position, told.velocity, told.acceleration)
 
-    def _feedback(self, feedback: GoalFeedback) -> Any:  # noqa: ANN401
+    def _feedback(self, feedback: GoalFeedback) -> Message:
         message = FollowJointTrajectory.Feedback()
         message.header.stamp = self._node.get_clock().now().to_msg()
         message.joint_names = [self._prefix + name for name in feedback.names]
@@ -329,7 +347,7 @@ class Door:
         return message
 
 
-def _ending(handle: Any, outcome: Outcome) -> Any:  # noqa: ANN401
+def _ending(handle: Message, outcome: Outcome) -> Message:
     """The result, and the goal in its last state. A cancelled goal that was done is done."""
     if outcome.status is Ending.SUCCEEDED:
         handle.succeed()
@@ -362,7 +380,7 @@ async def _ended(count: int) -> None:
         await asyncio.gather(*others, return_exceptions=True)
 
 
-def _seconds(told: Any) -> float:  # noqa: ANN401
+def _seconds(told: Message) -> float:
     """A Time or Duration in s."""
     return float(told.sec) + float(told.nanosec) * 1e-9
 

@@ -1,7 +1,9 @@
 """From the system model to cfg text, as interpret.py reads it."""
 
 from collections.abc import Iterable
+from typing import TypeAlias
 
+from rapidgen.python310 import Unpack
 from rapidgen.system.cfg import Attribute, CfgText, Instance, Scalar, Section
 from rapidgen.system.interpret import DEFAULT_QUEUE
 from rapidgen.system.model import (
@@ -14,6 +16,9 @@ from rapidgen.system.model import (
     TaskSpec,
 )
 from rapidgen.system.releases import digits
+
+_Row: TypeAlias = tuple[str, Unpack[tuple[Scalar, ...]]]
+"""An attribute's name and its values."""
 
 SIGNALS_IN_SYS = 7
 """RobotWare from which SYSSIG_OUT and SYSSIG_IN are in SYS instead of EIO."""
@@ -101,7 +106,7 @@ def _event(event: EventRoutine) -> Instance:
 
 
 def _task(task: TaskSpec) -> Instance:
-    attributes: list[tuple[str, *tuple[Scalar, ...]]] = [("Name", task.name)]
+    attributes: list[_Row] = [("Name", task.name)]
     if task.type != "SEMISTATIC":
         attributes.append(("Type", task.type))
     if task.entry.casefold() != "main":
@@ -140,7 +145,7 @@ def _unit_group(group: MechanicalUnitGroup) -> Instance:
 
 
 def _signal(signal: SignalSpec, unit: str) -> Instance:
-    attributes: list[tuple[str, *tuple[Scalar, ...]]] = [
+    attributes: list[_Row] = [
         ("Name", signal.name),
         ("SignalType", signal.type),
     ]
@@ -161,7 +166,7 @@ def _signal(signal: SignalSpec, unit: str) -> Instance:
 
 
 def _cross(cross: CrossConnection) -> Instance:
-    attributes: list[tuple[str, *tuple[Scalar, ...]]] = []
+    attributes: list[_Row] = []
     if cross.name:
         attributes.append(("Name", cross.name))
     attributes.append(("Res", cross.result))
@@ -178,7 +183,7 @@ def _section(name: str, instances: Iterable[Instance]) -> Section:
     return Section(name, tuple(instances))
 
 
-def _instance(*attributes: tuple[str, *tuple[Scalar, ...]]) -> Instance:
+def _instance(*attributes: _Row) -> Instance:
     return Instance(
         tuple(Attribute(name, values) for name, *rest in attributes for values in (tuple(rest),))
     )

@@ -19,9 +19,11 @@
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Unpack
+from typing import TYPE_CHECKING
 
 import pytest
+
+from rapidgen.python310 import Unpack
 
 if TYPE_CHECKING:
     from rapidgen.controller.controller import Choices, VirtualController

@@ -4,7 +4,7 @@ import json
 import math
 import time
 from collections import deque
-from datetime import UTC, datetime
+from datetime import datetime, timezone
 
 import numpy as np
 from rich.table import Table
@@ -140,7 +140,7 @@ def as_json(state: State, watcher: Watcher) -> str:
 
 
 def _received(state: State) -> datetime:
-    return datetime.fromtimestamp(time.time() - state.age, UTC)
+    return datetime.fromtimestamp(time.time() - state.age, timezone.utc)
 
 
 def rows(state: State, group: Group, bar: int = 31) -> list[tuple[str, str, str, str]]:

@@ -25,6 +25,7 @@ from rapidgen.client import (
     StopFailed,
     Trajectory,
     TrajectoryRefused,
+    deadline,
 )
 from rapidgen.client.address import Address
 from rapidgen.client.channels import Channel, Reader
@@ -419,7 +420,7 @@ def test_cancelling_a_coroutine_stops_the_robot(fake, patient):
         async with AsyncRobot(controller.address, timeouts=patient()) as robot:
             execution = await robot.execute(LONG)
             with pytest.raises(TimeoutError):
-                async with asyncio.timeout(0.05):
+                async with deadline.timeout(0.05):
                     await execution.result()
             await robot.wait_until(lambda s: not s.is_moving, 60)
 

@@ -4,7 +4,7 @@ import io
 import json
 import re
 import struct
-from datetime import UTC, datetime
+from datetime import datetime, timezone
 
 import numpy as np
 import pytest
@@ -145,7 +145,7 @@ def test_monitor(controller, capsys):
     assert told[-1]["error_code"] == 7
     assert (told[-1]["in_error"], told[0]["in_motion"]) == (True, False)
     when = datetime.fromisoformat(told[-1]["time"])
-    assert abs((datetime.now(UTC) - when).total_seconds()) < 3600
+    assert abs((datetime.now(timezone.utc) - when).total_seconds()) < 3600
     assert 0 < told[-1]["jitter_p50"] <= told[-1]["jitter_p99"] < 1
 
 

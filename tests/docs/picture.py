@@ -6,6 +6,7 @@ bottom, their folders, what each says of itself in its first line, and which roo
 
 import ast
 import textwrap
+
 import tomllib
 
 from tests.docs.tree import PACKAGE, ROOT, imports, modules, room, tree_of

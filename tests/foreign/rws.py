@@ -6,7 +6,7 @@ about HTTP puts a face in that class's place, and everything else of the client 
 """
 
 from collections import namedtuple
-from datetime import UTC, datetime
+from datetime import datetime, timezone
 
 from rapidgen.controller import VirtualController
 
@@ -74,7 +74,7 @@ class Face:
     def read_event_log(self, elog: int = 0):
         """Newest first. The first argument of an ErrWrite event is its header."""
         events = self._do(lambda: list(self._controller.log))
-        now = datetime.now(UTC)
+        now = datetime.now(timezone.utc)
         return [
             _Entry(e.sequence, int(e.type), e.code, now, [e.title, *e.texts], e.title, *[""] * 4)
             for e in reversed(events)

@@ -114,6 +114,28 @@ class Trigger:
     Response = message("Trigger_Response", success=bool, message=str)
 
 
+Point = message("Point", x=float, y=float, z=float)
+Quaternion = message("Quaternion", x=float, y=float, z=float, w=float)
+Pose = message("Pose", position=Point, orientation=Quaternion)
+Value = message("Value", type=int, number=float, boolean=bool, text=str, pose=Pose, joints=[float])
+Value.NUM, Value.BOOL, Value.STRING, Value.ROBTARGET, Value.JOINTTARGET = range(5)
+
+
+class ReadSignal:
+    Request = message("ReadSignal_Request", name=str)
+    Response = message("ReadSignal_Response", success=bool, message=str, value=float)
+
+
+class WriteSignal:
+    Request = message("WriteSignal_Request", name=str, value=float)
+    Response = message("WriteSignal_Response", success=bool, message=str, value=float)
+
+
+class CallRoutine:
+    Request = message("CallRoutine_Request", name=str, arguments=[Value])
+    Response = message("CallRoutine_Response", success=bool, message=str, results=[Value])
+
+
 class ReentrantCallbackGroup:
     pass
 
@@ -345,7 +367,9 @@ class LifecycleNode:
     def create_service(
         self, srv_type, srv_name, callback, *, qos_profile=None, callback_group=None
     ):
-        self.services[srv_name] = lambda: callback(srv_type.Request(), srv_type.Response())
+        self.services[srv_name] = lambda **told: callback(
+            srv_type.Request(**told), srv_type.Response()
+        )
         return srv_name
 
     def destroy_service(self, service):
@@ -394,6 +418,8 @@ def modules():
         "control_msgs.action": "FollowJointTrajectory",
         "diagnostic_msgs.msg": "DiagnosticArray DiagnosticStatus KeyValue",
         "industrial_msgs.msg": "RobotStatus",
+        "rapidgen_interfaces.msg": "Value",
+        "rapidgen_interfaces.srv": "CallRoutine ReadSignal WriteSignal",
         "rcl_interfaces.msg": "ParameterDescriptor SetParametersResult",
         "rosgraph_msgs.msg": "Clock",
         "sensor_msgs.msg": "JointState",

@@ -1,10 +1,6 @@
 """The node against a stand-in of rclpy, with a controller in real time."""
 
-import sys
-import time
-
 import pytest
-import standin
 from standin import Duration, FollowJointTrajectory, JointTolerance, JointTrajectoryPoint, Time
 
 from rapidgen.config import load_config
@@ -13,17 +9,6 @@ from rapidgen.generate import build, make_system
 
 NAMES = [f"joint_{n}" for n in range(1, 7)]
 SPEED = 10.0
-
-
-@pytest.fixture
-def driver_type(monkeypatch):
-    standin.install(monkeypatch)
-    monkeypatch.delitem(sys.modules, "rapidgen.ros.node", raising=False)
-    from rapidgen.ros.node import RobotNode
-
-    monkeypatch.setattr(standin.LifecycleNode, "clock", staticmethod(time.monotonic_ns))
-    yield RobotNode
-    sys.modules.pop("rapidgen.ros.node", None)
 
 
 @pytest.fixture

@@ -6,13 +6,14 @@ import time
 from collections import deque
 from collections.abc import AsyncIterator
 from contextlib import AsyncExitStack, asynccontextmanager
-from typing import Self, TypeVar
+from typing import TypeVar
 
 import httpx2
 from websockets.asyncio.client import ClientConnection
 from websockets.asyncio.client import connect as connect_socket
 from websockets.exceptions import ConnectionClosed, WebSocketException
 
+from rapidgen.client import deadline
 from rapidgen.client.errors import ConnectionLost, RobotTimeout
 from rapidgen.client.rws.core import Pace, RwsCore
 from rapidgen.client.rws.effects import (
@@ -40,6 +41,7 @@ from rapidgen.client.rws.transport import (
     response_of,
     socket_options,
 )
+from rapidgen.python310 import Self
 
 T = TypeVar("T")
 
@@ -125,7 +127,7 @@ class Awaiting:
 
     async def _look(self, port: int) -> Response:
         try:
-            async with asyncio.timeout(self._timeout):
+            async with deadline.timeout(self._timeout):
                 _, writer = await asyncio.open_connection(
                     self._core.address.host, port, ssl=no_verification()
                 )
@@ -185,7 +187,7 @@ class AsyncSubscription:
     async def next(self, timeout: float | None = None) -> ResourceEvent:
         """The next event. RobotTimeout (RG602): none within s."""
         try:
-            async with asyncio.timeout(timeout):
+            async with deadline.timeout(timeout):
                 while not self._waiting:
                     await self._hear()
         except TimeoutError as error:

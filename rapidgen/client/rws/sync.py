@@ -7,7 +7,7 @@ import time
 from collections import deque
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
-from typing import Self, TypeVar
+from typing import TypeVar
 
 import httpx2
 from websockets.exceptions import ConnectionClosed, WebSocketException
@@ -41,6 +41,7 @@ from rapidgen.client.rws.transport import (
     response_of,
     socket_options,
 )
+from rapidgen.python310 import Self
 
 T = TypeVar("T")
 

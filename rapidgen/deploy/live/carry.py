@@ -9,7 +9,7 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from datetime import UTC, datetime
+from datetime import datetime, timezone
 
 from rapidgen.client.errors import NotReady, NotSupported, RobotError
 from rapidgen.client.rws import Controller, RwsError
@@ -222,7 +222,7 @@ def _point(run: Live) -> None:
 
 
 def _back_up(run: Live) -> None:
-    name = f"rapidgen_{datetime.now(UTC):%Y%m%d_%H%M%S}"
+    name = f"rapidgen_{datetime.now(timezone.utc):%Y%m%d_%H%M%S}"
     try:
         run.work.say(f"the controller's own backup: {run.services.backup(name)}")
     except RwsError as cause:

@@ -42,7 +42,8 @@ _LETTERS: Final = r"A-Za-z\u00c0-\u00d6\u00d8-\u00f6\u00f8-\u00ff"
 _PROPER_NAME: Final = re.compile(rf"[{_LETTERS}][{_LETTERS}0-9_]*")
 _RADIX: Final = re.compile(r"0(?:[xX][0-9A-Fa-f]+|[oO][0-7]+|[bB][01]+)")
 _ESCAPE: Final = re.compile(r'""|\\(?:\\|[0-9A-Fa-f]{2})')
-_BAD_ESCAPE: Final = re.compile(r"(?:[^\\]|\\\\|\\[0-9A-Fa-f]{2})*+\\")
+# Of the three kinds of piece one at most fits at any place, so there is one way to read a text.
+_BAD_ESCAPE: Final = re.compile(r"(?:[^\\]|\\\\|\\[0-9A-Fa-f]{2})*\\(?!\\|[0-9A-Fa-f]{2})")
 
 
 class Kinds(dict[str, str]):

@@ -6,13 +6,14 @@ from bisect import bisect_right
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import BinaryIO, Self, TypeVar
+from typing import BinaryIO, TypeVar
 
 from pydantic import TypeAdapter, ValidationError
 
 from rapidgen.config.manifest import group_from_manifest
 from rapidgen.config.model import GroupConfig
 from rapidgen.diagnostics import refusal
+from rapidgen.python310 import Self
 from rapidgen.view.recording import messages as m
 from rapidgen.view.recording.chunks import (
     Chunks,

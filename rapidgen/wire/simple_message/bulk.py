@@ -29,7 +29,7 @@ _TYPES = {Wire.INT32: "<i4", Wire.FLOAT32: "<f4"}
 FRAME_BYTES = spec.PREFIX_BYTES + messages.JOINT_TRAJ_PT.length
 
 
-def _frame_type() -> np.dtype[np.void]:
+def _frame_type() -> "np.dtype[np.void]":  # not to be subscripted in NumPy 1.21
     head = [(name, "<i4", ()) for name in ("length", "number", "comm", "reply")]
     fields = [
         (f.name, _TYPES[f.type], (f.count,) if f.count > 1 else ())

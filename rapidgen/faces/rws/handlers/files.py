@@ -1,7 +1,7 @@
 """The file service: volumes of the controller, HOME among them; there is no way out."""
 
 import shutil
-from datetime import UTC, datetime
+from datetime import datetime, timezone
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -47,7 +47,7 @@ def read(office: "Office", asked: RwsRequest) -> Served:
 
 def _entry(path: Path) -> Item:
     status = path.stat()
-    changed = datetime.fromtimestamp(status.st_mtime, UTC).strftime("%Y-%m-%d T %H:%M:%S")
+    changed = datetime.fromtimestamp(status.st_mtime, timezone.utc).strftime("%Y-%m-%d T %H:%M:%S")
     told = {"fs-cdate": changed, "fs-mdate": changed}
     if path.is_dir():
         return Item("fs-dir", path.name, told)

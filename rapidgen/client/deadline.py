@@ -1,0 +1,24 @@
+"""`asyncio.timeout`, on Python 3.10 too: when it ends, it ends in the built-in TimeoutError."""
+
+import sys
+
+if sys.version_info >= (3, 11):
+    from asyncio import timeout
+else:
+    from asyncio import TimeoutError as _AsyncioTimeoutError
+    from collections.abc import AsyncIterator
+    from contextlib import asynccontextmanager
+
+    from async_timeout import timeout as _timeout
+
+    @asynccontextmanager
+    async def timeout(delay: float | None) -> AsyncIterator[None]:
+        """Cancel what is awaited inside after `delay` s (None: never); then TimeoutError."""
+        try:
+            async with _timeout(delay):
+                yield
+        except _AsyncioTimeoutError as error:
+            raise TimeoutError(*error.args) from error
+
+
+__all__ = ["timeout"]
