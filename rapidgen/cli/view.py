@@ -1,5 +1,6 @@
-"""`rapidgen view`: a page that shows a robot or a recording, and never moves anything."""
+"""`rapidgen view`: a robot or a recording in the browser; neither moves from there."""
 
+from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -19,11 +20,11 @@ _LOOK = 3.0
 
 
 def view(
-    config: Annotated[
+    target: Annotated[
         str,
         typer.Argument(
-            metavar="TARGET",
-            help="Configuration file, shipped name, HOST[:M,S,C], `sim`, or FILE.mcap.",
+            help="Recording (`rapidgen sim --record`), configuration, shipped name, HOST[:M,S,C], "
+            "or `sim`."
         ),
     ],
     to: options.RobotAddress = "",
@@ -40,81 +41,90 @@ def view(
         float, typer.Option(help="Try a lost connection again for so many seconds.", min=0)
     ] = 3600.0,
     csv: Annotated[
-        Path | None,
-        typer.Option(help="Of a recording: write the positions of a robot, and no page."),
+        Path | None, typer.Option(help="Write a recording's positions of a robot, and no page.")
     ] = None,
+    robot: Annotated[str, typer.Option(help="Whose, with --csv; default: the first.")] = "",
 ) -> int:
     """Show a robot or a recording in the browser, read only. Ctrl-C ends it.
-
-    FILE.mcap is what `rapidgen sim --record` has written: everything as it was at any moment.
 
     When it is served, stdout gets one line: `ready` and a JSON object with the link. With a
     configuration the robot is drawn, with an address alone there are its axes. It takes one of the
     three places of a rapidgen driver's state port; the one place of a plain driver only with
-    `--take`: a program that moves the robot loses it, and stops.
+    `--take`: a program that moves the robot loses it, and stops. A recording shows everything as it
+    was at any moment; one that was cut off is shown up to there.
     """
-    from contextlib import ExitStack
+    from rapidgen.view.recording.reader import RecordingFile
+    from rapidgen.view.recording.viewing import RecordingSubject
 
-    if config.endswith(".mcap"):
-        return _recording(Path(config), csv, group, host, port)
-    if csv is not None:
-        raise typer.BadParameter("--csv is for a recording: FILE.mcap")
+    with ExitStack() as stack:
+        if not _is_recording(target):
+            if csv is not None:
+                raise typer.BadParameter("--csv is of a recording")
+            return _serve(_robots(stack, target, to, group, take, reconnect), host, port)
+        recording = stack.enter_context(RecordingFile(Path(target)))
+        if csv is None:
+            return _serve(RecordingSubject(recording), host, port)
+        try:
+            recording.write_csv(csv, robot)
+        except KeyError as error:
+            known = ", ".join(group.name for group in recording.robots)
+            raise typer.BadParameter(f"--robot is one of {known}") from error
+        typer.echo(csv)
+    return 0
 
+
+def _is_recording(target: str) -> bool:
+    path = Path(target)
+    return path.suffix.lower() == ".mcap" or (
+        path.is_file() and path.suffix.lower() not in (".yaml", ".yml")
+    )
+
+
+def _serve(viewed: "Viewed", host: str, port: int) -> int:
+    """Serve the page until a signal comes; the exit code."""
+    import json
+    import signal
+    import threading
+
+    from rapidgen.view.server import serve_page
+
+    ended = threading.Event()
+    before = {s: signal.signal(s, lambda *_: ended.set()) for s in (signal.SIGINT, signal.SIGTERM)}
+    try:
+        page = serve_page(viewed, host, port)
+        try:
+            typer.echo(f"ready {json.dumps({'view': page.url})}")
+            ended.wait()
+        finally:
+            page.close()
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+    return 0
+
+
+# -- robots ---------------------------------------------------------------------------------------
+
+
+def _robots(
+    stack: ExitStack, target: str, to: str, group: str, take: bool, reconnect: float
+) -> "Viewed":
+    """All robots of a configuration, or one at an address, connected until the stack closes."""
     from rapidgen.client import Robot
     from rapidgen.client.target import groups_of
     from rapidgen.view.robot.observed import ObservedRobots
 
-    names = [group] if group else groups_of(config)
-    with ExitStack() as stack:
-        robots = []
-        for name in names:
-            robot = Robot(config, address=to or None, group=name, watch=True, reconnect=reconnect)
-            if not take:
-                _refuse_plain(robot.address)
-            stack.enter_context(robot)
-            if not (take or robot.driver.is_rapidgen):
-                raise _plain(robot.address)
-            robot.next_state(_LOOK)
-            robots.append((robot, _known(config, name, robot)))
-        title = f"{config} at {robots[0][0].address.host}"
-        _serve(ObservedRobots(title, robots), host, port)
-    return 0
-
-
-def _recording(path: Path, csv: Path | None, group: str, host: str, port: int) -> int:
-    """Show a recording, or write its positions. Raises DiagnosticError RG930."""
-    from rapidgen.view.recording.reader import RecordingFile
-    from rapidgen.view.recording.viewing import RecordingSubject
-
-    with RecordingFile(path) as recording:
-        if csv is None:
-            _serve(RecordingSubject(recording), host, port)
-            return 0
-        known = [own.name for own in recording.robots]
-        if group and group not in known:
-            raise typer.BadParameter(f"--group is one of {', '.join(known)}")
-        recording.write_csv(csv, group)
-    typer.echo(csv)
-    return 0
-
-
-def _serve(subject: "Viewed", host: str, port: int) -> None:
-    """Serve the page until a signal comes."""
-    import json
-    import signal
-    import threading
-    from contextlib import ExitStack
-
-    from rapidgen.view.server import serve_page
-
-    with ExitStack() as stack:
-        page = serve_page(subject, host, port)
-        stack.callback(page.close)
-        ended = threading.Event()
-        for number in (signal.SIGINT, signal.SIGTERM):
-            stack.callback(signal.signal, number, signal.signal(number, lambda *_: ended.set()))
-        typer.echo(f"ready {json.dumps({'view': page.url})}")
-        ended.wait()
+    robots = []
+    for name in [group] if group else groups_of(target):
+        robot = Robot(target, address=to or None, group=name, watch=True, reconnect=reconnect)
+        if not take:
+            _refuse_plain(robot.address)
+        stack.enter_context(robot)
+        if not (take or robot.driver.is_rapidgen):
+            raise _plain(robot.address)
+        robot.next_state(_LOOK)
+        robots.append((robot, _known(target, name, robot)))
+    return ObservedRobots(f"{target} at {robots[0][0].address.host}", robots)
 
 
 def _known(target: str, group: str, robot: "Robot") -> "GroupConfig":
@@ -125,8 +135,7 @@ def _known(target: str, group: str, robot: "Robot") -> "GroupConfig":
     if group:
         found = {own.name: own for own in load_config(target).groups}
         return found[group]
-    joints = robot.group.map.joints
-    return GroupConfig(robot.group.name or "robot", "", "", joints, Ports())
+    return GroupConfig(robot.group.name or "robot", "", "", robot.group.map.joints, Ports())
 
 
 def _refuse_plain(address: "Address") -> None:

@@ -7,7 +7,7 @@ from rapidgen.client.flows.data import Datum
 
 
 @dataclass(frozen=True, eq=False)
-class RobotData(Mapping[str, Datum]):
+class CellData(Mapping[str, Datum]):
     """What `data:` of the configuration lists, by `MODULE:NAME`; read and written at the robot.
 
     Raises as `read_data` and `write_data`, so NotSupported for a name that is not listed.

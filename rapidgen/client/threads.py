@@ -15,7 +15,7 @@ from rapidgen.client.core.robot import STOP_FRAME
 from rapidgen.client.core.state import State
 from rapidgen.client.errors import ConnectionLost, MotionStopped, RobotError
 from rapidgen.client.flows.effects import Close, Effect, Flow, HangUp, Open, Wait
-from rapidgen.client.own_data import RobotData
+from rapidgen.client.own_data import CellData
 from rapidgen.client.surface import (
     ExecutionSurface,
     MakeCore,
@@ -237,10 +237,10 @@ class Robot(RobotSurface[Threads, Execution, Stream, ProgramRun]):
         return self
 
     @property
-    def data(self) -> RobotData:
+    def data(self) -> CellData:
         """PERS of the robot's own program: `robot.data["cell:count"] = 3`."""
         names = tuple(datum.name for datum in self.group.data)
-        return RobotData(names, self.read_data, self.write_data)
+        return CellData(names, self.read_data, self.write_data)
 
     def __enter__(self) -> Self:
         return self if self.is_connected else self.connect()

@@ -26,7 +26,7 @@ from rapidgen.proving.encounters import Pair, Pairs, Spot, spots
 from rapidgen.proving.history import PAIRED, STEPS, History
 from rapidgen.proving.link import STOP
 from rapidgen.proving.model import Finding
-from rapidgen.proving.plan import Ground, Place, Plan, drawn, named
+from rapidgen.proving.plan import DriverLine, Ground, Plan, drawn, named
 from rapidgen.proving.settings import Setting
 from rapidgen.system.model import System
 
@@ -137,7 +137,7 @@ def ground_of(config: RobotConfig, system: System) -> Ground:
         bench.close()
     shared = spots_of(system)
     places = tuple(
-        Place(task.name, module.name, line, (module.path, line) in shared)
+        DriverLine(task.name, module.name, line, (module.path, line) in shared)
         for task in system.tasks
         for module in task.modules
         for line, hits in sorted(reached.get(module.path, {}).items())

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 
 from rapidgen.proving.encounters import Pair
 from rapidgen.proving.explore import Explored
-from rapidgen.proving.plan import Ground, Name, Place, Plan, drawn
+from rapidgen.proving.plan import DriverLine, Ground, Plan, ScheduleName, drawn
 
 CANDIDATES = 12
 """Of which the one is taken that does most what none before has done."""
@@ -26,7 +26,7 @@ class Parent:
     """A schedule that brought new pairs: its number, its name, how many."""
 
     number: int
-    name: Name
+    name: ScheduleName
     gain: int
 
 
@@ -36,9 +36,9 @@ class Guide:
     def __init__(self, ground: Ground, first: int = 0) -> None:
         self._ground = ground
         self._first = first
-        self._names: list[Name] = []
-        self._done: set[tuple[str, Place, int]] = set()
-        self._acted: set[tuple[str, Place]] = set()
+        self._names: list[ScheduleName] = []
+        self._done: set[tuple[str, DriverLine, int]] = set()
+        self._acted: set[tuple[str, DriverLine]] = set()
         self._parents: list[Parent] = []
         self._pairs: set[Pair] = set()
         self._taken = 0
@@ -60,7 +60,7 @@ class Guide:
             made = self._best(_changes(chance.choices(parents, weights)[0].name, chance))
         else:
             begin = (self._first + number) * CANDIDATES
-            made = self._best(Name(seed) for seed in range(begin, begin + CANDIDATES))
+            made = self._best(ScheduleName(seed) for seed in range(begin, begin + CANDIDATES))
         doings = _doings(drawn(made, self._ground))
         self._done |= doings
         self._acted |= {(act, place) for act, place, _ in doings}
@@ -77,21 +77,21 @@ class Guide:
         self._taken += 1
         return replace(explored, pairs=tuple(sorted(new)))
 
-    def _best(self, names: Iterable[Name]) -> Name:
+    def _best(self, names: Iterable[ScheduleName]) -> ScheduleName:
         return max(names, key=lambda name: self._news(_doings(drawn(name, self._ground))))
 
-    def _news(self, doings: set[tuple[str, Place, int]]) -> float:
+    def _news(self, doings: set[tuple[str, DriverLine, int]]) -> float:
         """What is done somewhere for the first time counts more than what only takes longer."""
         first = {(act, place) for act, place, _ in doings} - self._acted
         return len(first) + 0.3 * len(doings - self._done)
 
 
-def _doings(plan: Plan) -> set[tuple[str, Place, int]]:
+def _doings(plan: Plan) -> set[tuple[str, DriverLine, int]]:
     """What is done where, and for how many ms."""
     return {(s.act, s.where.place, s.where.busy) for s in plan.steps if s.where is not None}
 
 
-def _changes(parent: Name, chance: random.Random) -> list[Name]:
+def _changes(parent: ScheduleName, chance: random.Random) -> list[ScheduleName]:
     before = parent.changes[: DEEPEST - 1]
     changes = (chance.randrange(1000) for _ in range(CANDIDATES))
     return [replace(parent, changes=(*before, change)) for change in changes]

@@ -11,7 +11,7 @@ from rapidgen.proving.instructions import Order, watched_orders
 from rapidgen.proving.link import STOP, RawLink
 from rapidgen.proving.messages import RawReason
 from rapidgen.proving.model import Broken
-from rapidgen.proving.plan import Plan, Step
+from rapidgen.proving.plan import Disturbance, Plan
 from rapidgen.proving.stream import BEGIN, END, NONE, Streamer
 from rapidgen.proving.track import Point, Position, distance, off
 
@@ -33,7 +33,7 @@ class History:
     ) -> None:
         self.bench = bench
         self.schedule = schedule
-        self.step = Step("", "", None, "")
+        self.step = Disturbance("", "", None, "")
         self.chance = random.Random(f"{schedule.seed} walk")
         self.silence = silence
         self.trace = trace

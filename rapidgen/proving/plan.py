@@ -35,7 +35,7 @@ BY_TIME = 0.2
 
 
 @dataclass(frozen=True, slots=True)
-class Place:
+class DriverLine:
     """A line that a driver executes; `meets`: tasks meet there."""
 
     task: str
@@ -48,13 +48,13 @@ class Place:
 class Where:
     """The `count`-th time that a statement is reached, which then takes `busy` ms."""
 
-    place: Place
+    place: DriverLine
     count: int
     busy: int
 
 
 @dataclass(frozen=True, slots=True)
-class Step:
+class Disturbance:
     """One step; its other chances are drawn from `seed`. `where`: None, at some time."""
 
     name: str
@@ -67,7 +67,7 @@ class Step:
 class Plan:
     """A whole schedule."""
 
-    steps: tuple[Step, ...]
+    steps: tuple[Disturbance, ...]
     order: Order | Literal["turns"]
     network: Network
     seed: str
@@ -82,14 +82,14 @@ class Ground:
     """
 
     steps: tuple[str, ...]
-    places: tuple[Place, ...] = ()
+    places: tuple[DriverLine, ...] = ()
     task: str = ""
     """The task that moves the robot."""
     fault: str = ""
 
 
 @dataclass(frozen=True, slots=True)
-class Name:
+class ScheduleName:
     """What a plan is drawn from."""
 
     seed: int
@@ -111,14 +111,14 @@ class Name:
 _NAME = re.compile(r"(\d+)((?:~\d+)*)(?:/steps=(\d+(?:,\d+)*)?)?(/turns)?(/calm)?")
 
 
-def named(text: str) -> Name:
+def named(text: str) -> ScheduleName:
     """The name that a text is. Raises DiagnosticError RG807."""
     found = _NAME.fullmatch(text)
     if found is None:
         raise _no_name(text)
     seed, changes, steps, turns, calm = found.groups()
     chosen = tuple(int(number) for number in (steps or "").split(",") if number)
-    return Name(
+    return ScheduleName(
         int(seed),
         tuple(int(number) for number in changes.split("~") if number),
         chosen if "/steps=" in text else None,
@@ -132,7 +132,7 @@ def _no_name(text: str) -> DiagnosticError:
     return refusal("RG807", None, f"'{text}' names no schedule", mend)
 
 
-def drawn(name: Name, ground: Ground) -> Plan:
+def drawn(name: ScheduleName, ground: Ground) -> Plan:
     """The plan of that name: the same for the same driver."""
     plan = _fresh(name.seed, ground)
     for change in name.changes:
@@ -155,13 +155,13 @@ def _fresh(seed: int, ground: Ground) -> Plan:
     return Plan(steps, chance.choice(get_args(Order)), chance.choice(networks), str(seed))
 
 
-def _step(name: str, seed: str, chance: random.Random, ground: Ground) -> Step:
+def _step(name: str, seed: str, chance: random.Random, ground: Ground) -> Disturbance:
     acts = ACTS.get(name)
     if acts is None:
-        return Step(name, "", None, seed)
+        return Disturbance(name, "", None, seed)
     act = chance.choice(acts)
     by_time = not ground.places or chance.random() < BY_TIME
-    return Step(name, act, None if by_time else _where(chance, ground), seed)
+    return Disturbance(name, act, None if by_time else _where(chance, ground), seed)
 
 
 def _where(chance: random.Random, ground: Ground) -> Where:
@@ -191,6 +191,6 @@ def _changed(plan: Plan, change: int, ground: Ground) -> Plan:
     return replace(plan, steps=steps, seed=seed)
 
 
-def _near(one: Place, other: Place) -> bool:
+def _near(one: DriverLine, other: DriverLine) -> bool:
     same = (one.task, one.module) == (other.task, other.module)
     return same and abs(one.line - other.line) <= 5

@@ -39,6 +39,16 @@ class Setting:
         return max(1.0, self.costs.builtin_scale)
 
     @property
+    def corners_in_time(self) -> bool:
+        """Whether the motion task has its turn between a move's release and its corner.
+
+        Tasks that run by lot may keep it waiting for a dozen calls on sockets in a row, 25 ms of
+        a slow controller with two clients: no driver is in time there for a `planning_lead` of
+        20 ms, nor need it be (docs/develop/compatibility.md, 35). In turns it is 13 ms.
+        """
+        return not self.random_schedule or self.motion.planning_lead > _TURN * self.slowness
+
+    @property
     def latest_interrupt(self) -> float:
         """s from an event to its trap, at most."""
         return self.costs.interrupt_delay[1] * 1e-9
@@ -54,6 +64,8 @@ NEEDED = frozenset({"alias_by_name"})
 # Where the TCP has a ceiling of its own every trajectory is refused with it.
 NOT_WITH_CEILINGS = "calc_in_background=false"
 _CEILING = 5.0
+# s that the other tasks may take together before the motion task has its turn, by lot.
+_TURN = 0.01
 # Figures of the motion that no source gives, and another one for each.
 FIGURES = {"planning_lead": 0.02, "servo_lag": 0.05, "settle": 0.2, "quick_factor": 1.0}
 COSTS = (1.0, 0.25, 4.0)

@@ -6,11 +6,11 @@ from dataclasses import replace
 
 from rapidgen.proving.blame import smallest
 from rapidgen.proving.model import Finding
-from rapidgen.proving.plan import Name
+from rapidgen.proving.plan import ScheduleName
 
 
 def smaller(
-    name: Name, steps: int, finding: Finding, run: Callable[[Name], Finding | None]
+    name: ScheduleName, steps: int, finding: Finding, run: Callable[[ScheduleName], Finding | None]
 ) -> Finding:
     """What `run` finds in the least that is left of a schedule of so many `steps`.
 
@@ -19,7 +19,7 @@ def smaller(
     """
     found = finding
 
-    def breaks(tried: Name) -> bool:
+    def breaks(tried: ScheduleName) -> bool:
         nonlocal found
         came = run(tried)
         if came is None or _words(came) != _words(finding):

@@ -11,11 +11,13 @@ from math import atan2, hypot
 from xml.etree.ElementTree import Element, SubElement, tostring
 
 from rapidgen.axes.mapping import JointMap
-from rapidgen.config.model import ChainLink, GroupConfig
+from rapidgen.config.model import ChainLink, GroupConfig, Joint
 
 BASE = "base"
 _STOUT, _SLENDER = 0.058, 0.022
 """Radius of the first and the last bar, as a share of the arm's length."""
+_LONGEST = 60.0
+"""m: a rail that is longer is none."""
 _SHORTEST = 0.05
 """m: the length of an arm without lengths."""
 _ENDLESS = {"lower": "-1000000", "upper": "1000000", "effort": "0", "velocity": "0"}
@@ -50,6 +52,8 @@ def described(group: GroupConfig) -> Drawing:
     flange = BASE
     for i, step in enumerate(group.chain):
         _bar(link, step.xyz, radii[i])
+        if step.joint in slides:
+            _rail(link, step, next(j for j in group.joints if j.name == step.joint), radii[i])
         parent, flange = flange, f"link_{i + 1}"
         kind = "fixed"
         name = step.joint or f"fixed_{i + 1}"
@@ -89,6 +93,15 @@ def _bar(link: Element, to: Vector, radius: float) -> None:
     if length > radius / 2:
         middle = (to[0] / 2, to[1] / 2, to[2] / 2)
         _cylinder(link, "body", radius, length, middle, to)
+
+
+def _rail(link: Element, step: ChainLink, joint: Joint, radius: float) -> None:
+    """What a carriage slides on, from limit to limit."""
+    ends = [joint.sign * (value - joint.offset) for value in (joint.lower, joint.upper)]
+    length = abs(ends[1] - ends[0])
+    if not any(step.rpy) and length < _LONGEST:
+        x, y, z = (at + a * sum(ends) / 2 for at, a in zip(step.xyz, step.axis, strict=True))
+        _cylinder(link, "housing", radius * 0.5, length + 2 * radius, (x, y, z), step.axis)
 
 
 def _cylinder(

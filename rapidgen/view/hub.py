@@ -1,8 +1,7 @@
 """One look at what is watched, for all who view it: encoded once, given to everybody."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
-from itertools import count
 
 from pydantic import BaseModel, ValidationError
 
@@ -12,30 +11,21 @@ from rapidgen.view.messages import FromPage, Positions, Replied
 
 @dataclass(frozen=True, slots=True)
 class Parcel:
-    """An encoded message. `passing`: the next of its kind makes it worthless."""
+    """Messages in order, encoded as one array. `passing`: the next one makes it worthless."""
 
     data: bytes
     passing: bool = False
 
 
-Deliver = Callable[[Parcel], None]
-"""Takes a message for one viewer; called on the thread of what is watched."""
-
-
 @dataclass(eq=False)
 class Hub:
-    """Who views, and what they are told. Everything but `post`ing belongs to the watched thread."""
+    """What is told of one thing that is watched. All of it belongs to that one's thread."""
 
     watched: Viewed
-    _viewers: dict[int, Deliver] = field(default_factory=dict)
-    _numbers: "count[int]" = field(default_factory=lambda: count(1))
+    tell: Callable[[Parcel], None]
+    """Takes what all who view are told."""
     _aspects: tuple[Aspect, ...] = ()
     _handlers: dict[type, Handler] = field(default_factory=dict)
-
-    @property
-    def viewers(self) -> int:
-        """How many view."""
-        return len(self._viewers)
 
     def renew(self) -> None:
         """Something else is watched from now on: everybody is told all of it."""
@@ -43,38 +33,28 @@ class Hub:
         self._handlers = {}
         for aspect in self._aspects:
             self._handlers |= aspect.handlers()
-        for parcel in self._whole():
-            self._tell(parcel)
+        self.tell(self._whole())
 
-    def join(self, deliver: Deliver) -> int:
-        """A viewer comes; the number is for `leave`."""
+    def join(self) -> Parcel:
+        """All that a viewer who comes now has to know."""
         # What it is told whole shall not come as news again.
         self.look()
-        number = next(self._numbers)
-        self._viewers[number] = deliver
-        for parcel in self._whole():
-            deliver(parcel)
-        return number
-
-    def leave(self, number: int) -> None:
-        """A viewer goes; harmless when it has gone."""
-        self._viewers.pop(number, None)
+        return self._whole()
 
     def look(self) -> None:
         """Tell everybody what is new."""
-        for aspect in self._aspects:
-            for message in aspect.changes():
-                self._tell(_parcel(message))
+        new = [message for aspect in self._aspects for message in aspect.changes()]
+        if new:
+            self.tell(_parcel(new))
 
-    def ask(self, data: str | bytes, deliver: Deliver) -> None:
-        """Carry a request out, and answer it."""
+    def ask(self, data: str | bytes) -> Parcel:
+        """Carry a request out; the answer."""
         try:
             asked = FromPage.model_validate_json(data)
         except ValidationError as error:
             fault = error.errors(include_url=False, include_input=False)[0]
             where = ".".join(str(part) for part in fault["loc"])
-            deliver(_parcel(Replied(id=0, error=f"not understood: {where} {fault['msg']}")))
-            return
+            return _parcel([Replied(id=0, error=f"not understood: {where} {fault['msg']}")])
         handler = self._handlers.get(type(asked.request))
         text = refused = ""
         if handler is None:
@@ -84,15 +64,13 @@ class Hub:
                 text = handler(asked.request)
             except Declined as why:
                 refused = str(why)
-        deliver(_parcel(Replied(id=asked.id, error=refused, text=text)))
+        return _parcel([Replied(id=asked.id, error=refused, text=text)])
 
-    def _whole(self) -> list[Parcel]:
-        return [_parcel(message) for aspect in self._aspects for message in aspect.whole()]
-
-    def _tell(self, parcel: Parcel) -> None:
-        for deliver in tuple(self._viewers.values()):
-            deliver(parcel)
+    def _whole(self) -> Parcel:
+        return _parcel([message for aspect in self._aspects for message in aspect.whole()])
 
 
-def _parcel(message: BaseModel) -> Parcel:
-    return Parcel(message.model_dump_json().encode(), isinstance(message, Positions))
+def _parcel(messages: Iterable[BaseModel]) -> Parcel:
+    told = [*messages]
+    data = b",".join(message.model_dump_json().encode() for message in told)
+    return Parcel(b"[" + data + b"]", all(isinstance(message, Positions) for message in told))

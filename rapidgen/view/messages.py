@@ -11,6 +11,7 @@ from typing import Annotated, Literal, TypeAlias
 from pydantic import Field, TypeAdapter
 
 from rapidgen.view import program_messages as p
+from rapidgen.view import trajectory_messages as t
 from rapidgen.view.spoken import Spoken
 
 Finite = Annotated[float, Field(allow_inf_nan=False)]
@@ -51,6 +52,8 @@ class SeenRobot(Spoken):
     axes: tuple[Axis, ...]
     """In wire order, that of `RobotPlace.axes`."""
     has_geometry: bool
+    base: Pose = Pose(position=(0.0, 0.0, 0.0), orientation=(1.0, 0.0, 0.0, 0.0))
+    """Where its root is drawn: apart from robots that would stand in it."""
 
 
 class Scene(Spoken):
@@ -303,6 +306,7 @@ ToPage: TypeAlias = (
     | p.HeldValues
     | p.Covered
     | p.Playback
+    | t.DroppedTrajectory
     | Replied
 )
 Request: TypeAlias = (
@@ -329,6 +333,9 @@ Request: TypeAlias = (
     | p.Seek
     | p.Play
     | p.ReadCurves
+    | t.DropTrajectory
+    | t.RunTrajectory
+    | t.ForgetTrajectory
 )
 
 

@@ -1,12 +1,19 @@
 """A configured robot in the page's words."""
 
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from math import hypot
 
 from rapidgen.axes import frames
 from rapidgen.axes.kinematics import Kinematics, Posture
 from rapidgen.config.model import GroupConfig, Placement
 from rapidgen.view.drawing import Drawing
 from rapidgen.view.messages import Axis, Pose, SeenRobot
+
+_SAME = 0.05
+"""m between two feet that are one place."""
+_ROOM = 1.4
+"""Of an arm's length, between two robots."""
 
 
 def group_of(config: GroupConfig, description: Drawing) -> SeenRobot:
@@ -31,6 +38,21 @@ def group_of(config: GroupConfig, description: Drawing) -> SeenRobot:
         ),
         has_geometry=bool(config.chain),
     )
+
+
+def side_by_side(configs: Sequence[GroupConfig], seen: Sequence[SeenRobot]) -> Iterator[SeenRobot]:
+    """The robots, those apart that would stand in one another: nothing tells where they are."""
+    standing: list[frames.Vector] = []
+    y = 0.0
+    for config, robot in zip(configs, seen, strict=True):
+        foot = config.chain[0].xyz if config.chain else (0.0, 0.0, 0.0)
+        if any(hypot(foot[0] - x, foot[1] - y) < _SAME for x, y, _ in standing):
+            y += _ROOM * sum(hypot(*step.xyz) for step in config.chain)
+            robot = robot.model_copy(
+                update={"base": Pose(position=(0.0, -y, 0.0), orientation=frames.UNIT)}
+            )
+        standing.append(foot)
+        yield robot
 
 
 def pose_of(frame: frames.Pose) -> Pose:

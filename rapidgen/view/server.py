@@ -4,6 +4,7 @@ Files are those that were there when it began, by name: no path of a request rea
 """
 
 import asyncio
+import struct
 import threading
 from collections.abc import Awaitable, Callable
 from contextlib import suppress
@@ -29,9 +30,8 @@ _TYPES: Final = {
 LOOKS: Final = 1 / 30
 """s between two looks at what is watched."""
 _LARGEST: Final = 1_048_576
-_UNREAD: Final = 256
-"""Messages that may wait for a page that does not read; passing ones are dropped before."""
-_PASSING: Final = 4
+_UNREAD: Final = 8_388_608
+"""Bytes that may wait for a page that does not read; what is passing is dropped at once."""
 Answer = Callable[[web.Request], Awaitable[web.StreamResponse]]
 
 
@@ -82,30 +82,32 @@ def _assets() -> dict[str, tuple[bytes, str]]:
 
 @dataclass(eq=False)
 class _Viewer:
-    """What waits for one page."""
+    """One page. Frames are written to its transport as they are: encoded once for all."""
 
-    waiting: asyncio.Queue[Parcel | None]
+    transport: asyncio.Transport
+    knows: bool = False
+    """It has been told all; news make sense to it."""
 
-    def take(self, parcel: Parcel) -> None:
-        """One more; a page that does not keep up misses what is passing."""
-        depth = self.waiting.qsize()
-        if depth > _UNREAD:
-            self.waiting.put_nowait(None)
-        elif not (parcel.passing and depth > _PASSING):
-            self.waiting.put_nowait(parcel)
+    def send(self, frame: bytes, *, passing: bool = False) -> None:
+        """One more; a page that does not keep up misses what is passing, and is cut off then."""
+        waiting = self.transport.get_write_buffer_size()
+        if waiting > _UNREAD:
+            self.transport.abort()
+        elif not (passing and waiting):
+            self.transport.write(frame)
 
 
 class _Server:
     """One port, and the thread with its loop."""
 
     def __init__(self, watched: Viewed, assets: dict[str, tuple[bytes, str]]) -> None:
-        self.hub = Hub(watched)
+        self.hub = Hub(watched, self._tell)
         self.door = Doorkeeper()
         self.port = 0
         self._watched = watched
         self._assets = assets
         self._loop = asyncio.new_event_loop()
-        self._sockets: set[web.WebSocketResponse] = set()
+        self._viewers: dict[_Viewer, web.WebSocketResponse] = {}
         self._looked = True
         app = web.Application(middlewares=[self._guarded], client_max_size=65_536)
         app.router.add_get("/", self._asset)
@@ -157,7 +159,7 @@ class _Server:
         self._loop.close()
 
     async def _close(self) -> None:
-        for socket in tuple(self._sockets):
+        for socket in tuple(self._viewers.values()):
             await socket.close()
         await self._runner.cleanup()
 
@@ -169,7 +171,7 @@ class _Server:
     def _look(self) -> None:
         """Ask for a look, unless nobody views or the last one has not been had."""
         self._loop.call_later(LOOKS, self._look)
-        if not self._sockets or not self._looked:
+        if not self._viewers or not self._looked:
             return
         self._looked = False
 
@@ -215,33 +217,45 @@ class _Server:
             return web.Response(status=403)
         socket = web.WebSocketResponse(max_msg_size=_LARGEST, heartbeat=20, compress=False)
         await socket.prepare(request)
-        viewer = _Viewer(asyncio.Queue())
-        number = 0
-
-        def deliver(parcel: Parcel) -> None:
-            self._soon(lambda: viewer.take(parcel))
+        assert isinstance(request.transport, asyncio.Transport)
+        viewer = _Viewer(request.transport)
 
         def join() -> None:
-            nonlocal number
-            number = self.hub.join(deliver)
+            self._soon(partial(self._begin, viewer, self.hub.join()))
 
-        self._sockets.add(socket)
+        def ask(text: str) -> None:
+            self._soon(partial(viewer.send, _frame(self.hub.ask(text).data)))
+
+        self._viewers[viewer] = socket
         self._watched.post(join)
-        sending = asyncio.ensure_future(_send(socket, viewer))
         try:
             async for message in socket:
                 if message.type is WSMsgType.TEXT:
-                    self._watched.post(partial(self.hub.ask, message.data, deliver))
+                    self._watched.post(partial(ask, message.data))
         finally:
-            self._sockets.discard(socket)
-            sending.cancel()
-            await asyncio.gather(sending, return_exceptions=True)
-            self._watched.post(lambda: self.hub.leave(number))
+            del self._viewers[viewer]
         return socket
 
+    def _begin(self, viewer: _Viewer, whole: Parcel) -> None:
+        viewer.send(_frame(whole.data))
+        viewer.knows = True
 
-async def _send(socket: web.WebSocketResponse, viewer: _Viewer) -> None:
-    """Send what comes until the page does not read any more."""
-    while (parcel := await viewer.waiting.get()) is not None:
-        await socket.send_str(parcel.data.decode())
-    await socket.close()
+    def _tell(self, parcel: Parcel) -> None:
+        self._soon(partial(self._broadcast, _frame(parcel.data), parcel.passing))
+
+    def _broadcast(self, frame: bytes, passing: bool) -> None:
+        for viewer in self._viewers:
+            if viewer.knows:
+                viewer.send(frame, passing=passing)
+
+
+def _frame(data: bytes) -> bytes:
+    """A text message in one frame, as servers write them (RFC 6455, 5.2)."""
+    length = len(data)
+    if length < 126:
+        head = struct.pack("!BB", 0x81, length)
+    elif length < 65_536:
+        head = struct.pack("!BBH", 0x81, 126, length)
+    else:
+        head = struct.pack("!BBQ", 0x81, 127, length)
+    return head + data

@@ -4,14 +4,14 @@ import pytest
 from driven import BENT, complaints, driven, moved
 
 from rapidgen.client import NotSupported, Program, RequestRefused, Robot
-from rapidgen.client.own_data import RobotData
+from rapidgen.client.own_data import CellData
 from rapidgen.system.model import ModuleFile
 from rapidgen.wire.simple_message.spec import Reason
 
 
 def test_it_is_a_mapping_that_is_read_and_written_at_the_robot():
     held = {"cell:count": 3.0, "cell:recipe": "none"}
-    data = RobotData(tuple(held), held.__getitem__, held.__setitem__)
+    data = CellData(tuple(held), held.__getitem__, held.__setitem__)
     data["cell:count"] = 4.0
     assert dict(data) == held == {"cell:count": 4.0, "cell:recipe": "none"}
     assert "cell:recipe" in data

@@ -6,6 +6,7 @@ from driven import BENT, complaints, driven, moved, wiggle
 
 from rapidgen.axes import frames
 from rapidgen.client import (
+    ConnectionLost,
     InvalidProgram,
     MotionFailed,
     MotionStopped,
@@ -17,7 +18,7 @@ from rapidgen.client import (
     pulse,
 )
 from rapidgen.system.model import SignalSpec
-from rapidgen.wire.simple_message.spec import Reason, TrajectoryState
+from rapidgen.wire.simple_message.spec import Port, Reason, TrajectoryState
 
 
 def square(robot, size=0.05, **options):
@@ -322,3 +323,39 @@ def test_a_jog_is_small_and_stands_soon_after_a_lost_client():
         assert controller.now - since < 0.3
         with pytest.raises((MotionFailed, MotionStopped)):
             jogging.result()
+
+
+@pytest.mark.parametrize("ended", ["reset", "closed"])
+@pytest.mark.parametrize(
+    "lost",
+    [(Port.MOTION,), (Port.CONTROL,), (Port.STATE,), (Port.MOTION, Port.CONTROL, Port.STATE)],
+)
+def test_a_jog_stands_soon_after_a_connection_is_cut(lost, ended):
+    with driven(reconnect=0.0) as (robot, controller):
+        group = controller.motion.group("rob1")
+        jogging = robot.later.jog(joint_1=-0.2, speed=0.02)
+        robot.sleep(1.0)
+        assert not group.is_standing
+        since = controller.now
+        for port in lost:
+            cut(robot, controller, port, ended)
+        while not group.is_standing and controller.now - since < 1.0:
+            robot.sleep(0.01)
+        # 0.3 s is allowed; but who waits for 0.2 s of silence has not seen that it was cut.
+        assert controller.now - since < 0.2
+        with pytest.raises((ConnectionLost, MotionFailed)):
+            jogging.result()
+        here = group.positions()
+        robot.sleep(1.0)
+        assert group.positions() == here
+
+
+def cut(robot, controller, port, ended):
+    """One connection is reset, as by a computer that crashed, or closed, as by a program's end."""
+    if ended == "closed":
+        robot._carrier._links[port].transport.close()
+        return
+    for device in tuple(controller.sockets.in_use):
+        end = device.endpoint
+        if end is not None and end.peer is not None and end.local[1] == port:
+            controller.sockets.cut(device)

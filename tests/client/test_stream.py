@@ -290,9 +290,9 @@ def test_replies_get_lost(connected, comes):
 
 def test_events(connected, comes):
     with connected() as (robot, controller):
-        data = struct.pack("<3i80s", 5, 24, 3, b"Corner path failure")
-        strange = struct.pack("<3i80s", 1, 10, 9, b"?")
-        missed = struct.pack("<3i80s", 0, 7, 2, b"")
+        data = struct.pack("<3i240s", 5, 24, 3, b"Corner path failure")
+        strange = struct.pack("<3i240s", 1, 10, 9, b"?")
+        missed = struct.pack("<3i240s", 0, 7, 2, b"")
         controller.extra = b"".join(frame(1308, 1, 0, told) for told in (data, strange, missed))
         assert comes(lambda: len(robot.events) == 3)
         first, second, third = robot.events

@@ -6,6 +6,8 @@ import pytest
 
 from rapidgen.controller import VirtualController
 from rapidgen.controller.debugger import Breakpoint, Debugger, NotNow
+from rapidgen.controller.debugger.stack import where_it_looks
+from rapidgen.controller.debugger.values import evaluate
 
 PROGRAM = """MODULE m
   PERS num total := 0;
@@ -272,6 +274,15 @@ def test_stop_on_errors_that_are_handled(boot):
     controller.run_for(1.0)
     assert (line(debugger), debugger.halt.text) == (11, "ERR_DIVZERO")
     assert debugger.evaluate("T_ROB1", "d").text == "0"
+
+
+def test_a_task_that_executes_nothing_has_its_data_and_no_variables(boot):
+    controller, _ = boot(autostart=False)
+    task = controller.rapid_tasks["T_ROB1"]
+    frame = where_it_looks(task)
+    assert evaluate(task.program, frame, "corner.y + limit").text == "6"
+    with pytest.raises(NotNow, match="not being executed"):
+        evaluate(task.program, frame, "i")
 
 
 def test_nothing_is_reported_without_breakpoints(boot):

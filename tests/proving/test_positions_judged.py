@@ -5,6 +5,7 @@ import pytest
 from rapidgen.machine.log import EventType
 from rapidgen.proving import track
 from rapidgen.proving.instructions import fails
+from rapidgen.proving.settings import assumed
 from tests.proving.made_up import PATH, A, B, C, D, along, red
 
 # -- positions ------------------------------------------------------------------------------------
@@ -178,12 +179,26 @@ def test_one_that_is_executed_on_another_way_is_seen(bench):
 
 
 def test_one_of_which_the_controller_complains_is_seen(bench):
-    bench.controller.scheduler.after(
-        500_000_000,
-        lambda: bench.controller.log.write(50_024, EventType.WARNING, "Corner path failure"),
-    )
+    complains(bench, 50_024)
     with red("complains of the motion"):
         bench.moves_through(bench.motion(), bench.wave(6))
+
+
+def test_a_corner_is_excused_where_no_task_is_sure_of_its_turn_and_nothing_else(bench):
+    bench.setting = assumed(["schedule=random", "costs=4.0", "planning_lead=0.02"])
+    complains(bench, 50_024)
+    bench.moves_through(bench.motion(), bench.wave(6))
+    complains(bench, 50_078)
+    with red("complains of the motion"):
+        bench.moves_through(bench.motion(), bench.wave(6))
+
+
+def complains(bench, code):
+    """An event of a motion's that is about to be under way."""
+    bench.controller.scheduler.after(
+        500_000_000,
+        lambda: bench.controller.log.write(code, EventType.WARNING, "Corner path failure"),
+    )
 
 
 def test_a_task_that_has_ended_is_not_healthy(bench):

@@ -62,6 +62,15 @@ def test_each_answer_alone_and_the_default_alone():
     assert list(rows(0)) == [""]
 
 
+@pytest.mark.parametrize(
+    ("left_out", "in_time"),
+    [("", False), ("schedule=pers", True), ("costs=4.0", True), ("planning_lead=0.02", True)],
+)
+def test_only_a_slow_controller_by_lot_that_asks_late_may_miss_a_corner(left_out, in_time):
+    texts = {"schedule=pers", "costs=4.0", "planning_lead=0.02"} - {left_out}
+    assert assumed(sorted(texts)).corners_in_time is in_time
+
+
 @pytest.mark.parametrize("strength", [2, 3])
 def test_an_array_covers_and_is_always_the_same(strength):
     factors: Mapping[str, str] = {"a": "xy", "b": "xyz", "c": "xy", "d": "wxyz", "e": "xy"}

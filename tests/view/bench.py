@@ -1,12 +1,17 @@
 """A simulator with its page in a process of its own, and waiting for what a page shows."""
 
+import io
 import json
 import os
 import subprocess
 import sys
 import time
 from contextlib import contextmanager
+from pathlib import Path
 
+from PIL import Image
+
+DOCS = Path(__file__).parents[2] / "docs" / "use"
 PATIENCE = 60.0
 
 
@@ -50,3 +55,10 @@ def until(page, expression, wanted=lambda value: value):
 
 
 STATE = "window.rapidgen && rapidgen.state()"
+
+
+def picture_for_docs(page, name):
+    """docs/use/NAME.png as the page is now, where RAPIDGEN_PICTURES asks for it."""
+    if os.environ.get("RAPIDGEN_PICTURES"):
+        shot = Image.open(io.BytesIO(page.screenshot()))
+        shot.quantize(160, dither=Image.Dither.NONE).save(DOCS / f"{name}.png", optimize=True)

@@ -45,7 +45,7 @@ def _type(schema: dict) -> str:
             return f"readonly [{', '.join(map(_type, schema['prefixItems']))}]"
         case "array":
             inner = _type(schema["items"])
-            return f"readonly ({inner})[]" if "|" in inner else f"readonly {inner}[]"
+            return f"readonly ({inner})[]" if " " in inner else f"readonly {inner}[]"
         case "object":
             return f"Readonly<Record<string, {_type(schema['additionalProperties'])}>>"
         case "integer" | "number":

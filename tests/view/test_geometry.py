@@ -1,10 +1,6 @@
-"""What the page draws is where `axes` says: links of every shipped model, and the TCP's pixel.
-
-The short form takes some models; RAPIDGEN_PROPERTIES=campaign all of them with 20 postures each.
-"""
+"""What the page draws is where `axes` says: links of every shipped model, and the TCP's pixel."""
 
 import io
-import os
 import random
 
 import numpy as np
@@ -22,9 +18,7 @@ from rapidgen.view.robots import group_of
 from tests.view.bench import STATE, until
 
 pytestmark = pytest.mark.browser
-ALL = os.environ.get("RAPIDGEN_PROPERTIES") == "campaign"
-MODELS = shipped_names() if ALL else ["irb120_track", "irb460", "irb14000", "crb15000"]
-POSTURES = 20 if ALL else 4
+POSTURES = 20
 HERE = Pose(position=(0, 0, 0), orientation=(1, 0, 0, 0))
 
 
@@ -62,7 +56,7 @@ def stage(browser, irb120):
     context.close()
 
 
-@pytest.mark.parametrize("name", MODELS)
+@pytest.mark.parametrize("name", shipped_names())
 def test_links_are_where_axes_says(stage, name):
     groups = load_config(name).groups
     stage.evaluate("scene => rapidgen.stage.build(scene)", scene_of(groups).model_dump(mode="json"))

@@ -16,21 +16,21 @@ class Viewer:
 
     def __init__(self, cabinet):
         self.cabinet = cabinet
-        self.hub = Hub(Simulation(cabinet))
+        self.hub = Hub(Simulation(cabinet), self.take)
         self.told = {}
         self.number = 0
         self.hub.renew()
-        self.hub.join(self.take)
+        self.take(self.hub.join())
 
     def take(self, parcel):
-        message = json.loads(parcel.data)
-        self.told[message["type"]] = message
+        for message in json.loads(parcel.data):
+            self.told[message["type"]] = message
 
     def ask(self, do, **request):
         """The text of the reply, or its error."""
         self.number += 1
         asked = {"id": self.number, "request": {"do": do, **request}}
-        self.hub.ask(json.dumps(asked), self.take)
+        self.take(self.hub.ask(json.dumps(asked)))
         reply = self.told["reply"]
         return reply["error"] or reply["text"]
 
@@ -113,7 +113,7 @@ def test_every_second_viewer_is_told_all(viewer):
     viewer.ask("break", module="work", line=17)
     viewer.pass_time(60)
     told = {}
-    viewer.hub.join(lambda parcel: told.update({json.loads(parcel.data)["type"]: 1}))
+    told.update({message["type"]: 1 for message in json.loads(viewer.hub.join().data)})
     assert told.keys() >= {"scene", "loaded", "pointers", "debugging", "held"}
 
 

@@ -174,7 +174,7 @@ def talk(port, token, said, count, **headers):
                     await socket.send_str(text)
                 got = []
                 while sum(m["type"] == "reply" for m in got) < count:
-                    got.append(json.loads((await socket.receive(30)).data))
+                    got += json.loads((await socket.receive(30)).data)
                 return got
 
     return asyncio.run(run())

@@ -49,6 +49,18 @@ def frames_of(task: Task) -> tuple[StackFrame, ...]:
     return tuple(reversed(list(_live(task, task.frame))))
 
 
+def where_it_looks(task: Task) -> StackFrame | None:
+    """The innermost routine, or of a task that executes nothing its entry, without values."""
+    frames = frames_of(task)
+    if frames:
+        return frames[-1]
+    routine = task.program.find_routine(None, task.spec.entry.lower())
+    if routine is None or routine.node is None or routine.module is None:
+        return None
+    place = Location(routine.module.name, routine.name, routine.module.span(routine.node))
+    return StackFrame(place, "program", "", routine, routine.module, {}, None)
+
+
 def innermost(task: Task, frame: FrameType | None) -> StackFrame:
     """The routine that a running task is in, seen from a Python frame above."""
     return next(iter(_live(task, frame)))

@@ -67,6 +67,8 @@ def read(watched: WatchedExpression, frame: StackFrame) -> Value:
         raise NotNow(f"{known.name}{f': {known.text}' if known.text else ''}") from error
     except FatalError as error:
         raise NotNow(f"{error.event} {error.title}") from error
+    except NameError as error:
+        raise NotNow("a variable of a routine that is not being executed") from error
 
 
 def assign(program: Program, frame: StackFrame, target: str, value: str) -> Shown:

@@ -6,7 +6,7 @@ from dataclasses import replace
 from rapidgen.proving import messages
 from rapidgen.proving.batches import millionths, words_frame
 from rapidgen.proving.behaviour import Theme
-from rapidgen.proving.bench import Bench
+from rapidgen.proving.bench import CORNER_FAILURE, Bench
 from rapidgen.proving.link import RawLink
 from rapidgen.proving.messages import (
     PROGRAM,
@@ -33,8 +33,6 @@ from rapidgen.proving.track import Position, changed, inward, small_unit
 case = Theme("programs", needs="stream")
 
 MOVE_ABSJ = RawInstruction.MOVE_ABSJ
-CORNER_FAILURE = 50024
-"""Event: a move with a zone ended as a stop point, because the next one came too late."""
 _SAME = 1e-5
 """m that the TCP may be away from the path of the same program in RAPID."""
 

@@ -20,7 +20,7 @@ from rapidgen.axes.kinematics import Posture
 from rapidgen.config.manifest import group_to_manifest
 from rapidgen.controller.controller import VirtualController
 from rapidgen.controller.debugger.pointers import motion_pointer
-from rapidgen.controller.debugger.stack import StackFrame, frames_of
+from rapidgen.controller.debugger.stack import StackFrame, frames_of, where_it_looks
 from rapidgen.controller.debugger.values import NotNow, evaluate
 from rapidgen.machine.io import Signal
 from rapidgen.machine.log import Event
@@ -174,11 +174,11 @@ class RecordingWriter:
     def _watched(self) -> Iterable[m.WatchedValue]:
         for name, expression in self.watches:
             task = self._controller.rapid_tasks.get(name)
-            frames = frames_of(task) if task is not None else ()
-            kind, text = "", "(not executing)"
-            if task is not None and frames:
+            frame = where_it_looks(task) if task is not None else None
+            kind, text = "", "(there is no program)"
+            if task is not None and frame is not None:
                 try:
-                    shown = evaluate(task.program, frames[-1], expression)
+                    shown = evaluate(task.program, frame, expression)
                     kind, text = shown.type, shown.text
                 except NotNow as reason:
                     text = f"({reason})"

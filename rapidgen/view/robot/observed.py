@@ -24,7 +24,7 @@ from rapidgen.view.messages import (
     Scene,
     ToPage,
 )
-from rapidgen.view.robots import Carried, group_of, pose_of
+from rapidgen.view.robots import Carried, group_of, pose_of, side_by_side
 from rapidgen.wire.simple_message.spec import EventType, Mode, TriState
 
 _MODES: dict[Mode, Literal["auto", "manual_reduced"]] = {
@@ -80,7 +80,9 @@ class _StateAspect:
             title=self._title,
             kind="robot",
             may_command=False,
-            groups=tuple(map(group_of, self._configs, self._drawings)),
+            groups=tuple(
+                side_by_side(self._configs, [*map(group_of, self._configs, self._drawings)])
+            ),
         )
         states = [robot.state for robot in self._robots]
         yield self._positions(states)

@@ -9,7 +9,7 @@ from rapidgen.view.aspect import Declined, Handler
 from rapidgen.view.copying import copied
 from rapidgen.view.drawing import Drawing, described
 from rapidgen.view.messages import Copy, Jog, Positions, Request, RobotPlace, Scene, ToPage
-from rapidgen.view.robots import Carried, group_of, pose_of
+from rapidgen.view.robots import Carried, group_of, pose_of, side_by_side
 
 
 class MotionAspect:
@@ -24,14 +24,12 @@ class MotionAspect:
 
     def whole(self) -> Iterable[ToPage]:
         """What is there and where it is."""
+        configs = [group.config for group in self._groups]
         yield Scene(
             title=self._controller.system.name,
             kind="simulation",
             may_command=True,
-            groups=tuple(
-                group_of(group.config, drawing)
-                for group, drawing in zip(self._groups, self._drawings, strict=True)
-            ),
+            groups=tuple(side_by_side(configs, [*map(group_of, configs, self._drawings)])),
         )
         yield self._state(self._now())
 

@@ -10,6 +10,7 @@ from rapidgen.view.simulator.pendant import PendantAspect
 from rapidgen.view.simulator.program import ProgramAspect
 from rapidgen.view.simulator.signals import SignalsAspect
 from rapidgen.view.simulator.telling import TellingAspect
+from rapidgen.view.simulator.trajectories import TrajectoryAspect
 
 ASPECTS: tuple[Callable[[Cabinet], Aspect], ...] = (
     MotionAspect,
@@ -17,6 +18,7 @@ ASPECTS: tuple[Callable[[Cabinet], Aspect], ...] = (
     TellingAspect,
     SignalsAspect,
     ConnectionsAspect,
+    TrajectoryAspect,
     ProgramAspect,
 )
 """What is told of a virtual controller; the scene comes first."""

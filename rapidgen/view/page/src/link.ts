@@ -46,7 +46,9 @@ export class Link {
     const socket = new WebSocket(`ws://${location.host}/link`);
     this.socket = socket;
     socket.onopen = () => this.tell("open");
-    socket.onmessage = (event) => this.take(JSON.parse(event.data as string) as ToPage);
+    socket.onmessage = (event) => {
+      for (const message of JSON.parse(event.data as string) as ToPage[]) this.take(message);
+    };
     socket.onclose = () => {
       this.socket = null;
       for (const settle of this.pending.values()) settle("the connection was lost", "");

@@ -92,16 +92,44 @@ export interface Dialogs {
   readonly waiting: readonly Dialog[];
 }
 
+/** Check a file's text for a robot; nothing moves. */
+export interface DropTrajectory {
+  readonly do: "drop";
+  readonly group: string;
+  readonly file: string;
+  readonly text: string;
+}
+
+/** A trajectory as it was checked; the file's name is empty when there is none. */
+export interface DroppedTrajectory {
+  readonly type: "trajectory";
+  readonly group: string;
+  readonly file: string;
+  readonly seconds: number;
+  readonly points: number;
+  readonly way: readonly (readonly [number, number, number])[];
+  readonly pace: readonly number[];
+  readonly steps: number;
+  readonly findings: readonly TrajectoryFinding[];
+  readonly state: "refused" | "checked" | "running" | "done" | "failed";
+  readonly told: string;
+}
+
 /** The reply's text is the value of an expression where it is looked at. */
 export interface Evaluate {
   readonly do: "evaluate";
   readonly expression: string;
 }
 
+/** Take it off the page. */
+export interface ForgetTrajectory {
+  readonly do: "forget";
+}
+
 /** A request and the number that its reply will have. */
 export interface FromPage {
   readonly id: number;
-  readonly request: Act | SetMode | SetOverride | SetPace | AnswerQuestion | Jog | Copy | SetSignal | Cut | ReadSource | SetBreakpoint | RemoveBreakpoint | Proceed | RunTo | StopOnErrors | LookAt | Evaluate | Assign | SetWatch | Cover | Seek | Play | ReadCurves;
+  readonly request: Act | SetMode | SetOverride | SetPace | AnswerQuestion | Jog | Copy | SetSignal | Cut | ReadSource | SetBreakpoint | RemoveBreakpoint | Proceed | RunTo | StopOnErrors | LookAt | Evaluate | Assign | SetWatch | Cover | Seek | Play | ReadCurves | DropTrajectory | RunTrajectory | ForgetTrajectory;
 }
 
 /** What the routine that is looked at holds, and the watch list. */
@@ -265,6 +293,11 @@ export interface RunTo {
   readonly line: number;
 }
 
+/** Execute what was checked, through the simulator's driver. */
+export interface RunTrajectory {
+  readonly do: "run";
+}
+
 /** The first message of a connection, and of a controller that has restarted. */
 export interface Scene {
   readonly type: "scene";
@@ -326,6 +359,7 @@ export interface SeenRobot {
   readonly movable: readonly string[];
   readonly axes: readonly Axis[];
   readonly has_geometry: boolean;
+  readonly base: Pose;
 }
 
 /** A task: what it executes, outermost routine first, and what its robot executes. */
@@ -416,6 +450,16 @@ export interface StopOnErrors {
   readonly errors: "never" | "unhandled" | "all";
 }
 
-export type ToPage = AllSignals | Connections | Covered | Debugging | Dialogs | HeldValues | LoadedPrograms | Log | PanelState | Playback | Pointers | Positions | Replied | Scene | Screen | SignalValues;
+/** What is wrong or doubtful; `point` counts from 0, None: it is of no point. */
+export interface TrajectoryFinding {
+  readonly code: string;
+  readonly severity: string;
+  readonly message: string;
+  readonly help: string;
+  readonly line: number | null;
+  readonly point: number | null;
+}
 
-export type Request = Act | AnswerQuestion | Assign | Copy | Cover | Cut | Evaluate | Jog | LookAt | Play | Proceed | ReadCurves | ReadSource | RemoveBreakpoint | RunTo | Seek | SetBreakpoint | SetMode | SetOverride | SetPace | SetSignal | SetWatch | StopOnErrors;
+export type ToPage = AllSignals | Connections | Covered | Debugging | Dialogs | DroppedTrajectory | HeldValues | LoadedPrograms | Log | PanelState | Playback | Pointers | Positions | Replied | Scene | Screen | SignalValues;
+
+export type Request = Act | AnswerQuestion | Assign | Copy | Cover | Cut | DropTrajectory | Evaluate | ForgetTrajectory | Jog | LookAt | Play | Proceed | ReadCurves | ReadSource | RemoveBreakpoint | RunTo | RunTrajectory | Seek | SetBreakpoint | SetMode | SetOverride | SetPace | SetSignal | SetWatch | StopOnErrors;

@@ -8,5 +8,6 @@ import { pendantPanel } from "./pendant";
 import { programPanel } from "./program";
 import { recordingPanel } from "./recording";
 import { signalsPanel } from "./signals";
+import { trajectoryPanel } from "./trajectory";
 
-export const PANELS: readonly MakePanel[] = [pendantPanel, recordingPanel, programPanel, axesPanel, signalsPanel, logPanel, connectionsPanel];
+export const PANELS: readonly MakePanel[] = [pendantPanel, recordingPanel, programPanel, axesPanel, signalsPanel, logPanel, trajectoryPanel, connectionsPanel];

@@ -69,7 +69,7 @@ export const pendantPanel: MakePanel = ({ link, order }) => {
     section("Operator window", rows),
     section("Tasks", h("table", {}, tasks)),
   );
-  return { id: "pendant", title: "Pendant", element, kinds: ["simulation"] };
+  return { id: "pendant", title: "Pendant", element, kinds: ["simulation", "recording"] };
 };
 
 function dialog(question: Dialog, answer: (value: string) => void): HTMLElement {

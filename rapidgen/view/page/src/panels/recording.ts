@@ -13,6 +13,7 @@ export const recordingPanel: MakePanel = (view) => new RecordingPanel(view);
 class RecordingPanel {
   readonly id = "recording";
   readonly title = "Recording";
+  readonly kinds = ["recording"] as const;
   readonly element: HTMLElement;
   private playback: Playback | null = null;
   private wanted: number | null = null;

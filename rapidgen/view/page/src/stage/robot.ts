@@ -41,6 +41,7 @@ export class Robot {
     this.tcp.add(axes(0.09, palette));
     const flange = this.body.links[group.flange] ?? this.body;
     flange.add(this.tcp);
+    place(this.root, group.base);
     this.root.add(this.body, this.ghost, this.trail.line);
   }
 
@@ -85,8 +86,8 @@ export class Robot {
     if (this.ghost.visible) this.set(this.ghost, state.commanded);
     if (state.tool_held) place(this.tcp, state.tool);
     this.warn(state);
-    this.body.updateMatrixWorld(true);
-    this.trail.add(this.tcp.getWorldPosition(new THREE.Vector3()));
+    this.root.updateMatrixWorld(true);
+    this.trail.add(this.root.worldToLocal(this.tcp.getWorldPosition(new THREE.Vector3())));
   }
 
   private set(robot: URDFRobot, values: readonly number[]): void {

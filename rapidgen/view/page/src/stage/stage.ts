@@ -5,6 +5,7 @@ import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import type { Scene, Positions } from "../messages";
 import { palette } from "./palette";
 import { axes, Robot } from "./robot";
+import { drawnWay } from "./way";
 
 export type ViewName = "fit" | "front" | "side" | "top";
 const FROM: Record<ViewName, [number, number, number]> = {
@@ -22,13 +23,15 @@ export class Stage {
   private readonly controls: OrbitControls;
   private readonly palette = palette();
   private readonly floor = new THREE.Group();
+  private readonly way = new THREE.Group();
   private due = false;
   private time = 0;
 
   /** Throws where there is no WebGL. */
   constructor() {
-    this.renderer = new THREE.WebGLRenderer({ antialias: true, powerPreference: "low-power" });
-    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    const soft = drawnByCpu();
+    this.renderer = new THREE.WebGLRenderer({ antialias: !soft, powerPreference: "low-power" });
+    this.renderer.setPixelRatio(soft ? 1 : Math.min(devicePixelRatio, 2));
     this.element = this.renderer.domElement;
     this.element.setAttribute("aria-label", "The robots in space");
     this.element.tabIndex = 0;
@@ -38,7 +41,7 @@ export class Stage {
     this.controls.addEventListener("change", () => this.draw());
     const sun = new THREE.DirectionalLight("#ffffff", 1.9);
     sun.position.set(2, -3, 4);
-    this.space.add(new THREE.HemisphereLight("#ffffff", "#8a9096", 1.6), sun, this.floor);
+    this.space.add(new THREE.HemisphereLight("#ffffff", "#8a9096", 1.6), sun, this.floor, this.way);
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.paint());
     this.paint();
   }
@@ -121,6 +124,14 @@ export class Stage {
     this.element.toBlob((blob) => { if (blob) taken(blob); });
   }
 
+  /** Draw a way of the TCP, coloured by speed (m/s), with marks at some of its points; empty: none. */
+  route(group: string, way: readonly (readonly number[])[], pace: readonly number[], marks: readonly number[]): void {
+    this.way.clear();
+    this.robots.get(group)?.root.add(this.way);
+    for (const part of drawnWay(way, pace, marks, this.palette)) this.way.add(part);
+    this.draw();
+  }
+
   /** Show markers alone, without the robots that are around them. */
   bare(alone: boolean): void {
     for (const robot of this.robots.values()) robot.bare(alone);
@@ -140,4 +151,13 @@ export class Stage {
     const { clientWidth, clientHeight } = this.element;
     return [((seen.x + 1) / 2) * clientWidth, ((1 - seen.y) / 2) * clientHeight];
   }
+}
+
+/** Whether no graphics card draws here: smooth edges would cost a third of the pictures. */
+function drawnByCpu(): boolean {
+  const gl = document.createElement("canvas").getContext("webgl2");
+  const about = gl?.getExtension("WEBGL_debug_renderer_info");
+  const name = about ? String(gl?.getParameter(about.UNMASKED_RENDERER_WEBGL)) : "";
+  gl?.getExtension("WEBGL_lose_context")?.loseContext();
+  return /swiftshader|llvmpipe|software/i.test(name);
 }

@@ -1,0 +1,65 @@
+"""`sim --record`: one file a run of the controller; what is asked wrongly is told."""
+
+import signal
+import subprocess
+import sys
+
+import pytest
+import typer
+
+from rapidgen.cli.sim import _recording
+from rapidgen.controller.booting import Wishes, load_target
+from rapidgen.controller.cabinet import Cabinet
+from rapidgen.view.recording.reader import RecordingFile
+
+
+@pytest.fixture
+def cabinet():
+    with Cabinet.boot(load_target(["irb120"], Wishes()), clock="virtual") as cabinet:
+        yield cabinet
+
+
+def test_a_restart_begins_another_file(cabinet, tmp_path):
+    path = tmp_path / "run.mcap"
+    with _recording(cabinet, path, ["T_ROB1:ERRNO"]):
+        cabinet.controller.run_for(1.0)
+        cabinet.ask_restart()
+        cabinet.run(lambda: cabinet.restarts > 0)
+        cabinet.controller.run_for(2.0)
+    for name, length in (("run.mcap", 1.0), ("run-2.mcap", 2.0)):
+        with RecordingFile(tmp_path / name) as file:
+            assert not file.cut
+            assert file.end == pytest.approx(length, abs=0.1)
+            assert file.at(0.5).watch["T_ROB1", "ERRNO"].text == "0"
+
+
+@pytest.mark.parametrize("watch", ["ERRNO", "nobody:ERRNO", "T_ROB1:"])
+def test_a_watch_names_a_task_and_an_expression(cabinet, tmp_path, watch):
+    with (
+        pytest.raises(typer.BadParameter, match="T_ROB1, T_ROS_RECV"),
+        _recording(cabinet, tmp_path / "run.mcap", [watch]),
+    ):
+        pytest.fail("it went on")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_watch_is_for_a_recording(cabinet):
+    with (
+        pytest.raises(typer.BadParameter, match="--record"),
+        _recording(cabinet, None, ["T_ROB1:1"]),
+    ):
+        pytest.fail("it went on")
+
+
+def test_the_end_of_the_simulator_ends_the_file_whole(tmp_path):
+    path = tmp_path / "run.mcap"
+    command = [sys.executable, "-m", "rapidgen.cli", "sim", "irb120", "--ports", "auto"]
+    with subprocess.Popen(
+        [*command, "--record", str(path)], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL
+    ) as process:
+        assert process.stdout.readline().startswith(b"ready ")
+        process.send_signal(signal.SIGTERM)
+        assert process.wait(60) == 0
+    with RecordingFile(path) as file:
+        assert not file.cut
+        assert file.at(file.end).tasks["T_ROB1"].state == "running"
