@@ -114,7 +114,7 @@ def as_line(state: State, watcher: Watcher) -> str:
 
 
 def as_json(state: State, watcher: Watcher) -> str:
-    """One object: when it was received (ISO 8601, timezone.utc), rad or m and their rates by joint, rate in
+    """One object: when it was received (ISO 8601, UTC), rad or m and their rates by joint, rate in
     1/s, jitter in s; what the controller does not know is null."""
     status = state.status
     p50, p99 = watcher.jitter()
