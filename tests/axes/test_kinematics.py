@@ -6,7 +6,6 @@ from io import BytesIO
 from pathlib import Path
 
 import numpy as np
-import py_opw_kinematics as opw
 import pytest
 import yourdfpy
 
@@ -89,6 +88,7 @@ def test_inverse_undoes_forward(group):
 
 def opw_robot(arm):
     """The arm in the package's own parameters, whose zero has the forearm upright."""
+    opw = pytest.importorskip("py_opw_kinematics", reason="needs Python 3.11")
     shoulder, (length, rise) = arm.shoulder, arm.fore
     model = opw.KinematicModel(
         a1=shoulder[0], a2=-length * math.sin(rise), b=arm.lateral, c1=shoulder[1],
