@@ -5,6 +5,7 @@ import logging
 from rapidgen._running import Simulator, running
 from rapidgen.client.address import Address, parse_address
 from rapidgen.client.errors import InvalidTarget, fault
+from rapidgen.config import shipped_names
 
 SIMULATOR = "sim"
 """The word for it, where an address is asked for."""
@@ -49,7 +50,9 @@ def _unclear(name: str, own: list[Simulator], found: list[Simulator]) -> Invalid
         mend = f"`rapidgen sim` with the configuration of '{name}', or the other configuration here"
     else:
         message = "no simulator of yours runs on this machine"
-        mend = f"`rapidgen sim {name or 'CONFIG'} --ports auto` in another terminal"
+        # The name is a robot's; only that of a shipped model starts a simulator, too.
+        config = name if name in shipped_names() else "CONFIG"
+        mend = f"`rapidgen sim {config} --ports auto` in another terminal"
     return InvalidTarget(fault("RG642", message, mend, *shown), exit_code=1)
 
 
