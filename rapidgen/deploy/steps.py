@@ -139,7 +139,7 @@ def _delete(cfg: Sequence[CfgChange]) -> list[ManualStep]:
 
 def _by_file(names: Sequence[str]) -> list[str]:
     """`FILE TASK` of many as `FILE, FILE in TASK, TASK`: files of the same tasks together, their
-    folder once."""
+    folder once, before them."""
     files: dict[str, list[str]] = {}
     for name in names:
         file, _, task = name.partition(" ")
@@ -148,7 +148,10 @@ def _by_file(names: Sequence[str]) -> list[str]:
     for path, tasks in files.items():
         folder, _, file = path.rpartition("/")
         alike.setdefault((folder, ", ".join(tasks)), []).append(file)
-    return [f"{folder}/ {', '.join(own)} in {tasks}" for (folder, tasks), own in alike.items()]
+    return [
+        f"{folder}/{' ' if len(own) > 1 else ''}{', '.join(own)} in {tasks}"
+        for (folder, tasks), own in alike.items()
+    ]
 
 
 def _load(cfg: Sequence[CfgChange], wanted: Sequence[CfgText]) -> list[ManualStep]:
