@@ -184,7 +184,7 @@ endurance: $(STAMP) ## 2 min: memory of an idle driver that is watched for ten s
 many-controllers: $(STAMP) ## 2 min: 50 controllers in real time, how late their states come
 	$(BIN)/python benchmarks/many_controllers.py
 
-BENCHES := startup start_of_run programs parsing kernels backup motion state client deploy driver streaming rws recording ready stop_start view
+BENCHES := startup start_of_run programs parsing kernels backup motion state client deploy driver streaming rws recording ready ros stop_start view
 bench: $(STAMP) ## 10 min: the figures of docs/develop/performance.md that need no argument
 	for name in $(BENCHES); do $(BIN)/python benchmarks/$$name.py || exit 1; done
 

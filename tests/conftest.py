@@ -5,6 +5,7 @@ Property tests draw the same examples in every run; RAPIDGEN_PROPERTIES=campaign
 
 import os
 import resource
+import signal
 import time
 from collections import Counter
 from pathlib import Path
@@ -28,6 +29,9 @@ _SETTINGS = settings(
 settings.register_profile("gate", _SETTINGS, derandomize=True)
 settings.register_profile("campaign", _SETTINGS, derandomize=False, max_examples=1000)
 settings.load_profile(os.environ.get("RAPIDGEN_PROPERTIES", "gate"))
+
+# A shell that starts this in the background makes it deaf to Ctrl-C, and whatever it starts, too.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 COLLECTING = "(start, imports, collection)"
 HERE = Path(__file__).parent
