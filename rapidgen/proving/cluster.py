@@ -125,7 +125,7 @@ class Cluster:
     def _result(self, given: _Given) -> list[tuple[int, object]]:
         del self._given[given.piece.number]
         try:
-            good, result = given.future.result()
+            good, result = self._fetched(given)
         except (EngineLost, KilledWorker, FutureCancelledError):
             self._again(given)
             return []
@@ -133,6 +133,21 @@ class Cluster:
             assert isinstance(result, Exception)
             raise result
         return [(given.piece.number, result)]
+
+    def _fetched(self, given: _Given) -> tuple[bool, object]:
+        """What a worker has made of a piece. Raises EngineLost, KilledWorker, FutureCancelledError.
+
+        A worker may be lost between its answer and this: Dask then waits for it to come back.
+        """
+        while True:
+            try:
+                outcome: tuple[bool, object] = given.future.result(timeout=EVERY)
+            except TimeoutError:
+                if given.worker not in self._client.nthreads():
+                    self._client.cancel([given.future])
+                    raise EngineLost(f"worker {given.worker} took its result along") from None
+            else:
+                return outcome
 
     def _again(self, given: _Given) -> None:
         self._tell(f"worker {given.worker} was lost: what it was at is done again")
