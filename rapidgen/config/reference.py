@@ -150,8 +150,7 @@ def _bounds(rule: Rule) -> str:
     if rule.min_length is not None and rule.min_length == rule.max_length:
         parts.append(f"{rule.min_length} entries")
     if rule.pattern:
-        pattern = rule.pattern.replace("|", "\\|")
-        parts.append(f"`{pattern}`")
+        parts.append(schema.FORMS[rule.pattern][0])
     return " and ".join(parts)
 
 

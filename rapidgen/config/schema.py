@@ -28,14 +28,31 @@ ROBOT_AXES = list(get_args(RobotAxis))
 NAME = r"^[A-Za-z][A-Za-z0-9_]{0,31}$"
 """A name of RAPID."""
 Identifier = Annotated[str, Rule(pattern=NAME)]
-DatumName = Annotated[str, Rule(pattern=r"^[A-Za-z][A-Za-z0-9_]{0,31}:[A-Za-z][A-Za-z0-9_]{0,31}$")]
-GroupName = Annotated[str, Rule(pattern=r"^[a-z][a-z0-9_]{0,11}$")]
-ConfigName = Annotated[str, Rule(pattern=r"^[A-Za-z][A-Za-z0-9_-]{0,39}$")]
+_DATUM = r"^[A-Za-z][A-Za-z0-9_]{0,31}:[A-Za-z][A-Za-z0-9_]{0,31}$"
+_PROCEDURE = r"^[A-Za-z][A-Za-z0-9_]{0,31}(:[A-Za-z][A-Za-z0-9_]{0,31})?$"
+_GROUP = r"^[a-z][a-z0-9_]{0,11}$"
+_CONFIG = r"^[A-Za-z][A-Za-z0-9_-]{0,39}$"
+_BIND = r"^(lan|service|[0-9]{1,3}(\.[0-9]{1,3}){3})$"
+_DIGITS = r"^[0-9]{1,2}:[0-9]{1,3}$"
+DatumName = Annotated[str, Rule(pattern=_DATUM)]
+GroupName = Annotated[str, Rule(pattern=_GROUP)]
+ConfigName = Annotated[str, Rule(pattern=_CONFIG)]
 Port = Annotated[int, Rule(ge=1025, le=65535)]
 Vector = Annotated[list[float], Rule(min_length=3, max_length=3)]
 Quaternion = Annotated[list[float], Rule(min_length=4, max_length=4)]
 Text = Annotated[str, Rule(max_length=2000)]
-CfgDigits = Annotated[str, Rule(pattern=r"^[0-9]{1,2}:[0-9]{1,3}$")]
+CfgDigits = Annotated[str, Rule(pattern=_DIGITS)]
+_NAMES = "RAPID's names begin with a letter; letters, digits and _ follow, 32 in all"
+FORMS = {
+    NAME: ("a name of RAPID", _NAMES),
+    _DATUM: ("MODULE:NAME", _NAMES),
+    _PROCEDURE: ("PROCEDURE or MODULE:PROCEDURE", _NAMES),
+    _GROUP: ("the name of a group", "a small letter, then small letters, digits and _, 12 in all"),
+    _CONFIG: ("a name for a folder", "a letter, then letters, digits, _ and -, 40 in all"),
+    _BIND: ("lan, service or an IPv4 address", "such as 192.168.125.1"),
+    _DIGITS: ("two numbers with a colon", 'such as "6:0", from the first line of a saved cfg'),
+}
+"""Each pattern of the schema in words, and what its parts may be."""
 
 
 def _robotware(value: object) -> object:
@@ -238,7 +255,7 @@ class RoutineKeys(Part):
         str,
         Rule(
             "`MODULE:PROCEDURE` as late binding finds it; a global one also by its name alone.",
-            pattern=r"^[A-Za-z][A-Za-z0-9_]{0,31}(:[A-Za-z][A-Za-z0-9_]{0,31})?$",
+            pattern=_PROCEDURE,
         ),
     ]
     parameters: Annotated[
@@ -466,7 +483,7 @@ class NetworkKeys(Part):
         str,
         Rule(
             "`lan` (the controller's LAN address), `service` (192.168.125.1) or an IPv4 address.",
-            pattern=r"^(lan|service|[0-9]{1,3}(\.[0-9]{1,3}){3})$",
+            pattern=_BIND,
         ),
     ] = "lan"
     allowed_clients: Annotated[

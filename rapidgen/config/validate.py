@@ -15,13 +15,12 @@ from pydantic_core import ErrorDetails, SchemaValidator, ValidationError
 from rapidgen._json import Json, items, members
 from rapidgen.config.layers import group_names
 from rapidgen.config.rules import Hint, core
-from rapidgen.config.schema import GROUP_KEYS, NAME, TOP_KEYS, ConfigurationKeys
+from rapidgen.config.schema import FORMS, GROUP_KEYS, TOP_KEYS, ConfigurationKeys
 from rapidgen.config.tree import MappingNode, place_of, to_python
 from rapidgen.diagnostics import Diagnostic, error, suggest
 
 Path = tuple[str | int, ...]
 _SCHEMA = "`rapidgen schema` has all keys, and what each takes"
-_NAMES = "RAPID's names begin with a letter; letters, digits and _ follow, 32 in all"
 T = TypeVar("T")
 
 
@@ -134,9 +133,14 @@ def _translate(
         "RG006",
         key if is_key else value,
         f"'{shown(root, path)}': {_reason(item, is_key)}",
-        _NAMES if item.get("ctx", {}).get("pattern") == NAME else _SCHEMA,
+        _form(item)[1] if item["type"] == "string_pattern_mismatch" else _SCHEMA,
         label=_input(item),
     )
+
+
+def _form(item: ErrorDetails) -> tuple[str, str]:
+    """What a pattern of the schema asks for, in words; and what its parts may be."""
+    return FORMS[item["ctx"]["pattern"]]
 
 
 def _short(given: object) -> str:
@@ -189,7 +193,7 @@ def _reason(item: ErrorDetails, is_key: bool) -> str:
         return f"must have {phrase} {bound} entries, not {context['actual_length']}"
     if kind == "string_pattern_mismatch":
         what = "this name" if is_key else "the text"
-        return f"{what} must match {context['pattern']}"
+        return f"{what} must be {_form(item)[0]}"
     if kind == "value_error":
         return str(context["error"])
     return str(item["msg"])

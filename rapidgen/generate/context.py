@@ -265,6 +265,7 @@ def _data(group: GroupConfig) -> list[dict[str, object]]:
         {
             "n": n,
             "name": datum.name.partition(":")[2],
+            "module": datum.name.partition(":")[0],
             "type": datum.type,
             "is_set": datum.access == "write",
         }

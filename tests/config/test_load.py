@@ -77,6 +77,21 @@ def test_other_versions_are_refused(tmp_path, text):
     assert [d.code for d in found] == ["RG006"]
 
 
+@pytest.mark.parametrize(
+    ("line", "wanted"),
+    [
+        ("name: 1 robot", "a name for a folder"),
+        ("data: {count: {type: num}}", "MODULE:NAME"),
+        ('routines: {grip: {call: "a-b:c"}}', "PROCEDURE or MODULE:PROCEDURE"),
+        ("network: {bind: hier}", "lan, service or an IPv4 address"),
+    ],
+)
+def test_a_text_of_the_wrong_form_is_told_the_form_in_words(tmp_path, line, wanted):
+    (found,) = [d for d in faults(tmp_path, f"{line}\nmodel: irb120\n") if d.code == "RG006"]
+    assert found.message.endswith(f"must be {wanted}")
+    assert "[A-Z" not in f"{found.message}{found.help}"
+
+
 def test_irc5_does_not_run_robotware_7(tmp_path):
     text = "model: irb120\ncontroller: {type: irc5, robotware: 7.2}"
     assert [d.code for d in faults(tmp_path, text)] == ["RG011"]

@@ -50,6 +50,12 @@ def _data(bench: Bench) -> None:
         for index, datum in enumerate(listed):
             _one(control, index, datum)
         other.stays(0.5, "data were read and written")
+    elsewhere = tuple(replace(d, name=f"other{d.name}") for d in listed)
+    with bench.beside(_with(bench, elsewhere)) as other:
+        control = other.control()
+        for index in range(len(listed)):
+            told = _asks(control, index)
+            not_done(told, RawReason.NO_DATUM, f"datum {index} is in another module")
 
 
 def _one(control: RawLink, index: int, datum: OwnDatum) -> None:
@@ -86,12 +92,19 @@ def _says(told: RawContent, wanted: messages.RawDatumReply) -> None:
 
 
 def _with(bench: Bench, listed: tuple[OwnDatum, ...]) -> System:
-    """The system with a module that has these data in the motion task."""
-    lines = [f"PERS {d.type} {d.name.partition(':')[2]} := {_BEGIN[d.type]};" for d in listed]
-    text = "\n".join(("MODULE own", *lines, "ENDMODULE", ""))
-    module = ModuleFile("own", "own.mod", text.encode())
+    """The system with modules that have these data in the motion task."""
+    texts: dict[str, list[str]] = {}
+    for datum in listed:
+        module, _, name = datum.name.partition(":")
+        texts.setdefault(module, []).append(f"PERS {datum.type} {name} := {_BEGIN[datum.type]};")
+    own = [
+        ModuleFile(
+            name, f"{name}.mod", "\n".join((f"MODULE {name}", *lines, "ENDMODULE", "")).encode()
+        )
+        for name, lines in texts.items()
+    ]
     tasks = tuple(
-        replace(task, modules=(*task.modules, module)) if task.name == bench.group.task else task
+        replace(task, modules=(*task.modules, *own)) if task.name == bench.group.task else task
         for task in bench.system.tasks
     )
     return replace(bench.system, tasks=tasks)
