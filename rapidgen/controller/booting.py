@@ -190,13 +190,16 @@ def _surrounded(found: Bootable, cell: "CellDescription | None", wishes: Wishes)
     inputs = [name.casefold() for name, keys in cell.signals.items() if keys.kind.endswith("I")]
     return replace(
         found,
-        system=furnish(found.system, cell, guessed.data if guessed is not None else ()),
+        system=furnish(found.system, cell)
+        if guessed is None
+        else furnish(found.system, cell, guessed.data, guessed.routines),
         surroundings=Surroundings(
             dict(_starts(found.groups, cell.robots, wishes.start, usual=usual)),
             tuple(reaction for rows in cell.devices.values() for reaction in rows),
             frozenset(inputs if guessed is not None else ()),
             guessed.polled if guessed is not None else (),
             is_guess=guessed is not None,
+            is_any_robot=guessed is not None and not wishes.robot and not found.system.robot_types,
         ),
         guessed=guessed,
     )

@@ -190,7 +190,7 @@ class VirtualController:
         )
         signals.connect()
         self.operation.power_up()
-        self.answered = settle(self, surroundings)
+        self.guessed = settle(self, surroundings)
         if faults is not None:
             schedule_faults(faults, self)
         if autostart:

@@ -40,6 +40,18 @@ class Surroundings:
     """Where programs look for them in loops."""
     is_guess: bool = False
     """Whether dialogs are answered that nobody else is there for, and I/O units are as named."""
+    is_any_robot: bool = False
+    """Whether the robots are a guess: places that they do not reach do not stop the program."""
+
+
+@dataclass(frozen=True, slots=True)
+class Guessed:
+    """What happened because a cell is a guess; both grow while programs run."""
+
+    answered: "list[Said]" = field(default_factory=list)
+    """Signals and dialogs, and what they became because a program waited for it."""
+    missed: "list[Said]" = field(default_factory=list)
+    """Places of moves to where the robot does not come as programmed, and how it went there."""
 
 
 class Booted(Protocol):
@@ -57,12 +69,15 @@ class Booted(Protocol):
 
 
 def furnish(
-    system: System, cell: "CellDescription", data: Iterable[tuple[str, str, str]] = ()
+    system: System,
+    cell: "CellDescription",
+    data: Iterable[tuple[str, str, str]] = (),
+    routines: str = "",
 ) -> System:
-    """`system` with the signals and the data of `cell` that it does not have itself, and with
-    further `data` (type, name, initial value or nothing).
+    """`system` with the signals and the data of `cell` that it does not have itself, with further
+    `data` (kind and type, name, initial value or nothing) and the declarations of `routines`.
 
-    The data are those of an installed module: a program's own hide them. Raises DiagnosticError
+    They are those of an installed module: a program's own hide them. Raises DiagnosticError
     RG434 for a device that names a signal which nobody has.
     """
     known = {signal.name.casefold() for signal in system.signals}
@@ -84,8 +99,9 @@ def furnish(
         f"    TASK PERS {kind} {name} := {value};\n" for kind, name, value in _data(cell)
     )
     text += "".join(
-        f"    VAR {kind} {name}{' := ' if value else ''}{value};\n" for kind, name, value in data
+        f"    {kind} {name}{' := ' if value else ''}{value};\n" for kind, name, value in data
     )
+    text += routines
     if not text:
         return system
     module = ModuleFile(
@@ -123,10 +139,11 @@ def _nameless(system: System, cell: "CellDescription") -> Iterator[Diagnostic]:
                     )
 
 
-def settle(controller: Booted, around: Surroundings) -> "list[Said]":
+def settle(controller: Booted, around: Surroundings) -> Guessed:
     """Put the robots where they start, let devices watch their signals, and guessed inputs become
-    what a program waits for; the list grows by each of these answers (signal or dialog, value)."""
-    answered: list[Said] = []
+    what a program waits for."""
+    guessed = Guessed()
+    answered = guessed.answered
     for name, posture in around.starts.items():
         controller.motion.group(name).jump(posture)
     for reaction in around.reactions:
@@ -151,6 +168,8 @@ def settle(controller: Booted, around: Surroundings) -> "list[Said]":
 
         Buttons(controller, around.polled, answered)
     controller.io.any_unit = around.is_guess
+    if around.is_any_robot:
+        controller.motion.on_missed = lambda place, how: guessed.missed.append((place, how))
     # Beside a real clock a person sits, who answers by the control port.
     if (
         around.is_guess
@@ -160,7 +179,7 @@ def settle(controller: Booted, around: Surroundings) -> "list[Said]":
         from rapidgen.controller.answering import Chooser
 
         Chooser(controller.operator, controller.scheduler, answered)
-    return answered
+    return guessed
 
 
 def _watch(controller: Booted, reaction: "ReactionKeys") -> None:

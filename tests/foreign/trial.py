@@ -95,7 +95,7 @@ def cycles(program: Program, robot: str, cycle: Cycle) -> Outcome:
             notes.append(
                 "in no module: " + ", ".join(f"{u.type} {u.name}" for u in guessed.unknown[:5])
             )
-        asked = any(isinstance(answer, str) for _, answer in controller.answered)
+        asked = any(isinstance(answer, str) for _, answer in controller.guessed.answered)
         end = _end(ended, faults, waits, asked=asked)
         return Outcome(end, sum(1 for hits in lines if hits), len(lines), tuple(notes))
 
