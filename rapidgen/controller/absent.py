@@ -78,7 +78,7 @@ def _wanted(node: n.Node, scope: Scope) -> Iterator[tuple[n.Expression, str]]:
     if isinstance(node, n.ProcedureCall | n.FunctionCall):
         routine = called(scope.find(node.name))
         if isinstance(routine, RoutineSymbol):
-            yield from passed(node.arguments, routine, scope)
+            yield from ((e, kind) for e, kind, _ in passed(node.arguments, routine, scope))
 
 
 def _unknown(node: n.Node, scope: Scope) -> str:

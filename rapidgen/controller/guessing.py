@@ -141,8 +141,9 @@ def guess(
     unknown = [one for one in found.values() if not _can_be_made(one.type)]
     inputs = {name.casefold() for name, keys in cell.signals.items() if keys.kind[1] == "I"}
     rows = dict.fromkeys(row for row in looked_at if row.signal in inputs)
+    kept = {name for scopes in tasks for scope in scopes for name in _persistent(scope)}
     initial = {word for scopes in tasks for scope in scopes for word in _in_initial_values(scope)}
-    data = tuple(_declaration(one, stands, initial) for one in named if _is_plain(one.type))
+    data = tuple(_declaration(one, stands, initial, kept) for one in named if _is_plain(one.type))
     made_units = tuple(one.name for one in named if one.type == "mecunit")
     made |= {signal.name.casefold(): f"signal{signal.type.lower()}" for signal in system.signals}
     kinds = {name.casefold(): kind for name, kind in made.items()}
@@ -163,14 +164,26 @@ def _is_plain(kind: str) -> bool:
 
 
 def _declaration(
-    one: Named, stands: Mapping[str, str], initial: Collection[str]
+    one: Named, stands: Mapping[str, str], initial: Collection[str], kept: Collection[str]
 ) -> tuple[str, str, str]:
-    """What an initial value is made of is a constant, where its value is known."""
+    """What an initial value is made of is a constant, where its value is known; what only a
+    persistent may be is one."""
     value = _value(one, stands)
     if one.name.casefold() in initial:
         value = value or _NOTHING.get(one.type, "")
         return f"{'CONST' if value else 'VAR'} {one.type}", one.name, value
-    return f"VAR {one.type}", one.name, value
+    return f"{'PERS' if one.name.casefold() in kept else 'VAR'} {one.type}", one.name, value
+
+
+def _persistent(module: ModuleScope) -> Iterator[str]:
+    """Names that stand where only a persistent may."""
+    for node, scope in scoped(module):
+        if isinstance(node, n.FunctionCall | n.ProcedureCall):
+            routine = called(scope.find(node.name))
+            if isinstance(routine, RoutineSymbol):
+                for one, _, mode in passed(node.arguments, routine, scope):
+                    if isinstance(one, n.Name) and mode == "PERS":
+                        yield one.name.casefold()
 
 
 def _in_initial_values(module: ModuleScope) -> Iterator[str]:
@@ -225,7 +238,7 @@ def _uses(node: n.Node, scope: Scope) -> Iterator[_Use]:
             return
         routine = called(scope.find(node.name))
         if isinstance(routine, RoutineSymbol):
-            for name, kind in passed(node.arguments, routine, scope):
+            for name, kind, _ in passed(node.arguments, routine, scope):
                 if not isinstance(name, n.Name):
                     continue
                 # A signal stands for its value where a number is wanted.

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Protocol
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, error, suggest
 from rapidgen.machine.io import Awaited, IOSystem
 from rapidgen.machine.log import EventLog
+from rapidgen.machine.meetings import Meetings
 from rapidgen.machine.operator import Operator
 from rapidgen.machine.scheduler import S, Scheduler
 from rapidgen.motion.system import MotionSystem
@@ -64,6 +65,7 @@ class Booted(Protocol):
     io: IOSystem
     operator: Operator
     motion: MotionSystem
+    meetings: Meetings
     scheduler: Scheduler
     rapid_tasks: dict[str, Task]
 
@@ -167,7 +169,7 @@ def settle(controller: Booted, around: Surroundings) -> Guessed:
         from rapidgen.controller.polling import Buttons
 
         Buttons(controller, around.polled, answered)
-    controller.io.any_unit = around.is_guess
+    controller.io.any_unit = controller.meetings.any_task = around.is_guess
     if around.is_any_robot:
         controller.motion.on_missed = lambda place, how: guessed.missed.append((place, how))
     # Beside a real clock a person sits, who answers by the control port.

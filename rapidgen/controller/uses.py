@@ -51,12 +51,13 @@ def read(node: n.Node, scope: Scope) -> Iterator[tuple[n.Expression, str]]:
 
 def passed(
     arguments: list[n.Argument], routine: RoutineSymbol, scope: Scope
-) -> Iterator[tuple[n.Expression, str]]:
-    """Arguments of a known routine, with the types of their parameters (empty: any)."""
+) -> Iterator[tuple[n.Expression, str, str]]:
+    """Arguments of a known routine, with types (empty: any) and modes of their parameters."""
     parameters = routine.parameters or ()
     for pair in match(parameters, arguments, lambda _, alternatives: alternatives[0]).pairs:
         value = pair.argument.value
         if value is not None and pair.parameter >= 0:
             wanted = parameters[pair.parameter]
             kind = (routine.module or scope.module).base(wanted.type) or ""
-            yield value, "" if kind == "anytype" or wanted.dimensions else kind
+            is_any = kind == "anytype" or wanted.dimensions
+            yield value, "" if is_any else kind, wanted.mode

@@ -92,3 +92,26 @@ def test_a_robot_that_somebody_chose_stops_where_it_does_not_come(tmp_path):
         controller.run(max_time=60)
         assert str(controller.task("T_ROB1").fault) == "Close to singularity"
         assert controller.guessed.missed == []
+
+
+def test_what_only_a_persistent_may_be_is_guessed_as_one(tmp_path):
+    path = tmp_path / "locked.mod"
+    path.write_text(
+        'MODULE locked\n PROC main()\n  WaitTestAndSet gripLock;\n  TPWrite "mine";\n'
+        "  gripLock := FALSE;\n ENDPROC\nENDMODULE\n"
+    )
+    with VirtualController.from_files([path], cell="guess", cycle="once") as controller:
+        assert controller.run(max_time=20) == "finished"
+
+
+def test_a_guessed_cell_meets_no_tasks_that_are_in_no_file(tmp_path):
+    path = tmp_path / "left.mod"
+    path.write_text(
+        'MODULE left\n PERS tasks both{2} := [["T_ROB_L"],["T_ROB_R"]];\n VAR syncident sync1;\n'
+        " PROC main()\n  WaitSyncTask sync1, both;\n ENDPROC\nENDMODULE\n"
+    )
+    with VirtualController.from_files([path], cell="guess", cycle="once") as controller:
+        assert controller.run(max_time=20) == "finished"
+    with VirtualController.from_files([path], cycle="once") as controller:
+        controller.run(max_time=20)
+        assert "ERR_TASKNAME" in str(controller.task("T_ROB1").fault)

@@ -18,14 +18,20 @@ from rapidgen.runtime.builtins.motion.access import here, moving_group
 from rapidgen.runtime.builtins.motion.request import common, joint_move
 from rapidgen.runtime.builtins.motion.together import together
 from rapidgen.runtime.errors import FatalError, Location, RapidError, errnum
-from rapidgen.runtime.motion_faults import NOT_COMPATIBLE, OUT_OF_RANGE, SINGULARITY, in_rapid
+from rapidgen.runtime.motion_faults import (
+    CIRCLE_UNCERTAIN,
+    NOT_COMPATIBLE,
+    OUT_OF_RANGE,
+    SINGULARITY,
+    in_rapid,
+)
 from rapidgen.runtime.registry import Arguments, by_name
 from rapidgen.runtime.task.task import Task
 
 Maker: TypeAlias = Callable[[Task, Arguments, tuple[PathEvent, ...]], tuple[MotionGroup, Move]]
 """joint_move or cartesian_move."""
 _PLACES = frozenset(map(errnum, ("ERR_OUTSIDE_REACH", "ERR_ROBLIMIT")))
-_STOPS = frozenset((NOT_COMPATIBLE, OUT_OF_RANGE, SINGULARITY))
+_STOPS = frozenset((NOT_COMPATIBLE, OUT_OF_RANGE, SINGULARITY, CIRCLE_UNCERTAIN))
 
 
 def order(
