@@ -11,13 +11,14 @@ value: 0, FALSE, an empty text; but a target is where the robot stands at first,
 
 import re
 from collections.abc import Collection, Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 from typing import Literal, cast
 
 from rapidgen.config.cell import CellDescription, CellSignalKeys
 from rapidgen.config.model import Load, Placement, Tool, WorkObject
 from rapidgen.controller.absent import absent
+from rapidgen.controller.conversing import Heard, heard
 from rapidgen.controller.polling import Polled, polled
 from rapidgen.controller.uses import passed, read, scoped
 from rapidgen.diagnostics import Span
@@ -82,6 +83,8 @@ class Guess:
     """Mechanical units."""
     routines: str = ""
     """Declarations of routines that are in no file and do nothing."""
+    heard: Heard = field(default_factory=Heard)
+    """What programs listen for at their sockets."""
 
 
 def guess(
@@ -149,8 +152,11 @@ def guess(
     kinds = {name.casefold(): kind for name, kind in made.items()}
     stubs = {one.name.casefold(): one for scopes in tasks for one in absent(scopes, kinds)}
     named += [Named(s.name, f"func {s.type}" if s.type else "proc", s.span) for s in stubs.values()]
+    listens = heard((scope for scopes in tasks for scope in scopes), stands)
     routines = "".join(s.stub(stands.get(s.type, "")) for s in stubs.values())
-    return Guess(cell, tuple(named), tuple(unknown), tuple(rows), data, made_units, routines)
+    return Guess(
+        cell, tuple(named), tuple(unknown), tuple(rows), data, made_units, routines, listens
+    )
 
 
 def _can_be_made(kind: str) -> bool:

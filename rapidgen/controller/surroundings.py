@@ -9,6 +9,9 @@ from rapidgen.diagnostics import Diagnostic, DiagnosticError, error, suggest
 from rapidgen.machine.io import Awaited, IOSystem
 from rapidgen.machine.log import EventLog
 from rapidgen.machine.meetings import Meetings
+from rapidgen.machine.network.interface import Network
+from rapidgen.machine.network.memory import MemoryNetwork
+from rapidgen.machine.network.sockets import SocketTable
 from rapidgen.machine.operator import Operator
 from rapidgen.machine.scheduler import S, Scheduler
 from rapidgen.motion.system import MotionSystem
@@ -18,6 +21,7 @@ from rapidgen.system.model import ModuleFile, SignalSpec, System
 if TYPE_CHECKING:
     from rapidgen.config.cell import CellDescription, ReactionKeys
     from rapidgen.controller.answering import Said
+    from rapidgen.controller.conversing import Heard
     from rapidgen.controller.polling import Polled
 
 GUESSED = 49_910
@@ -39,6 +43,8 @@ class Surroundings:
     """Inputs that nobody drives, lower case: they become what somebody waits for."""
     polled: "tuple[Polled, ...]" = ()
     """Where programs look for them in loops."""
+    heard: "Heard | None" = None
+    """What programs listen for at sockets that nobody else is at."""
     is_guess: bool = False
     """Whether dialogs are answered that nobody else is there for, and I/O units are as named."""
     is_any_robot: bool = False
@@ -65,6 +71,8 @@ class Booted(Protocol):
     io: IOSystem
     operator: Operator
     motion: MotionSystem
+    network: Network
+    sockets: SocketTable
     meetings: Meetings
     scheduler: Scheduler
     rapid_tasks: dict[str, Task]
@@ -181,6 +189,10 @@ def settle(controller: Booted, around: Surroundings) -> Guessed:
         from rapidgen.controller.answering import Chooser
 
         Chooser(controller.operator, controller.scheduler, answered)
+    if around.heard is not None and isinstance(controller.network, MemoryNetwork):
+        from rapidgen.controller.conversing import Partner
+
+        Partner(controller, around.heard, answered)
     return guessed
 
 
