@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 
 _THOUGHT: Final = 0.5
 """Seconds that a program waits."""
+_WAYS: Final = 3
 _MOST: Final = 60
 _NUMBERS: Final = "1", "2", "3", "100", "0", "0", "0", "1", "0", "0"
 """What follows a word or a number: more values than most take."""
@@ -48,6 +49,9 @@ class Heard:
     """What a program listens for."""
 
     words: tuple[str, ...] = ()
+    """What a whole message is compared with."""
+    beginnings: tuple[str, ...] = ()
+    """What parts of one are compared with."""
     numbers: tuple[int, ...] = ()
     separators: tuple[str, ...] = ()
     values: tuple[str, ...] = ()
@@ -55,11 +59,13 @@ class Heard:
 
     def messages(self) -> list[bytes]:
         """What is said, in turn."""
-        between = self.separators[0] if self.separators else " "
-        tail = "".join(mark for mark in self.separators[1:] if mark != between)
-        words = sorted(self.words, key=lambda word: _LAST.search(word) is not None)
-        firsts = (*map(str, self.numbers), *words)
-        texts = [text for one in firsts for text in (between.join((one, *_NUMBERS)) + tail, one)]
+        marks = self.separators or (" ",)
+        tail = "".join(self.separators)
+        texts = []
+        for first in (*map(str, self.numbers), *self.beginnings):
+            texts += [mark.join((first, *_NUMBERS)) + mark + tail for mark in marks[:_WAYS]]
+        whole = (*map(str, self.numbers), *self.words)
+        texts += sorted(whole, key=lambda word: _LAST.search(word) is not None)
         said = [text.encode("latin-1", "replace") for text in (*self.values, *texts)]
         said += [number.to_bytes(4, "little") + bytes(8) for number in self.numbers if number >= 0]
         return (said[:_MOST] or [b"1"]) * 2
@@ -68,36 +74,49 @@ class Heard:
 def heard(modules: Iterable[ModuleScope], stands: Mapping[str, str]) -> Heard:
     """What the modules of all tasks listen for; `stands` are values of targets."""
     known = {**_VALUES, **stands}
-    words, numbers = dict[str, None](), dict[int, None]()
-    marks, values = dict[str, None](), dict[str, None]()
-    for module in modules:
+    scopes = list(modules)
+    received = {name for scope in scopes for name in _received(scope)}
+    words, parts = dict[str, None](), dict[str, None]()
+    marks, values, numbers = dict[str, None](), dict[str, None](), dict[int, None]()
+    for module in scopes:
         for node, scope in scoped(module):
-            for one in _compared(node, scope):
+            for whom, one in _compared(node, scope):
                 if isinstance(one, str) and one:
-                    (words if one.isalnum() or len(one) > 1 else marks)[one] = None
+                    whole = isinstance(whom, n.Name) and whom.name.casefold() in received
+                    mark = len(one) == 1 and not one.isalnum()
+                    (words if whole else marks if mark else parts)[one] = None
                 elif isinstance(one, int) and not isinstance(one, bool):
                     numbers[one] = None
             if isinstance(node, n.FunctionCall):
                 given = [a.value for a in node.arguments if a.value is not None]
                 found = constant(given[-1], scope) if given else None
                 if node.name.lower() in _SEARCHING and isinstance(found, str):
-                    marks.update(dict.fromkeys(found.strip("\0")))
+                    marks.update(dict.fromkeys(found))
                 elif node.name.lower() == "strtoval" and len(given) > 1:
                     kind = declared_type(given[1], scope) or ""
                     if kind in known:
                         values[known[kind]] = None
-    return Heard(tuple(words), tuple(numbers), tuple(marks), tuple(values))
+    return Heard(tuple(words), tuple(parts), tuple(numbers), tuple(marks), tuple(values))
 
 
-def _compared(node: n.Node, scope: Scope) -> Iterator[object]:
-    """Constants that a text or a whole number is compared with."""
+def _received(module: ModuleScope) -> Iterator[str]:
+    """Texts that a module receives into."""
+    for node, _ in scoped(module):
+        if isinstance(node, n.ProcedureCall) and node.name.lower() == "socketreceive":
+            for argument in node.arguments:
+                if (argument.name or "").lower() == "str" and isinstance(argument.value, n.Name):
+                    yield argument.value.name.casefold()
+
+
+def _compared(node: n.Node, scope: Scope) -> Iterator[tuple[n.Expression, object]]:
+    """What text or number is compared, and with which constant."""
     if isinstance(node, n.Binary) and node.operator in _COMPARING:
         for one, other in ((node.left, node.right), (node.right, node.left)):
             if constant(one, scope) is None and type_of(one, scope) in ("string", "num", "byte"):
-                yield constant(other, scope)
+                yield one, constant(other, scope)
     elif isinstance(node, n.Test):
         for case in node.cases:
-            yield from (constant(value, scope) for value in case.values)
+            yield from ((node.subject, constant(value, scope)) for value in case.values)
 
 
 class Conversing(Protocol):
