@@ -11,7 +11,7 @@ from rapidgen.config import from_manifest, load_config
 from rapidgen.config.model import GroupConfig, RobotConfig
 from rapidgen.controller.mechanics import DEFAULT_ROBOT, mechanics
 from rapidgen.controller.starts import in_front, stands, start_of, usual_start
-from rapidgen.controller.surroundings import Surroundings, furnish
+from rapidgen.controller.surroundings import Surroundings, cameras_of, furnish
 from rapidgen.diagnostics import Diagnostic, refusal, suggest
 from rapidgen.system.model import System
 
@@ -199,6 +199,7 @@ def _surrounded(found: Bootable, cell: "CellDescription | None", wishes: Wishes)
             frozenset(inputs if guessed is not None else ()),
             guessed.polled if guessed is not None else (),
             guessed.heard if guessed is not None else None,
+            cameras_of(cell, is_guess=guessed is not None),
             is_guess=guessed is not None,
             is_any_robot=guessed is not None and not wishes.robot and not found.system.robot_types,
         ),

@@ -18,6 +18,7 @@ from rapidgen.controller.system_signals import SystemSignals
 from rapidgen.controller.thread import ControllerThread
 from rapidgen.controller.views import Signals, TaskView
 from rapidgen.machine.arc_equipment import ArcEquipment
+from rapidgen.machine.cameras import cameras
 from rapidgen.machine.costs import Costs
 from rapidgen.machine.files import FileSystem
 from rapidgen.machine.io import IOSystem
@@ -160,6 +161,8 @@ class VirtualController:
         """What tasks weld with: whether `gas` flows, an `arc` burns, and with which `data`."""
         self.hands = Hands(self.scheduler, self.io, calibrated=self.dialect.hands_calibrated)
         """The hands of a YuMi: `hands["L"].part = 12.0` puts something between the fingers."""
+        self.cameras = cameras(system.cameras, surroundings.cameras)
+        """By lower-case name."""
         self.configuration = SystemParameters(system, tuple(robots))
         self.options = Options(
             accounting="statement" if tracing or switch_at_pers else accounting,

@@ -4,9 +4,10 @@ A public program seldom has its controller's configuration beside it. The type o
 the parameter that it is an argument of; where it is only read, its first letters tell as ABB's
 examples name signals (di, do, gi, go, ai, ao), and what is compared with 0 or 1 is a digital input.
 Tools have the load of tool0 and are the flange; a work object is a table in front of the robot; a
-mechanical unit has no axes. Data of other types are what RAPID makes of a declaration without a
-value: 0, FALSE, an empty text; but a target is where the robot stands at first, `v25` is a speed of
-25 mm/s and `z5` a zone of 5 mm. What has no type that could be told stays unknown.
+mechanical unit has no axes, a camera sees one thing in its middle. Data of other types are what
+RAPID makes of a declaration without a value: 0, FALSE, an empty text; but a target is where the
+robot stands at first, `v25` is a speed of 25 mm/s and `z5` a zone of 5 mm. What has no type that
+could be told stays unknown.
 """
 
 import re
@@ -15,7 +16,7 @@ from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 from typing import Literal, cast
 
-from rapidgen.config.cell import CellDescription, CellSignalKeys
+from rapidgen.config.cell import CameraKeys, CellDescription, CellSignalKeys, SeenKeys
 from rapidgen.config.model import Load, Placement, Tool, WorkObject
 from rapidgen.controller.absent import absent
 from rapidgen.controller.conversing import Heard, heard
@@ -47,6 +48,7 @@ _LOAD = Load(0.001, (0.0, 0.0, 0.000001))
 """That of tool0 [3HAC16581-1 tooldata]: a tool without any is refused by moves."""
 _DIONUM = frozenset(("high", "low", "edge"))
 _DATA = frozenset({"tooldata", "wobjdata", "loaddata"})
+_MADE = frozenset(("mecunit", "cameradev"))
 _NUM = re.compile(r"n[A-Z_\d]|num[A-Z_\d]|reg\d")
 """Names that programmers give to numbers: nCount."""
 _NUMBERED = re.compile(r"[vz](\d{1,4})", re.I)
@@ -103,6 +105,7 @@ def guess(
     looked_at: list[Polled] = []
     tasks: list[list[ModuleScope]] = []
     known = [(signal.name, f"signal{signal.type.lower()}") for signal in system.signals]
+    known += [(camera, "cameradev") for camera in system.cameras]
     known += [(f"{task.name}Id", "taskid") for task in system.tasks]
     known += [(unit, "mecunit") for unit in (*units, "ROB_ID")]
     for spec in system.tasks:
@@ -139,6 +142,10 @@ def guess(
             if kind == "wobjdata"
         ),
         loads={name: _LOAD for name, kind in made.items() if kind == "loaddata"},
+        cameras={
+            name: CameraKeys([[SeenKeys(name)]])
+            for name in (*system.cameras, *(n for n, kind in made.items() if kind == "cameradev"))
+        },
     )
     named = [one for one in found.values() if _can_be_made(one.type)]
     unknown = [one for one in found.values() if not _can_be_made(one.type)]
@@ -160,12 +167,12 @@ def guess(
 
 
 def _can_be_made(kind: str) -> bool:
-    return kind.startswith("signal") or kind in _DATA or kind == "mecunit" or _is_plain(kind)
+    return kind.startswith("signal") or kind in _DATA or kind in _MADE or _is_plain(kind)
 
 
 def _is_plain(kind: str) -> bool:
     """Of a predefined type that any module may declare."""
-    ours = kind.startswith("signal") or kind in _DATA or kind in ("mecunit", "taskid")
+    ours = kind.startswith("signal") or kind in _DATA or kind in ("mecunit", "taskid", "cameradev")
     return not ours and type_class(kind) is not None
 
 
@@ -256,8 +263,9 @@ def _uses(node: n.Node, scope: Scope) -> Iterator[_Use]:
         elif routine is None:
             for argument in node.arguments:
                 if isinstance(argument.value, n.Name):
+                    # What is only given to routines in no file may as well be a number.
                     found = _read_as(argument.value.name, node)
-                    yield argument.value, found, 1 if found else 0
+                    yield argument.value, found or "num", 1 if found else 0
         return
     for one, kind in read(node, scope):
         if isinstance(one, n.Name):

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Protocol
 
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, error, suggest
+from rapidgen.machine.cameras import Camera, Seen
 from rapidgen.machine.io import Awaited, IOSystem
 from rapidgen.machine.log import EventLog
 from rapidgen.machine.meetings import Meetings
@@ -45,6 +46,8 @@ class Surroundings:
     """Where programs look for them in loops."""
     heard: "Heard | None" = None
     """What programs listen for at sockets that nobody else is at."""
+    cameras: Mapping[str, Camera] = field(default_factory=dict)
+    """What cameras see, by lower-case name."""
     is_guess: bool = False
     """Whether dialogs are answered that nobody else is there for, and I/O units are as named."""
     is_any_robot: bool = False
@@ -101,7 +104,9 @@ def furnish(
         for name, keys in cell.signals.items()
         if name.casefold() not in known
     )
-    system = replace(system, signals=(*system.signals, *signals))
+    seen = {name.casefold() for name in system.cameras}
+    cameras = (*system.cameras, *(name for name in cell.cameras if name.casefold() not in seen))
+    system = replace(system, signals=(*system.signals, *signals), cameras=cameras)
     faults = list(_nameless(system, cell))
     if faults:
         raise DiagnosticError(faults)
@@ -122,6 +127,32 @@ def furnish(
     )
     tasks = (replace(task, modules=(module, *task.modules)) for task in system.tasks)
     return replace(system, tasks=tuple(tasks))
+
+
+def cameras_of(cell: "CellDescription", *, is_guess: bool) -> dict[str, Camera]:
+    """The cameras of a cell, by lower-case name; a new set for each controller."""
+    return {
+        name.casefold(): Camera(
+            name,
+            [
+                [
+                    Seen(
+                        one.name,
+                        (one.position[0], one.position[1], one.position[2]),
+                        one.angle,
+                        one.type,
+                        tuple(one.values),
+                        tuple(one.texts),
+                    )
+                    for one in image
+                ]
+                for image in keys.images
+            ],
+            {parameter.casefold(): value for parameter, value in keys.parameters.items()},
+            is_guess,
+        )
+        for name, keys in cell.cameras.items()
+    }
 
 
 def _data(cell: "CellDescription") -> Iterator[tuple[str, str, str]]:
