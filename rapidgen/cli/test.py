@@ -1,5 +1,7 @@
 """`rapidgen test`: the driver's own suite, on the virtual controller, for this robot."""
 
+from contextlib import nullcontext
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -50,6 +52,10 @@ def test(
     trace: Annotated[
         Path | None,
         typer.Option(help="With --replay: every statement of RAPID.", metavar="FILE"),
+    ] = None,
+    record: Annotated[
+        Path | None,
+        typer.Option(help="With --replay: all of it, for `rapidgen view`.", metavar="FILE.mcap"),
     ] = None,
     uncovered: Annotated[
         bool, typer.Option("--uncovered", help="List the lines of RAPID that no case reaches.")
@@ -106,7 +112,7 @@ def test(
     if list_cases:
         return _list(as_json)
     if replay is not None:
-        return _replay(model, replay, trace)
+        return _replay(model, replay, trace, record)
     _check_names(case or [])
     assuming = [text for given in assume or () for text in given.split(",")]
     assumed(assuming)
@@ -280,7 +286,8 @@ def _show(report: "Proof", uncovered: bool, durations: int, command: str) -> Non
             console.print(f"failed: {complaint(outcome)}", markup=False)
     for finding in report.findings:
         console.print(f"failed: {finding.detail}", markup=False)
-        console.print(f"  {command} --replay {finding.schedule}", markup=False, soft_wrap=True)
+        again = f"{command} --replay {finding.schedule} --record story.mcap"
+        console.print(f"  {again}", markup=False, soft_wrap=True)
     if report.curve:
         console.print(met(report), markup=False)
     verdict = "everything held" if report.passed else "something did not hold"
@@ -295,15 +302,15 @@ def _show(report: "Proof", uncovered: bool, durations: int, command: str) -> Non
     )
 
 
-def _replay(config: "RobotConfig", name: str, trace: Path | None) -> int:
+def _replay(config: "RobotConfig", name: str, trace: Path | None, recording: Path | None) -> int:
     from rapidgen.proving.run import replay
+    from rapidgen.view.recording.writer import record
 
     _check_writable(trace)
-    if trace is None:
-        explored = replay(config, name)
-    else:
-        with trace.open("w", encoding="utf-8") as file:
-            explored = replay(config, name, file)
+    _check_writable(recording)
+    with trace.open("w", encoding="utf-8") if trace else nullcontext() as story:
+        begin = partial(record, path=recording) if recording else None
+        explored = replay(config, name, story, begin)
     typer.echo(explored.plan)
     if explored.finding is None:
         typer.echo(f"schedule {name}: the invariant held")

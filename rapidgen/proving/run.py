@@ -15,7 +15,7 @@ from rapidgen.proving.behaviour import Behaviour
 from rapidgen.proving.bench import FAILURES, Bench, add_lines
 from rapidgen.proving.blame import blamed
 from rapidgen.proving.campaign import Campaign, Limits, Progress, Workload
-from rapidgen.proving.explore import Explored, explore, ground_of
+from rapidgen.proving.explore import Explored, Recording, explore, ground_of
 from rapidgen.proving.guide import Guide
 from rapidgen.proving.identity import identity
 from rapidgen.proving.model import Finding, Proof, Verdict
@@ -279,7 +279,12 @@ def _verdict(case: Behaviour, bench: Bench) -> Verdict:
     )
 
 
-def replay(config: RobotConfig, name: str, trace: TextIO | None = None) -> Explored:
+def replay(
+    config: RobotConfig,
+    name: str,
+    trace: TextIO | None = None,
+    record: Recording | None = None,
+) -> Explored:
     """One schedule again, exactly; every statement of RAPID goes to `trace`."""
     driver = DriverUnderTest.of(config)
-    return explore(driver.config, driver.system, name, trace=trace)
+    return explore(driver.config, driver.system, name, trace=trace, record=record)
