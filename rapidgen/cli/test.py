@@ -23,6 +23,9 @@ if TYPE_CHECKING:
 def test(
     config: options.Config,
     seeds: Annotated[int, typer.Option(help="Random schedules to explore.", min=0)] = 100,
+    programs: Annotated[
+        int, typer.Option(help="Random motion programs, each beside the same in RAPID.", min=0)
+    ] = 0,
     jobs: Annotated[
         int | None, typer.Option(help="Processes; default one for each core.", min=1)
     ] = None,
@@ -47,7 +50,9 @@ def test(
     ] = None,
     replay: Annotated[
         str | None,
-        typer.Option(help="One schedule again, exactly; its story on stdout.", metavar="SCHEDULE"),
+        typer.Option(
+            help="One schedule or program again, exactly; its story on stdout.", metavar="NAME"
+        ),
     ] = None,
     trace: Annotated[
         Path | None,
@@ -126,6 +131,7 @@ def test(
             report = prove(
                 model,
                 seeds=seeds,
+                programs=programs,
                 jobs=jobs,
                 hire=None if cluster is None else _of_cluster(cluster),
                 only=case or (),
@@ -260,6 +266,7 @@ def _show(report: "Proof", uncovered: bool, durations: int, command: str) -> Non
     from rich.console import Console
     from rich.table import Table
 
+    from rapidgen.proving.model import is_program
     from rapidgen.proving.report import complaint, met, missed, slowest
 
     console = Console(highlight=False)
@@ -270,8 +277,11 @@ def _show(report: "Proof", uncovered: bool, durations: int, command: str) -> Non
         answers = sorted({a.strip() for o in own for a in o.answers.split(",") if a})
         table.add_row(group, str(sum(o.passed for o in own)), str(len(own)), " ".join(answers))
     if report.schedules:
-        held = report.schedules - len(report.findings)
+        held = report.schedules - sum(not is_program(f.schedule) for f in report.findings)
         table.add_row("schedules", str(held), str(report.schedules), "R1 R5 R7 R12")
+    if report.programs:
+        held = report.programs - sum(is_program(f.schedule) for f in report.findings)
+        table.add_row("programs", str(held), str(report.programs), "")
     reached, of = report.covered
     if of:
         table.add_row("lines of RAPID", str(reached), str(of), f"{reached / of:.1%} covered")
@@ -303,6 +313,7 @@ def _show(report: "Proof", uncovered: bool, durations: int, command: str) -> Non
 
 
 def _replay(config: "RobotConfig", name: str, trace: Path | None, recording: Path | None) -> int:
+    from rapidgen.proving.model import is_program, title
     from rapidgen.proving.run import replay
     from rapidgen.view.recording.writer import record
 
@@ -313,8 +324,9 @@ def _replay(config: "RobotConfig", name: str, trace: Path | None, recording: Pat
         explored = replay(config, name, story, begin)
     typer.echo(explored.plan)
     if explored.finding is None:
-        typer.echo(f"schedule {name}: the invariant held")
+        held = "it moved as the same in RAPID" if is_program(name) else "the invariant held"
+        typer.echo(f"{title(name)}: {held}")
         return 0
     typer.echo("\n".join(explored.finding.log))
-    typer.echo(f"schedule {name}: {explored.finding.detail}")
+    typer.echo(f"{title(name)}: {explored.finding.detail}")
     return 1
