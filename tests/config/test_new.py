@@ -186,7 +186,7 @@ def test_a_scara_whose_export_ends_at_the_quill_is_known_by_its_two_arms(tmp_pat
     assert "IRB 920T-6/0.55" in path.read_text()
     assert [round(math.degrees(j.upper)) for j in group.joints[:2]] == [140, 150]
     assert group.joints[2].sign == -1
-    assert [(kept.axis, kept.must_stand) for kept in group.kept][0] == ("rax_4", False)
+    assert next((kept.axis, kept.must_stand) for kept in group.kept) == ("rax_4", False)
     urdf.write_text(SCARA.format(x=0, y=0.26))  # bent where the file says 0
     new(path, urdf=urdf, speed=100, force=True)
     offset = next(line for line in path.read_text().splitlines() if line.startswith("  b:"))
