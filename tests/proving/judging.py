@@ -123,7 +123,9 @@ class Grounds:
     text: str
     """Of the program that judges; another one is refused."""
     usual: dict[str, float] = field(default_factory=dict)
-    """s of CPU of each case."""
+    """s of CPU of each case: how long a mutant is waited for."""
+    costs: dict[str, int] = field(default_factory=dict)
+    """Statements that each case executes: what is cheap is tried first, on any machine."""
     lines: dict[str, set[tuple[str, int]]] = field(default_factory=dict)
     """What each case executes."""
     kept: "list[Starter | Judge]" = field(default_factory=list)
@@ -150,7 +152,8 @@ def grounds(
         o.case: {(p, n) for p, lines in o.lines.items() for n, hits in lines.items() if hits}
         for o in outcomes
     }
-    return replace(bare, usual=usual, lines=lines, kept=[])
+    costs = {o.case: 1 + sum(sum(own.values()) for own in o.lines.values()) for o in outcomes}
+    return replace(bare, usual=usual, costs=costs, lines=lines, kept=[])
 
 
 def _own_text() -> str:
@@ -214,7 +217,7 @@ class Judge:
     """Judges mutants of one system in copies of a booted controller."""
 
     def __init__(self, given: Grounds) -> None:
-        self._usual, self._lines = given.usual, given.lines
+        self._usual, self._costs, self._lines = given.usual, given.costs, given.lines
         self._worth = _worth(given.lines)
         self._names = given.cases
         self._bench = Bench(given.config, given.system, given.setting)
@@ -227,7 +230,7 @@ class Judge:
         worth = {name: self._worth[name].get(mutant.path, 1.0) for name in names}
         for name in names:
             worth[name] += 50 * learned.near.get(name, 0) + 0.05 * learned.elsewhere.get(name, 0)
-        names.sort(key=lambda n: -worth[n] / self._usual[n])
+        names.sort(key=lambda n: -worth[n] / self._costs[n])
         return [_CASES[name] for name in names]
 
     def judge(self, question: Question) -> Noticed:
