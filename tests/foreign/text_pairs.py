@@ -189,7 +189,8 @@ def serial(line: Line, controller: VirtualController) -> None:
 def tester(line: Line, _controller: VirtualController) -> None:
     """Main.cs: the name of a procedure, which comes back when it has run."""
     line.say("Path_10")
-    assert line.hear("Done") == "Path_10_RobotDone"
+    heard = line.hear("Done")
+    assert heard == "OngoingPath_10_RobotDone", heard
 
 
 def _until(holds: Callable[[], bool]) -> None:
