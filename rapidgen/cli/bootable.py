@@ -97,7 +97,12 @@ def guessed_told(guessed: "Guessed") -> str:
     go as programmed."""
     why = "guessed, because the program waited for it"
     other = "the guessed robot did not come there as programmed (`--robot` chooses another)"
-    return _counted(why, " = ", guessed.answered) + _counted(other, ": ", guessed.missed)
+    again = "stopped behind an answer that was guessed, and started from main again"
+    return (
+        _counted(why, " = ", guessed.answered)
+        + _counted(again, ": ", guessed.stopped)
+        + _counted(other, ": ", guessed.missed)
+    )
 
 
 def _counted(title: str, between: str, said: "Iterable[Said]") -> str:

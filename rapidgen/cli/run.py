@@ -166,7 +166,9 @@ def _run(
     controller: "VirtualController", max_time: float, max_statements: int, cell: str
 ) -> list[Diagnostic]:
     """Run to the end; what went wrong."""
-    ended = controller.run(max_time=max_time, max_statements=max_statements)
+    from rapidgen.controller.passes import run_through
+
+    ended = run_through(controller, max_time=max_time, max_statements=max_statements)
     found = [
         _fault(task.name, task.fault, cell)
         for task in controller.tasks.values()

@@ -62,6 +62,8 @@ class Guessed:
     """Signals and dialogs, and what they became because a program waited for it."""
     missed: "list[Said]" = field(default_factory=list)
     """Places of moves to where the robot does not come as programmed, and how it went there."""
+    stopped: "list[Said]" = field(default_factory=list)
+    """Where a program stopped behind an answer and was started from main again, and why."""
 
 
 class Booted(Protocol):

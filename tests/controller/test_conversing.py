@@ -4,6 +4,7 @@ import pytest
 
 from rapidgen.controller import VirtualController
 from rapidgen.controller.booting import Wishes, load_target
+from rapidgen.controller.passes import run_through
 
 SERVER = """MODULE server
  VAR socketdev s;
@@ -74,6 +75,33 @@ def test_a_client_finds_somebody_who_answers_and_then_falls_silent(tmp_path):
     assert shown == ["got 12"], "as many bytes as it reads"
     assert ended == "deadlock"
     assert "waits for bytes" in where[0]
+
+
+def test_what_stops_behind_such_an_answer_starts_from_main_and_hears_the_next(tmp_path):
+    path = tmp_path / "server.mod"
+    path.write_text(
+        SERVER.replace('"quit"', '"long" AND said <> "short"').replace(
+            "   SocketSend c", "   TPWrite said + StrPart(said, 5, 1);\n   SocketSend c"
+        )
+    )
+    shown: list[str] = []
+    with VirtualController.from_files([path], cell="guess", cycle="once") as controller:
+        controller.operator.subscribe(lambda _task, line: shown.append(line))
+        ended = run_through(controller, max_time=120)
+        assert ended == "finished"
+        assert ("server.mod:22", "ERR_OUTOFBND") in controller.guessed.stopped
+        assert "shortt" in shown, "the one behind that which stopped it"
+
+
+def test_a_program_that_stops_by_itself_is_not_started_again(tmp_path):
+    path = tmp_path / "wrong.mod"
+    path.write_text(
+        'MODULE wrong\n PROC main()\n  TPWrite StrPart("a", 5, 1);\n ENDPROC\nENDMODULE\n'
+    )
+    with VirtualController.from_files([path], cell="guess", cycle="once") as controller:
+        run_through(controller, max_time=120)
+        assert "ERR_OUTOFBND" in str(controller.task("T_ROB1").fault)
+        assert controller.guessed.stopped == []
 
 
 @pytest.mark.parametrize("text", [SERVER, CLIENT])

@@ -22,6 +22,7 @@ from pathlib import Path
 from rapidgen.controller import VirtualController
 from rapidgen.controller.booting import Wishes, load_target
 from rapidgen.controller.controller import Cycle
+from rapidgen.controller.passes import run_through
 from rapidgen.controller.tracing import Coverage
 from rapidgen.diagnostics import DiagnosticError, Severity
 from rapidgen.rapid import check
@@ -88,7 +89,7 @@ def cycles(program: Program, robot: str, cycle: Cycle) -> Outcome:
         covered = Coverage(controller)
         controller.operator.attach()
         controller.start_program()
-        ended = controller.run(max_time=_TIME, max_statements=_STATEMENTS)
+        ended = run_through(controller, max_time=_TIME, max_statements=_STATEMENTS)
         by_file = covered.lines()
         lines = [hits for file in by_file.values() for hits in file.values()]
         called = lines_called(controller)

@@ -58,7 +58,8 @@ def moving_group(task: Task) -> MotionGroup:
 def named_group(task: Task, reference: Value, name: str | None) -> MotionGroup:
     """The group of \\TaskRef or \\TaskName, else the task's own.
 
-    ERR_TASKNAME: no such task, which in a guessed cell is the own one; ERR_NOT_MOVETASK: it moves nothing.
+    ERR_TASKNAME: no such task, which in a guessed cell is the own one; ERR_NOT_MOVETASK: it moves
+    nothing.
     """
     wanted = name if reference is None else reference.value
     if wanted is None:
