@@ -115,3 +115,17 @@ def test_a_guessed_cell_meets_no_tasks_that_are_in_no_file(tmp_path):
     with VirtualController.from_files([path], cycle="once") as controller:
         controller.run(max_time=20)
         assert "ERR_TASKNAME" in str(controller.task("T_ROB1").fault)
+
+
+def test_a_signal_that_a_program_names_by_a_text_is_made_up(tmp_path):
+    path = tmp_path / "alias.mod"
+    path.write_text(
+        "MODULE named\n VAR signaldo grip;\n PROC main()\n"
+        '  AliasIO "hand_" + ArgName(grip), grip;\n  SetDO grip, 1;\n ENDPROC\nENDMODULE\n'
+    )
+    with VirtualController.from_files([path], cell="guess", cycle="once") as controller:
+        assert controller.run(max_time=20) == "finished"
+        assert controller.signals["hand_grip"] == 1
+    with VirtualController.from_files([path], cycle="once") as controller:
+        controller.run(max_time=20)
+        assert "ERR_ALIASIO_DEF" in str(controller.task("T_ROB1").fault)
