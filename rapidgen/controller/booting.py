@@ -198,6 +198,7 @@ def _surrounded(found: Bootable, cell: "CellDescription | None", wishes: Wishes)
             tuple(reaction for rows in cell.devices.values() for reaction in rows),
             frozenset(inputs if guessed is not None else ()),
             guessed.polled if guessed is not None else (),
+            guessed.flags if guessed is not None else (),
             guessed.heard if guessed is not None else None,
             cameras_of(cell, is_guess=guessed is not None),
             is_guess=guessed is not None,

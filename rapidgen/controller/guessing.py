@@ -20,6 +20,7 @@ from rapidgen.config.cell import CameraKeys, CellDescription, CellSignalKeys, Se
 from rapidgen.config.model import Load, Placement, Tool, WorkObject
 from rapidgen.controller.absent import absent
 from rapidgen.controller.conversing import Heard, heard
+from rapidgen.controller.flags import Flag, flags
 from rapidgen.controller.polling import Polled, polled
 from rapidgen.controller.uses import passed, read, scoped
 from rapidgen.diagnostics import Span
@@ -85,6 +86,8 @@ class Guess:
     """Mechanical units."""
     routines: str = ""
     """Declarations of routines that are in no file and do nothing."""
+    flags: tuple[Flag, ...] = ()
+    """Data that programs look at and do not set."""
     heard: Heard = field(default_factory=Heard)
     """What programs listen for at their sockets."""
 
@@ -159,11 +162,15 @@ def guess(
     kinds = {name.casefold(): kind for name, kind in made.items()}
     stubs = {one.name.casefold(): one for scopes in tasks for one in absent(scopes, kinds)}
     named += [Named(s.name, f"func {s.type}" if s.type else "proc", s.span) for s in stubs.values()]
+    looked = tuple(
+        flag
+        for spec, scopes in zip(system.tasks, tasks, strict=True)
+        for flag in flags(spec, scopes, kinds)
+    )
     listens = heard((scope for scopes in tasks for scope in scopes), stands)
     routines = "".join(s.stub(stands.get(s.type, "")) for s in stubs.values())
-    return Guess(
-        cell, tuple(named), tuple(unknown), tuple(rows), data, made_units, routines, listens
-    )
+    names = tuple(named), tuple(unknown)
+    return Guess(cell, *names, tuple(rows), data, made_units, routines, looked, listens)
 
 
 def _can_be_made(kind: str) -> bool:

@@ -23,7 +23,9 @@ if TYPE_CHECKING:
     from rapidgen.config.cell import CellDescription, ReactionKeys
     from rapidgen.controller.answering import Said
     from rapidgen.controller.conversing import Heard
+    from rapidgen.controller.flags import Flag
     from rapidgen.controller.polling import Polled
+    from rapidgen.controller.views import TaskView
 
 GUESSED = 49_910
 """Event: an input that nobody drives became what a program waits for. The number is ours."""
@@ -44,6 +46,8 @@ class Surroundings:
     """Inputs that nobody drives, lower case: they become what somebody waits for."""
     polled: "tuple[Polled, ...]" = ()
     """Where programs look for them in loops."""
+    flags: "tuple[Flag, ...]" = ()
+    """Data that programs look at and do not set."""
     heard: "Heard | None" = None
     """What programs listen for at sockets that nobody else is at."""
     cameras: Mapping[str, Camera] = field(default_factory=dict)
@@ -81,6 +85,9 @@ class Booted(Protocol):
     meetings: Meetings
     scheduler: Scheduler
     rapid_tasks: dict[str, Task]
+
+    def task(self, name: str) -> "TaskView":
+        """One task."""
 
 
 def furnish(
@@ -210,6 +217,10 @@ def settle(controller: Booted, around: Surroundings) -> Guessed:
         from rapidgen.controller.polling import Buttons
 
         Buttons(controller, around.polled, answered)
+    if around.flags and controller.scheduler.clock == "virtual":
+        from rapidgen.controller.flags import Flags
+
+        Flags(controller, around.flags, answered)
     controller.io.any_unit = controller.meetings.any_task = around.is_guess
     if around.is_any_robot:
         controller.motion.on_missed = lambda place, how: guessed.missed.append((place, how))
