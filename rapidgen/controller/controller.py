@@ -159,7 +159,8 @@ class VirtualController:
         self.meetings = Meetings()
         self.arcs = {t.name: ArcEquipment(self.io, system.arc, t.name) for t in system.tasks}
         """What tasks weld with: whether `gas` flows, an `arc` burns, and with which `data`."""
-        self.hands = Hands(self.scheduler, self.io, calibrated=self.dialect.hands_calibrated)
+        calibrated = self.dialect.hands_calibrated or surroundings.is_guess
+        self.hands = Hands(self.scheduler, self.io, calibrated=calibrated)
         """The hands of a YuMi: `hands["L"].part = 12.0` puts something between the fingers."""
         self.cameras = cameras(system.cameras, surroundings.cameras)
         """By lower-case name."""

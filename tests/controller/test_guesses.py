@@ -129,3 +129,14 @@ def test_a_signal_that_a_program_names_by_a_text_is_made_up(tmp_path):
     with VirtualController.from_files([path], cycle="once") as controller:
         controller.run(max_time=20)
         assert "ERR_ALIASIO_DEF" in str(controller.task("T_ROB1").fault)
+
+
+def test_hands_of_a_guessed_cell_are_calibrated(tmp_path):
+    path = tmp_path / "grips.mod"
+    path.write_text("MODULE grips\n PROC main()\n  g_GripIn;\n ENDPROC\nENDMODULE\n")
+    for cell in ("guess", ""):
+        with VirtualController.from_files(
+            [path], cell=cell, robot="irb14000", cycle="once"
+        ) as controller:
+            controller.run(max_time=60)
+            assert (controller.task("T_ROB1").fault is None) is (cell == "guess")
