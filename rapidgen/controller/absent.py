@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from rapidgen.controller.uses import passed, read, scoped
 from rapidgen.diagnostics import Span
 from rapidgen.rapid.binding import ModuleScope, RoutineSymbol, Scope, constant
-from rapidgen.rapid.binding.expressions import type_of
+from rapidgen.rapid.binding.expressions import declared_type, type_of
 from rapidgen.rapid.binding.names import called
 from rapidgen.rapid.binding.types import NUMBER, degree, element
 from rapidgen.rapid.builtins.signatures import type_class
@@ -104,7 +104,7 @@ def _parameters(
             found.append(f"\\switch {argument.name}")
             continue
         value = argument.value
-        kind = type_of(value, scope) if value is not None else None
+        kind = None if value is None else type_of(value, scope) or declared_type(value, scope)
         if not kind and isinstance(value, n.Name):
             kind = types.get(value.name.casefold(), "")
         kind = (kind or "").replace(NUMBER, "num")
