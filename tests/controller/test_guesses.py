@@ -10,7 +10,8 @@ def test_routines_in_no_file_do_nothing_and_are_told(tmp_path):
     path = tmp_path / "calls.mod"
     path.write_text(
         "MODULE calls\n VAR num x := 5;\n VAR robtarget p;\n LOCAL VAR socketdev s;\n PROC main()\n"
-        '  closeGrip;\n  openPort s, 5;\n  setThing 5, "a", di1 \\Fast;\n  setThing 6, "b", di1 \\Fast;\n'
+        "  closeGrip;\n  openPort s, 5;\n"
+        '  setThing 5, "a", di1 \\Fast;\n  setThing 6, "b", di1 \\Fast;\n'
         '  IF isReady(x) THEN\n   TPWrite "ready";\n  ENDIF\n  x := 3 + countOf(strange{2});\n'
         '  x := x + sizeOf("k");\n  p := lookUp(x);\n  MoveJ p, v100, fine, tool0;\n'
         '  %"later"% 3;\n  TPWrite "x " + ValToStr(x);\n ENDPROC\nENDMODULE\n'
