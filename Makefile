@@ -15,10 +15,7 @@ demo: $(if $(wildcard $(STAMP)),$(STAMP),$(RUNS))
 	@$(BIN)/rapidgen demo
 
 $(RUNS): pyproject.toml
-	@echo "setup    an environment in $(VENV) with what rapidgen needs: once, half a minute"
-	@(while sleep 4; do echo "         $$SECONDS s"; done) & beat=$$!; trap "kill $$beat" EXIT; \
-		(test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)) && \
-		$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-compile --editable '.[plot]'
+	@PYTHON="$(PYTHON)" .ci/environment $(VENV) --editable '.[plot]'
 	@touch $@
 
 test: lint types contract wheel driver-hours site release-lint unit
