@@ -16,7 +16,7 @@ from typing import Annotated
 import typer
 from typer.exceptions import TyperException
 
-from rapidgen import __version__
+from rapidgen import __version__, _extras
 from rapidgen.cli.loudness import set_up
 from rapidgen.cli.terminal import use_colour
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, as_data, error, render
@@ -117,6 +117,12 @@ def main(words: list[str]) -> int:
         if isinstance(left.__context__, BrokenPipeError):
             return _unheard()
         raise
+    except ModuleNotFoundError as fault:
+        lacking = _extras.missing(fault)
+        if lacking is None:
+            raise
+        _show((lacking,), as_json)
+        return 2
     except OSError as fault:
         if fault.filename is None and fault.errno not in _MACHINE | {errno.ENOENT}:
             raise

@@ -192,11 +192,8 @@ def _check_writable(path: Path | None) -> None:
 
 
 def _of_cluster(address: str) -> "Callable[[DriverUnderTest], Workers]":
-    try:
-        from rapidgen.proving.cluster import Cluster
-    except ModuleNotFoundError as missing:
-        mend = 'pip install "rapidgen[cluster]"'
-        raise refusal("RG808", None, f"{missing.name} is not installed", mend) from missing
+    from rapidgen.proving.cluster import Cluster
+
     return lambda driver: Cluster(address, driver, lambda text: typer.echo(text, err=True))
 
 
