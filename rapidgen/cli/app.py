@@ -36,7 +36,7 @@ VERBS = {
     "test": "Prove the driver for this robot: every behaviour, stops and faults in many schedules.",
     "probe": "Write a module that asks a controller what is only assumed about it.",
     "move": "Move a robot to joints, to a pose, or along a file.",
-    "jog": "Move joints a little from where they are: at most 11.4 deg or 100 mm.",
+    "jog": "Move joints or the tool a little from where they are: at most 11.4 deg or 100 mm.",
     "pose": "Show where the tool is in the work object, and the joints; as `move` takes them.",
     "stop": "Stop the robot: every motion group, or one.",
     "monitor": "Watch a robot: joints against limits, mode, rate, jitter, last event.",
