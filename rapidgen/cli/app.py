@@ -10,6 +10,7 @@ import os
 import signal
 import sys
 from collections.abc import Callable, Sequence
+from functools import wraps
 from importlib import import_module
 from typing import Annotated
 
@@ -107,8 +108,11 @@ def main(words: list[str]) -> int:
     except TyperException as fault:
         _show((_usage(fault),), as_json)
         return 2
-    except (KeyboardInterrupt, typer.Abort):
-        sys.stderr.write("\nstopped\n")
+    except (_GivenUp, KeyboardInterrupt, typer.Abort):
+        if as_json:
+            _show((_given_up(),), as_json)
+        else:
+            sys.stderr.write("\nstopped\n")
         return 130
     except BrokenPipeError:
         return _unheard()
@@ -154,8 +158,23 @@ def _app(words: list[str]) -> typer.Typer:
     app.callback()(_root)
     for verb, sentence in VERBS.items():
         whole = completing or verb == wanted
-        app.command(verb)(function(verb) if whole else _named(sentence))
+        app.command(verb)(_interruptible(function(verb)) if whole else _named(sentence))
     return app
+
+
+class _GivenUp(Exception):
+    """Ctrl-C in a verb; typer would turn it into an exit code without a word."""
+
+
+def _interruptible(verb: Callable[..., object]) -> Callable[..., object]:
+    @wraps(verb)
+    def carried_out(*arguments: object, **options: object) -> object:
+        try:
+            return verb(*arguments, **options)
+        except KeyboardInterrupt as given_up:
+            raise _GivenUp from given_up
+
+    return carried_out
 
 
 def function(verb: str) -> Callable[..., object]:
@@ -215,6 +234,10 @@ def _refused(fault: OSError, as_json: bool) -> int:
     text = f"{message}: {fault.strerror}"
     _show((error("RG903", None, text, mend),), as_json)
     return 2 if fault.errno in _BAD_PATH else 1
+
+
+def _given_up() -> Diagnostic:
+    return error("RG906", None, "stopped by Ctrl-C, or by a no", "the same command begins anew")
 
 
 def _empty_argument() -> Diagnostic:

@@ -142,6 +142,9 @@ def test(
     else:
         _show(report, uncovered, durations, _command(config, overrides, backup))
     if report.broken_off:
+        if as_json:
+            # The report says it: a second object would make both none.
+            return 130
         raise KeyboardInterrupt
     return 0 if report.passed else 1
 
