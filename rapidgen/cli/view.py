@@ -152,7 +152,8 @@ def _plain(address: "Address") -> Exception:
     return refusal(
         "RG923",
         None,
-        f"{address} has no control port, so it may serve one client: looking would take its place",
+        f"{address} has no control port: either nothing runs there, or a driver that serves one "
+        "client, whose place looking would take",
         "with `--take` it is taken, and a program that moves the robot then stops it",
         exit_code=1,
     )

@@ -261,6 +261,8 @@ class VirtualController:
         `robot` is a shipped name or a configuration (default irb120), `cell` the file that
         describes what stands around it, or "guess", `start` where the robot stands (deg, mm).
         """
+        if isinstance(files, str | Path):
+            raise TypeError(f"files are a list, or a mapping of tasks to lists: [{str(files)!r}]")
         tasks = files if isinstance(files, Mapping) else {"T_ROB1": files}
         wishes = Wishes(tasks, robot=robot, entry=entry, cell=cell, start=start)
         return cls.boot(load_target((), wishes), **options)

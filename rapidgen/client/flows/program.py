@@ -2,6 +2,8 @@
 
 from collections.abc import Mapping, Sequence
 
+import numpy as np
+
 from rapidgen.axes.frames import Pose
 from rapidgen.client.core.checks import Way
 from rapidgen.client.core.group import Group
@@ -106,10 +108,11 @@ def _check_steps(group: Group, by: Mapping[str, float]) -> None:
     kinds = {name: "prismatic" for name in DIRECTIONS}
     kinds |= {joint.name: joint.kind for joint in group.joints}
     for name, step in by.items():
-        if not abs(step) <= LONGEST_JOG.get(kinds.get(name, ""), 0.0):
+        most = LONGEST_JOG.get(kinds.get(name, ""), 0.0)
+        if not isinstance(step, int | float | np.number) or not abs(step) <= most:
             raise InvalidProgram.because(
                 "RG670",
-                f"'{name}' cannot be jogged by {step}",
+                f"'{name}' cannot be jogged by {step!r}",
                 suggest(name, kinds)
                 or "by at most 0.2 rad or 0.1 m, by the joint's name or by x, y, z",
             )
