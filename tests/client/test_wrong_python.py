@@ -1,4 +1,4 @@
-"""What a stranger types in Python: each is told with a reason and a mend, before anything is sent."""
+"""What a stranger types in Python: each is told, with reason and mend, before anything goes out."""
 
 import pytest
 
@@ -23,7 +23,8 @@ WRONG = {
         lambda: Robot("irb120", address=("127.0.0.1", 11000)),
         InvalidTarget, "the address is a text, not tuple", "HOST:MOTION,STATE"),
     "a model that is none": (
-        lambda: Robot("irb121", address="h"), InvalidTarget, "'irb121' is no configuration", "irb120"),
+        lambda: Robot("irb121", address="h"),
+        InvalidTarget, "'irb121' is no configuration", "irb120"),
     "a group that is none": (
         lambda: Robot("irb120", group="rob2"), InvalidTarget, "no motion group 'rob2'", "rob1"),
     "a cell of a name": (
@@ -35,7 +36,8 @@ WRONG = {
     "one value a point": (
         lambda: Trajectory([0, 1], [0, 1]), InvalidTrajectory, "of shape (2,)", "(n, joints)"),
     "more points than times": (
-        lambda: Trajectory([0, 1], [[0] * 6] * 3), InvalidTrajectory, "do not fit", "times of shape"),
+        lambda: Trajectory([0, 1], [[0] * 6] * 3),
+        InvalidTrajectory, "do not fit", "times of shape"),
     "a name twice": (
         lambda: Trajectory([0, 1], [[0] * 2] * 2, ["a", "a"]),
         InvalidTrajectory, "there twice: a", ""),
@@ -47,7 +49,8 @@ WRONG = {
         lambda: Program().move_joints("0,0,0,0,0,0"),
         InvalidProgram, "'0,0,0,0,0,0' are no joints", "numbers in rad"),
     "joints as nothing": (
-        lambda: Program().move_joints(None), InvalidProgram, "None are no joints", "numbers in rad"),
+        lambda: Program().move_joints(None),
+        InvalidProgram, "None are no joints", "numbers in rad"),
     "a place for a pose": (
         lambda: Program().move_linear((0.3, 0, 0.5)), InvalidProgram, "is no pose", "quaternion"),
 }  # fmt: skip
