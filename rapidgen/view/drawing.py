@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from math import atan2, hypot
 from xml.etree.ElementTree import Element, SubElement, tostring
 
+from rapidgen.axes.frames import Pose
 from rapidgen.axes.mapping import JointMap
 from rapidgen.config.model import ChainLink, GroupConfig, Joint
 
@@ -20,7 +21,7 @@ _LONGEST = 60.0
 """m: a rail that is longer is none."""
 _SHORTEST = 0.05
 """m: the length of an arm without lengths."""
-_ENDLESS = {"lower": "-1000000", "upper": "1000000", "effort": "0", "velocity": "0"}
+ENDLESS = {"lower": "-1000000", "upper": "1000000", "effort": "0", "velocity": "0"}
 Vector = tuple[float, float, float]
 
 
@@ -34,6 +35,8 @@ class Drawing:
     flange: str
     passive: tuple[tuple[tuple[int, float], ...], ...]
     """Of each passive joint: places and factors of the joints that it follows the sum of."""
+    base: Pose | None = None
+    """Where its base stands among what else is drawn; None: nothing tells."""
 
     def values(self, urdf: Sequence[float]) -> tuple[float, ...]:
         """Values of `movable` (rad, m) for those of the group's joints."""
@@ -63,14 +66,14 @@ def described(group: GroupConfig) -> Drawing:
             kind, name = "continuous", f"passive_{i + 1}"
             passive[name] = tuple((names.index(joint), k) for joint, k in step.follows)
         joint = SubElement(robot, "joint", name=name, type=kind)
-        SubElement(joint, "origin", xyz=_text(step.xyz), rpy=_text(step.rpy))
+        SubElement(joint, "origin", xyz=text(step.xyz), rpy=text(step.rpy))
         SubElement(joint, "parent", link=parent)
         SubElement(joint, "child", link=flange)
         link = SubElement(robot, "link", name=flange)
         if kind != "fixed":
-            SubElement(joint, "axis", xyz=_text(step.axis))
+            SubElement(joint, "axis", xyz=text(step.axis))
             # What bounds it is said by its controller axis.
-            SubElement(joint, "limit", _ENDLESS)
+            SubElement(joint, "limit", ENDLESS)
         if kind == "continuous":
             _cylinder(link, "housing", radii[i] * 1.3, radii[i] * 2.5, along=step.axis)
     return Drawing(tostring(robot, "unicode"), (*names, *passive), flange, (*passive.values(),))
@@ -115,11 +118,12 @@ def _cylinder(
     """A cylinder around a line; URDF's own stand along z."""
     pitch, yaw = atan2(hypot(along[0], along[1]), along[2]), atan2(along[1], along[0])
     visual = SubElement(link, "visual")
-    SubElement(visual, "origin", xyz=_text(middle), rpy=_text((0.0, pitch, yaw)))
+    SubElement(visual, "origin", xyz=text(middle), rpy=text((0.0, pitch, yaw)))
     shape = SubElement(visual, "geometry")
     SubElement(shape, "cylinder", radius=f"{radius:.6g}", length=f"{length:.6g}")
     SubElement(visual, "material", name=material)
 
 
-def _text(vector: Vector) -> str:
+def text(vector: Sequence[float]) -> str:
+    """Numbers as an attribute has them."""
     return " ".join(map(repr, vector))

@@ -39,7 +39,8 @@ class Axis(Spoken):
 
 
 class SeenRobot(Spoken):
-    """A robot. `urdf` is its description, whose meshes are paths of this server."""
+    """A robot. `urdf` is its description; its meshes are names on this server, empty for one that
+    is not to be had."""
 
     name: str
     task: str
@@ -65,6 +66,8 @@ class Scene(Spoken):
     may_command: bool
     """False: nothing that is sent moves or changes anything."""
     groups: tuple[SeenRobot, ...]
+    faults: tuple[str, ...] = ()
+    """What does not look as its description says."""
 
 
 # -- to the page: what changes --------------------------------------------------------------------

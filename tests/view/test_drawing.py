@@ -4,7 +4,7 @@ from xml.etree import ElementTree
 
 from rapidgen.config import load_config, shipped_names
 from rapidgen.view.drawing import described
-from rapidgen.view.robots import group_of, side_by_side
+from rapidgen.view.robots import side_by_side
 from tests.docs.tree import ROOT
 
 
@@ -23,8 +23,8 @@ def test_every_shipped_model_has_a_drawing_with_its_joints():
 def test_robots_that_would_stand_in_one_another_stand_apart():
     def bases(name):
         groups = load_config(name).groups
-        seen = [group_of(group, described(group)) for group in groups]
-        return [robot.base.position for robot in side_by_side(groups, seen)]
+        drawings = [described(group) for group in groups]
+        return [robot.base.position for robot in side_by_side(groups, drawings)]
 
     two = bases(str(ROOT / "robots" / "examples" / "two_arms_track-rw6.yaml"))
     assert two[0] == (0.0, 0.0, 0.0)

@@ -5,21 +5,23 @@ from collections.abc import Iterable, Mapping
 from rapidgen.controller.cabinet import Cabinet
 from rapidgen.motion.group import MotionGroup
 from rapidgen.runtime.task.task import Task
+from rapidgen.view.appearance import PLAIN, Appearance
 from rapidgen.view.aspect import Declined, Handler
 from rapidgen.view.copying import copied
-from rapidgen.view.drawing import Drawing, described
+from rapidgen.view.drawing import Drawing
 from rapidgen.view.messages import Copy, Jog, Positions, Request, RobotPlace, Scene, ToPage
-from rapidgen.view.robots import Carried, group_of, pose_of, side_by_side
+from rapidgen.view.robots import Carried, pose_of, side_by_side
 
 
 class MotionAspect:
     """The scene, positions, and the robots put elsewhere by hand."""
 
-    def __init__(self, cabinet: Cabinet) -> None:
+    def __init__(self, cabinet: Cabinet, look: Appearance = PLAIN) -> None:
         self._controller = cabinet.controller
+        self._look = look
         self._scheduler = cabinet.controller.scheduler
         self._groups = tuple(self._controller.motion.groups.values())
-        self._drawings = tuple(described(group.config) for group in self._groups)
+        self._drawings = tuple(look.of(group.config) for group in self._groups)
         self._told: tuple[RobotPlace, ...] = ()
 
     def whole(self) -> Iterable[ToPage]:
@@ -29,7 +31,8 @@ class MotionAspect:
             title=self._controller.system.name,
             kind="simulation",
             may_command=True,
-            groups=tuple(side_by_side(configs, [*map(group_of, configs, self._drawings)])),
+            groups=tuple(side_by_side(configs, self._drawings)),
+            faults=self._look.faults,
         )
         yield self._state(self._now())
 

@@ -89,7 +89,13 @@ if (stage) {
   const views = names.map(([name, text]) =>
     h("button", { type: "button", onclick: () => stage.look(name) }, text));
   const trail = h("button", { type: "button", onclick: () => stage.clearTrails() }, "Clear trail");
-  space.append(stage.element, h("div", { class: "views", role: "group", "aria-label": "View" }, ...views, trail));
+  const amiss = h("details", { class: "amiss", hidden: true });
+  stage.onfault = () => {
+    const list = stage.faults.map((why) => h("li", {}, why));
+    amiss.hidden = !list.length;
+    amiss.replaceChildren(h("summary", {}, `Not drawn as described: ${list.length}`), h("ul", {}, ...list));
+  };
+  space.append(stage.element, amiss, h("div", { class: "views", role: "group", "aria-label": "View" }, ...views, trail));
   new ResizeObserver(() => stage.resize(space.clientWidth, space.clientHeight)).observe(space);
 } else {
   space.append(h("p", { class: "without" },

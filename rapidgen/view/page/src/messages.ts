@@ -305,6 +305,7 @@ export interface Scene {
   readonly kind: "simulation" | "robot" | "recording";
   readonly may_command: boolean;
   readonly groups: readonly SeenRobot[];
+  readonly faults: readonly string[];
 }
 
 /** Rows of the operator window. */
@@ -349,7 +350,7 @@ export interface SeenPlace {
   readonly level: "program" | "trap" | "event";
 }
 
-/** A robot. `urdf` is its description, whose meshes are paths of this server. */
+/** A robot. `urdf` is its description; its meshes are names on this server, empty for one that is not to be had. */
 export interface SeenRobot {
   readonly name: string;
   readonly task: string;

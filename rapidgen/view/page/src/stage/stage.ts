@@ -3,6 +3,7 @@
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import type { Scene, Positions } from "../messages";
+import { Meshes } from "./meshes";
 import { palette } from "./palette";
 import { axes, Robot } from "./robot";
 import { drawnWay } from "./way";
@@ -24,6 +25,11 @@ export class Stage {
   private readonly palette = palette();
   private readonly floor = new THREE.Group();
   private readonly way = new THREE.Group();
+  private readonly meshes = new Meshes((why) => { this.faults.push(why); this.onfault(); });
+  /** What does not look as its description says; `onfault` hears when there is more. */
+  faults: string[] = [];
+  onfault = (): void => undefined;
+  private touched = false;
   private due = false;
   private time = 0;
 
@@ -39,6 +45,7 @@ export class Stage {
     this.controls = new OrbitControls(this.camera, this.element);
     this.controls.listenToKeyEvents(this.element);
     this.controls.addEventListener("change", () => this.draw());
+    this.controls.addEventListener("start", () => { this.touched = true; });
     const sun = new THREE.DirectionalLight("#ffffff", 1.9);
     sun.position.set(2, -3, 4);
     this.space.add(new THREE.HemisphereLight("#ffffff", "#8a9096", 1.6), sun, this.floor, this.way);
@@ -71,12 +78,20 @@ export class Stage {
   build(scene: Scene): void {
     for (const robot of this.robots.values()) robot.dispose();
     this.robots.clear();
+    this.faults = [...scene.faults];
+    this.onfault();
     for (const group of scene.groups) {
-      const robot = new Robot(group, this.palette, () => this.draw());
+      const robot = new Robot(group, this.palette, this.meshes);
       this.robots.set(group.name, robot);
       this.space.add(robot.root);
     }
     this.look("fit");
+    // Meshes come later: what has been seen by then stays where somebody has turned it.
+    this.touched = false;
+    void Promise.all([...this.robots.values()].map((robot) => robot.ready)).then((came) => {
+      if (came.includes(true) && !this.touched) this.look("fit");
+      else this.draw();
+    });
   }
 
   show(state: Positions): void {
