@@ -18,7 +18,8 @@ from rapidgen.config.urdf.robot import UrdfJoint
 from rapidgen.config.urdf.trees import Tree
 from rapidgen.config.urdf.visuals import Visual
 from rapidgen.view.aligning import aligned
-from rapidgen.view.drawing import BASE, ENDLESS, Drawing, text
+from rapidgen.view.drawing import BASE, ENDLESS, Drawing
+from rapidgen.view.solids import text
 
 FLANGE = "flange"
 NameOf = Callable[[Visual], str]

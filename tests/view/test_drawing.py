@@ -37,5 +37,17 @@ def test_a_track_is_as_long_as_its_axis_goes():
     group = load_config("irb120_track").groups[0]
     track = next(joint for joint in group.joints if joint.kind == "prismatic")
     tree = ElementTree.fromstring(described(group).urdf)
-    lengths = [float(shape.get("length")) for shape in tree.iter("cylinder")]
+    lengths = [max(map(float, shape.get("size").split())) for shape in tree.iter("box")]
     assert max(lengths) >= track.upper - track.lower
+
+
+def test_a_positioner_stands_beside_and_turns_with_its_axis():
+    group = load_config("irb120_track").groups[0]
+    tree = ElementTree.fromstring(described(group).urdf)
+    (positioner,) = group.positioners
+    named = {step.joint for step in positioner.chain if step.joint}
+    assert named <= {joint.get("name") for joint in tree.iter("joint")}
+    children = {joint.find("child").get("link") for joint in tree.iter("joint")}
+    links = [link.get("name") for link in tree.iter("link")]
+    assert [link for link in links if link not in children] == ["base"]
+    assert "unit_1_1" in children
