@@ -96,6 +96,24 @@ class Positions(Spoken):
     groups: tuple[RobotPlace, ...]
 
 
+class SeenTarget(Spoken):
+    """Where a move of a program goes: the TCP, in the world."""
+
+    group: str
+    name: str
+    """Of the datum; empty for what is written out."""
+    module: str
+    line: int
+    pose: Pose
+
+
+class Targets(Spoken):
+    """What the moves of the loaded programs go to."""
+
+    type: Literal["targets"] = "targets"
+    targets: tuple[SeenTarget, ...]
+
+
 class PanelState(Spoken):
     """What the pendant's status bar says."""
 
@@ -283,6 +301,15 @@ class Jog(Spoken):
     axes: Annotated[tuple[Finite, ...], Field(max_length=12)]
 
 
+class JogTo(Spoken):
+    """Put a standing robot where its TCP is at a place (of its world), on the same branch."""
+
+    do: Literal["jog-to"] = "jog-to"
+    group: str
+    position: tuple[Finite, Finite, Finite]
+    orientation: tuple[Finite, Finite, Finite, Finite]
+
+
 class Copy(Spoken):
     """Where a robot is, as text for a program; it is the reply's."""
 
@@ -296,6 +323,7 @@ class Copy(Spoken):
 ToPage: TypeAlias = (
     Scene
     | Positions
+    | Targets
     | PanelState
     | Log
     | Screen
@@ -319,6 +347,7 @@ Request: TypeAlias = (
     | SetPace
     | AnswerQuestion
     | Jog
+    | JogTo
     | Copy
     | SetSignal
     | Cut

@@ -2,6 +2,8 @@
 
 from collections.abc import Iterable, Mapping
 
+from rapidgen.axes import frames
+from rapidgen.axes.kinematics import Posture
 from rapidgen.controller.cabinet import Cabinet
 from rapidgen.motion.group import MotionGroup
 from rapidgen.runtime.task.task import Task
@@ -9,7 +11,7 @@ from rapidgen.view.appearance import PLAIN, Appearance
 from rapidgen.view.aspect import Declined, Handler
 from rapidgen.view.copying import copied
 from rapidgen.view.drawing import Drawing
-from rapidgen.view.messages import Copy, Jog, Positions, Request, RobotPlace, Scene, ToPage
+from rapidgen.view.messages import Copy, Jog, JogTo, Positions, Request, RobotPlace, Scene, ToPage
 from rapidgen.view.robots import Carried, pose_of, side_by_side
 
 
@@ -45,7 +47,7 @@ class MotionAspect:
 
     def handlers(self) -> Mapping[type, Handler]:
         """Jogging, and positions as text."""
-        return {Jog: self._jog, Copy: self._copy}
+        return {Jog: self._jog, JogTo: self._jog_to, Copy: self._copy}
 
     def _state(self, groups: tuple[RobotPlace, ...]) -> Positions:
         return Positions(time=self._controller.now, groups=groups)
@@ -84,16 +86,35 @@ class MotionAspect:
         joints = group.config.joints
         if len(request.axes) != len(joints):
             raise Declined(f"{group.name} has {len(joints)} axes")
-        for joint, value in zip(joints, request.axes, strict=True):
+        self._put(group, request.axes)
+        return ""
+
+    def _jog_to(self, request: Request) -> str:
+        assert isinstance(request, JogTo)
+        group = self._group(request.group)
+        carried, kinematics = self._carried(group), group.kinematics
+        if kinematics is None or not carried.held:
+            raise Declined(f"{group.name} does not carry its TCP")
+        if not any(request.orientation):
+            raise Declined("this is no orientation")
+        tcp = (request.position, frames.normalise(request.orientation))
+        flange = frames.compose(tcp, frames.invert(carried.tool))
+        found = kinematics.follow(flange, group.positions())
+        if found is None:
+            raise Declined("the TCP does not reach that place as the arm is bent now")
+        self._put(group, found)
+        return ""
+
+    def _put(self, group: MotionGroup, axes: Posture) -> None:
+        for joint, value in zip(group.config.joints, axes, strict=True):
             if not joint.lower <= value <= joint.upper:
                 raise Declined(f"{joint.name} would leave its range")
         if any(t.state == "running" and t.spec.motion for t in self._tasks()):
             raise Declined("a program has the robot: stop it first")
         try:
-            group.jog(request.axes)
+            group.jog(axes)
         except ValueError as error:
             raise Declined(str(error)) from error
-        return ""
 
     def _copy(self, request: Request) -> str:
         assert isinstance(request, Copy)

@@ -10,6 +10,7 @@ from rapidgen.view.simulator.motion import MotionAspect
 from rapidgen.view.simulator.pendant import PendantAspect
 from rapidgen.view.simulator.program import ProgramAspect
 from rapidgen.view.simulator.signals import SignalsAspect
+from rapidgen.view.simulator.targets import TargetsAspect
 from rapidgen.view.simulator.telling import TellingAspect
 from rapidgen.view.simulator.trajectories import TrajectoryAspect
 
@@ -20,6 +21,7 @@ ASPECTS: tuple[Callable[[Cabinet], Aspect], ...] = (
     ConnectionsAspect,
     TrajectoryAspect,
     ProgramAspect,
+    TargetsAspect,
 )
 """What is told of a virtual controller after the scene."""
 

@@ -129,7 +129,7 @@ export interface ForgetTrajectory {
 /** A request and the number that its reply will have. */
 export interface FromPage {
   readonly id: number;
-  readonly request: Act | SetMode | SetOverride | SetPace | AnswerQuestion | Jog | Copy | SetSignal | Cut | ReadSource | SetBreakpoint | RemoveBreakpoint | Proceed | RunTo | StopOnErrors | LookAt | Evaluate | Assign | SetWatch | Cover | Seek | Play | ReadCurves | DropTrajectory | RunTrajectory | ForgetTrajectory;
+  readonly request: Act | SetMode | SetOverride | SetPace | AnswerQuestion | Jog | JogTo | Copy | SetSignal | Cut | ReadSource | SetBreakpoint | RemoveBreakpoint | Proceed | RunTo | StopOnErrors | LookAt | Evaluate | Assign | SetWatch | Cover | Seek | Play | ReadCurves | DropTrajectory | RunTrajectory | ForgetTrajectory;
 }
 
 /** What the routine that is looked at holds, and the watch list. */
@@ -146,6 +146,14 @@ export interface Jog {
   readonly do: "jog";
   readonly group: string;
   readonly axes: readonly number[];
+}
+
+/** Put a standing robot where its TCP is at a place (of its world), on the same branch. */
+export interface JogTo {
+  readonly do: "jog-to";
+  readonly group: string;
+  readonly position: readonly [number, number, number];
+  readonly orientation: readonly [number, number, number, number];
 }
 
 /** Modules of a task. A text that two tasks share has one number. */
@@ -363,6 +371,15 @@ export interface SeenRobot {
   readonly base: Pose;
 }
 
+/** Where a move of a program goes: the TCP, in the world. */
+export interface SeenTarget {
+  readonly group: string;
+  readonly name: string;
+  readonly module: string;
+  readonly line: number;
+  readonly pose: Pose;
+}
+
 /** A task: what it executes, outermost routine first, and what its robot executes. */
 export interface SeenTask {
   readonly name: string;
@@ -451,6 +468,12 @@ export interface StopOnErrors {
   readonly errors: "never" | "unhandled" | "all";
 }
 
+/** What the moves of the loaded programs go to. */
+export interface Targets {
+  readonly type: "targets";
+  readonly targets: readonly SeenTarget[];
+}
+
 /** What is wrong or doubtful; `point` counts from 0, None: it is of no point. */
 export interface TrajectoryFinding {
   readonly code: string;
@@ -461,6 +484,6 @@ export interface TrajectoryFinding {
   readonly point: number | null;
 }
 
-export type ToPage = AllSignals | Connections | Covered | Debugging | Dialogs | DroppedTrajectory | HeldValues | LoadedPrograms | Log | PanelState | Playback | Pointers | Positions | Replied | Scene | Screen | SignalValues;
+export type ToPage = AllSignals | Connections | Covered | Debugging | Dialogs | DroppedTrajectory | HeldValues | LoadedPrograms | Log | PanelState | Playback | Pointers | Positions | Replied | Scene | Screen | SignalValues | Targets;
 
-export type Request = Act | AnswerQuestion | Assign | Copy | Cover | Cut | DropTrajectory | Evaluate | ForgetTrajectory | Jog | LookAt | Play | Proceed | ReadCurves | ReadSource | RemoveBreakpoint | RunTo | RunTrajectory | Seek | SetBreakpoint | SetMode | SetOverride | SetPace | SetSignal | SetWatch | StopOnErrors;
+export type Request = Act | AnswerQuestion | Assign | Copy | Cover | Cut | DropTrajectory | Evaluate | ForgetTrajectory | Jog | JogTo | LookAt | Play | Proceed | ReadCurves | ReadSource | RemoveBreakpoint | RunTo | RunTrajectory | Seek | SetBreakpoint | SetMode | SetOverride | SetPace | SetSignal | SetWatch | StopOnErrors;

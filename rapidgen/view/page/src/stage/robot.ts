@@ -14,12 +14,14 @@ const AHEAD = 2e-3; // rad or m: the ghost is shown where it differs by more
 export class Robot {
   readonly root = new THREE.Group();
   readonly tcp = new THREE.Group();
+  readonly object = new THREE.Group();
   readonly trail: Trail;
   readonly ready: Promise<boolean>;
   private readonly body: Body;
   private readonly ghost: Body;
   private readonly shade: THREE.MeshLambertMaterial;
   ghosted = true;
+  framed = true;
   state: RobotPlace | null = null;
 
   constructor(readonly group: SeenRobot, private readonly palette: Palette, meshes: Meshes) {
@@ -32,10 +34,12 @@ export class Robot {
     this.ready = Promise.all([this.body.ready, this.ghost.ready]).then(([meshes]) => meshes);
     this.trail = new Trail(palette);
     this.tcp.add(axes(0.09, palette));
+    this.object.add(axes(0.16, palette));
+    this.object.visible = false;
     const flange = this.body.urdf.links[group.flange] ?? this.body.urdf;
     flange.add(this.tcp);
     place(this.root, group.base);
-    this.root.add(this.body.urdf, this.ghost.urdf, this.trail.line);
+    this.root.add(this.body.urdf, this.ghost.urdf, this.trail.line, this.object);
   }
 
   /** Hide the links, not what they carry. */
@@ -57,6 +61,9 @@ export class Robot {
     this.ghost.urdf.visible = ahead && this.ghosted;
     if (this.ghost.urdf.visible) this.set(this.ghost.urdf, state.commanded);
     if (state.tool_held) place(this.tcp, state.tool);
+    place(this.object, state.work_object);
+    // That of the world is where the robot's own is.
+    this.object.visible = this.framed && !isHome(state.work_object);
     this.warn(state);
     this.root.updateMatrixWorld(true);
     this.trail.add(this.root.worldToLocal(this.tcp.getWorldPosition(new THREE.Vector3())));
@@ -100,6 +107,9 @@ export class Robot {
     this.root.removeFromParent();
   }
 }
+
+const isHome = ({ position, orientation }: Pose): boolean =>
+  Math.hypot(...position) < 1e-9 && Math.abs(orientation[0]) > 1 - 1e-12;
 
 export function place(object: THREE.Object3D, pose: Pose): void {
   const [w, x, y, z] = pose.orientation;
