@@ -105,7 +105,7 @@ def sim(
     from rapidgen.cli.bootable import chosen
     from rapidgen.cli.observed import Outputs, observing
     from rapidgen.controller.cabinet import Cabinet
-    from rapidgen.controller.faults import read_plan
+    from rapidgen.controller.faults import FaultPlan, read_plan
     from rapidgen.machine.operator import read_answers
 
     if ports is not None and port_offset:
@@ -123,7 +123,8 @@ def sim(
         overrides=overrides,
         check=check,
     )
-    plan = read_plan(faults) if faults is not None else None
+    # A page lets connections go wrong without a plan.
+    plan = read_plan(faults) if faults is not None else FaultPlan() if view else None
     script = read_answers(answers) if answers is not None else None
     _check_host(host)
     _check_release(found, rws)

@@ -10,6 +10,7 @@ from typing import Annotated, Literal, TypeAlias
 
 from pydantic import Field, TypeAdapter
 
+from rapidgen.view import network_messages as n
 from rapidgen.view import program_messages as p
 from rapidgen.view import trajectory_messages as t
 from rapidgen.view.spoken import Spoken
@@ -204,23 +205,6 @@ class SignalValues(Spoken):
     values: Mapping[str, float]
 
 
-class ShownSocket(Spoken):
-    """A socket of a task. Addresses are empty where there is none."""
-
-    number: int
-    task: str
-    status: str
-    local: str
-    peer: str
-
-
-class Connections(Spoken):
-    """All sockets in use."""
-
-    type: Literal["connections"] = "connections"
-    sockets: tuple[ShownSocket, ...]
-
-
 class Replied(Spoken):
     """The answer to a request; `error` is empty when it was carried out."""
 
@@ -278,13 +262,6 @@ class SetSignal(Spoken):
     value: Finite
 
 
-class Cut(Spoken):
-    """Cut a connection: the task's socket is reset, and so is the other end."""
-
-    do: Literal["cut"] = "cut"
-    number: int
-
-
 class AnswerQuestion(Spoken):
     """What the operator chose or typed."""
 
@@ -330,7 +307,8 @@ ToPage: TypeAlias = (
     | Dialogs
     | AllSignals
     | SignalValues
-    | Connections
+    | n.Connections
+    | n.Conversation
     | p.LoadedPrograms
     | p.Pointers
     | p.Debugging
@@ -350,7 +328,9 @@ Request: TypeAlias = (
     | JogTo
     | Copy
     | SetSignal
-    | Cut
+    | n.Cut
+    | n.Afflict
+    | n.Listen
     | p.ReadSource
     | p.SetBreakpoint
     | p.RemoveBreakpoint

@@ -6,6 +6,13 @@ export interface Act {
   readonly action: "e-stop" | "reset-e-stop" | "motors-on" | "motors-off" | "start" | "stop" | "pp-to-main" | "power-loss";
 }
 
+/** Let a connection be slow, silent and so on from now on. */
+export interface Afflict {
+  readonly do: "afflict";
+  readonly number: number;
+  readonly ailment: "well" | "delay" | "split" | "slow" | "silent" | "half-open";
+}
+
 /** All signals. */
 export interface AllSignals {
   readonly type: "signals";
@@ -40,6 +47,15 @@ export interface Axis {
 export interface Connections {
   readonly type: "connections";
   readonly sockets: readonly ShownSocket[];
+}
+
+/** What sockets said, oldest first; only while somebody listens. */
+export interface Conversation {
+  readonly type: "conversation";
+  readonly listening: boolean;
+  readonly lines: readonly SpokenLine[];
+  readonly missed: number;
+  readonly fresh: boolean;
 }
 
 /** Where a robot is, as text for a program; it is the reply's. */
@@ -129,7 +145,7 @@ export interface ForgetTrajectory {
 /** A request and the number that its reply will have. */
 export interface FromPage {
   readonly id: number;
-  readonly request: Act | SetMode | SetOverride | SetPace | AnswerQuestion | Jog | JogTo | Copy | SetSignal | Cut | ReadSource | SetBreakpoint | RemoveBreakpoint | Proceed | RunTo | StopOnErrors | LookAt | Evaluate | Assign | SetWatch | Cover | Seek | Play | ReadCurves | DropTrajectory | RunTrajectory | ForgetTrajectory;
+  readonly request: Act | SetMode | SetOverride | SetPace | AnswerQuestion | Jog | JogTo | Copy | SetSignal | Cut | Afflict | Listen | ReadSource | SetBreakpoint | RemoveBreakpoint | Proceed | RunTo | StopOnErrors | LookAt | Evaluate | Assign | SetWatch | Cover | Seek | Play | ReadCurves | DropTrajectory | RunTrajectory | ForgetTrajectory;
 }
 
 /** What the routine that is looked at holds, and the watch list. */
@@ -154,6 +170,12 @@ export interface JogTo {
   readonly group: string;
   readonly position: readonly [number, number, number];
   readonly orientation: readonly [number, number, number, number];
+}
+
+/** Tell what sockets say from now on, or no more. */
+export interface Listen {
+  readonly do: "listen";
+  readonly on: boolean;
 }
 
 /** Modules of a task. A text that two tasks share has one number. */
@@ -454,12 +476,25 @@ export interface ShownSocket {
   readonly status: string;
   readonly local: string;
   readonly peer: string;
+  readonly ailment: "well" | "delay" | "split" | "slow" | "silent" | "half-open";
 }
 
 /** AllSignals that have changed. */
 export interface SignalValues {
   readonly type: "values";
   readonly values: Readonly<Record<string, number>>;
+}
+
+/** A frame of simple_message, or bytes that are none; `way` is seen from the program. */
+export interface SpokenLine {
+  readonly time: number;
+  readonly way: "open" | "in" | "out" | "close";
+  readonly task: string;
+  readonly local: string;
+  readonly peer: string;
+  readonly name: string;
+  readonly text: string;
+  readonly fault: boolean;
 }
 
 /** At which errors everything pauses. */
@@ -484,6 +519,6 @@ export interface TrajectoryFinding {
   readonly point: number | null;
 }
 
-export type ToPage = AllSignals | Connections | Covered | Debugging | Dialogs | DroppedTrajectory | HeldValues | LoadedPrograms | Log | PanelState | Playback | Pointers | Positions | Replied | Scene | Screen | SignalValues | Targets;
+export type ToPage = AllSignals | Connections | Conversation | Covered | Debugging | Dialogs | DroppedTrajectory | HeldValues | LoadedPrograms | Log | PanelState | Playback | Pointers | Positions | Replied | Scene | Screen | SignalValues | Targets;
 
-export type Request = Act | AnswerQuestion | Assign | Copy | Cover | Cut | DropTrajectory | Evaluate | ForgetTrajectory | Jog | JogTo | LookAt | Play | Proceed | ReadCurves | ReadSource | RemoveBreakpoint | RunTo | RunTrajectory | Seek | SetBreakpoint | SetMode | SetOverride | SetPace | SetSignal | SetWatch | StopOnErrors;
+export type Request = Act | Afflict | AnswerQuestion | Assign | Copy | Cover | Cut | DropTrajectory | Evaluate | ForgetTrajectory | Jog | JogTo | Listen | LookAt | Play | Proceed | ReadCurves | ReadSource | RemoveBreakpoint | RunTo | RunTrajectory | Seek | SetBreakpoint | SetMode | SetOverride | SetPace | SetSignal | SetWatch | StopOnErrors;
