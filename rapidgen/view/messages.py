@@ -248,10 +248,10 @@ class SetOverride(Spoken):
 
 
 class SetPace(Spoken):
-    """Simulated seconds in a second; 0 lets time stand."""
+    """Simulated seconds in a second. That it stands is the debugger's business (Proceed)."""
 
     do: Literal["pace"] = "pace"
-    value: Annotated[float, Field(ge=0, le=100)]
+    value: Annotated[float, Field(ge=0.1, le=100)]
 
 
 class SetSignal(Spoken):
@@ -336,6 +336,7 @@ Request: TypeAlias = (
     | p.RemoveBreakpoint
     | p.Proceed
     | p.RunTo
+    | p.RunFor
     | p.StopOnErrors
     | p.LookAt
     | p.Evaluate

@@ -145,7 +145,7 @@ export interface ForgetTrajectory {
 /** A request and the number that its reply will have. */
 export interface FromPage {
   readonly id: number;
-  readonly request: Act | SetMode | SetOverride | SetPace | AnswerQuestion | Jog | JogTo | Copy | SetSignal | Cut | Afflict | Listen | ReadSource | SetBreakpoint | RemoveBreakpoint | Proceed | RunTo | StopOnErrors | LookAt | Evaluate | Assign | SetWatch | Cover | Seek | Play | ReadCurves | DropTrajectory | RunTrajectory | ForgetTrajectory;
+  readonly request: Act | SetMode | SetOverride | SetPace | AnswerQuestion | Jog | JogTo | Copy | SetSignal | Cut | Afflict | Listen | ReadSource | SetBreakpoint | RemoveBreakpoint | Proceed | RunTo | RunFor | StopOnErrors | LookAt | Evaluate | Assign | SetWatch | Cover | Seek | Play | ReadCurves | DropTrajectory | RunTrajectory | ForgetTrajectory;
 }
 
 /** What the routine that is looked at holds, and the watch list. */
@@ -315,6 +315,12 @@ export interface RobotPlace {
   readonly standing: boolean;
 }
 
+/** Go on for so many seconds of the controller's time. */
+export interface RunFor {
+  readonly do: "run-for";
+  readonly seconds: number;
+}
+
 /** Go on to a line. */
 export interface RunTo {
   readonly do: "run-to";
@@ -365,10 +371,11 @@ export interface SeenBreakpoint {
 
 /** Why everything is paused. */
 export interface SeenHalt {
-  readonly reason: "breakpoint" | "step" | "cursor" | "error" | "pause";
+  readonly reason: "breakpoint" | "step" | "cursor" | "error" | "pause" | "time";
   readonly task: string;
   readonly place: SeenPlace | null;
   readonly text: string;
+  readonly time: number;
 }
 
 /** Where in a program. `made` is the template's line of a generated one. */
@@ -441,7 +448,7 @@ export interface SetOverride {
   readonly value: number;
 }
 
-/** Simulated seconds in a second; 0 lets time stand. */
+/** Simulated seconds in a second. That it stands is the debugger's business (Proceed). */
 export interface SetPace {
   readonly do: "pace";
   readonly value: number;
@@ -521,4 +528,4 @@ export interface TrajectoryFinding {
 
 export type ToPage = AllSignals | Connections | Conversation | Covered | Debugging | Dialogs | DroppedTrajectory | HeldValues | LoadedPrograms | Log | PanelState | Playback | Pointers | Positions | Replied | Scene | Screen | SignalValues | Targets;
 
-export type Request = Act | Afflict | AnswerQuestion | Assign | Copy | Cover | Cut | DropTrajectory | Evaluate | ForgetTrajectory | Jog | JogTo | Listen | LookAt | Play | Proceed | ReadCurves | ReadSource | RemoveBreakpoint | RunTo | RunTrajectory | Seek | SetBreakpoint | SetMode | SetOverride | SetPace | SetSignal | SetWatch | StopOnErrors;
+export type Request = Act | Afflict | AnswerQuestion | Assign | Copy | Cover | Cut | DropTrajectory | Evaluate | ForgetTrajectory | Jog | JogTo | Listen | LookAt | Play | Proceed | ReadCurves | ReadSource | RemoveBreakpoint | RunFor | RunTo | RunTrajectory | Seek | SetBreakpoint | SetMode | SetOverride | SetPace | SetSignal | SetWatch | StopOnErrors;
