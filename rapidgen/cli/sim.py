@@ -321,7 +321,7 @@ def _page(
     from rapidgen.view.server import serve_page
     from rapidgen.view.simulator.simulation import Simulation
 
-    look = appearance(target.groups, target.described, target.overrides)
+    look = appearance(target.groups, target.described, target.overrides, target.cell)
     for fault in look.faults:
         typer.echo(f"not drawn as described: {letters(fault)}", err=True)
     page = serve_page(Simulation(cabinet, look), host, port, look.files)

@@ -28,7 +28,13 @@ SECTIONS = (
     schema.NetworkKeys,
     schema.SignalKeys,
 )
-CELL_SECTIONS = (cell.CellKeys, cell.CellRobotKeys, cell.CellSignalKeys, cell.ReactionKeys)
+CELL_SECTIONS = (
+    cell.CellKeys,
+    cell.CellRobotKeys,
+    cell.CellSignalKeys,
+    cell.ReactionKeys,
+    cell.ThingKeys,
+)
 
 
 def json_schema() -> Members:
@@ -92,6 +98,7 @@ def _key_of(part: type) -> str:
         cell.CellRobotKeys: "`robots.TASK`",
         cell.CellSignalKeys: "`signals.NAME`",
         cell.ReactionKeys: "`devices.NAME` (a list of these)",
+        cell.ThingKeys: "`things.NAME`",
         schema.GroupKeys: "`groups.NAME`",
         schema.JointKeys: "`joints.NAME`",
         schema.ChainStepKeys: "`chain` (a list of these)",

@@ -65,6 +65,8 @@ class Bootable:
     """Configurations that say what groups look like."""
     overrides: Sequence[str] = ()
     """Of those configurations."""
+    cell: "CellDescription | None" = None
+    """What stands around it."""
 
 
 def load_target(targets: Sequence[Source], wishes: Wishes | None = None) -> Bootable:
@@ -201,6 +203,7 @@ def _surrounded(found: Bootable, cell: "CellDescription | None", wishes: Wishes)
     inputs = [name.casefold() for name, keys in cell.signals.items() if keys.kind.endswith("I")]
     return replace(
         found,
+        cell=cell,
         system=furnish(found.system, cell, guessed.data if guessed is not None else ()),
         surroundings=Surroundings(
             dict(_starts(found.groups, cell.robots, wishes.start, usual=usual)),

@@ -5,19 +5,22 @@ chain. Whatever is not to be had is said, and a solid stands in for it.
 """
 
 import hashlib
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from types import MappingProxyType
 
-from rapidgen.axes.frames import IDENTITY
+from rapidgen.axes.frames import IDENTITY, Pose
+from rapidgen.config.cell import CellDescription
 from rapidgen.config.layers import Overrides
 from rapidgen.config.model import GroupConfig
 from rapidgen.config.urdf.source import xml_fault
 from rapidgen.config.urdf.trees import Tree, trees
-from rapidgen.config.urdf.visuals import Visual
+from rapidgen.config.urdf.visuals import NoMesh, Visual, mesh_beside
 from rapidgen.view.describing import drawn, shares
 from rapidgen.view.drawing import Drawing, described
+from rapidgen.view.messages import SeenThing
+from rapidgen.view.robots import pose_of
 
 LARGEST = 40_000_000
 """Bytes of a mesh."""
@@ -35,9 +38,16 @@ class Appearance:
     faults: tuple[str, ...] = ()
     """What does not look as described."""
 
+    things: tuple[SeenThing, ...] = ()
+    """What stands around."""
+    bases: Mapping[str, Pose] = field(default_factory=dict)
+    """Where robots stand, by task in lower case, as far as that is told."""
+
     def of(self, group: GroupConfig) -> Drawing:
         """The drawing of a robot."""
-        return self.drawings.get(group.name) or described(group)
+        drawing = self.drawings.get(group.name) or described(group)
+        base = self.bases.get(group.task.casefold())
+        return drawing if base is None else replace(drawing, base=base)
 
 
 PLAIN = Appearance()
@@ -56,9 +66,21 @@ class Meshes:
         if visual.mesh is None:
             self._say(visual.fault)
             return ""
-        if visual.mesh not in self._names:
-            self._names[visual.mesh] = self._read(visual.mesh)
-        return self._names[visual.mesh]
+        return self.name_of(visual.mesh)
+
+    def beside(self, name: str, folder: Path) -> str:
+        """The same of a mesh in a folder."""
+        try:
+            return self.name_of(mesh_beside(name, folder))
+        except NoMesh as why:
+            self._say(str(why))
+            return ""
+
+    def name_of(self, mesh: Path) -> str:
+        """The same of a file."""
+        if mesh not in self._names:
+            self._names[mesh] = self._read(mesh)
+        return self._names[mesh]
 
     def _read(self, path: Path) -> str:
         room = min(LARGEST, MOST - sum(map(len, self.files.values())))
@@ -84,14 +106,15 @@ class Meshes:
 
 
 def appearance(
-    groups: Sequence[GroupConfig], described: Mapping[str, Path], overrides: Overrides = ()
+    groups: Sequence[GroupConfig],
+    described: Mapping[str, Path],
+    overrides: Overrides = (),
+    cell: CellDescription | None = None,
 ) -> Appearance:
-    """What robots look like whose configurations are `described`, by group.
+    """What robots look like whose configurations are `described`, by group, and what `cell` has.
 
     Raises DiagnosticError for a configuration that `load_config` would not take.
     """
-    if not described:
-        return PLAIN
     found = {path: trees(path, overrides) for path in dict.fromkeys(described.values())}
     own = {
         group.name: tree
@@ -112,7 +135,18 @@ def appearance(
             drawings[group.name] = replace(drawing, base=None) if free else drawing
         else:
             meshes.faults.append(f"the description does not move as the chain of {group.name} does")
-    return Appearance(drawings, MappingProxyType(meshes.files), tuple(meshes.faults))
+    things = tuple(_things(cell, meshes)) if cell is not None else ()
+    placed = cell.bases if cell is not None else {}
+    bases = {task.casefold(): (at.position, at.orientation) for task, at in placed.items()}
+    return Appearance(drawings, MappingProxyType(meshes.files), tuple(meshes.faults), things, bases)
+
+
+def _things(cell: CellDescription, meshes: Meshes) -> Iterator[SeenThing]:
+    for thing in cell.things:
+        mesh = meshes.beside(thing.mesh, cell.folder)
+        pose = pose_of((thing.frame.position, thing.frame.orientation))
+        if mesh:
+            yield SeenThing(name=thing.name, mesh=mesh, scale=thing.scale, pose=pose)
 
 
 def _fitting(group: GroupConfig, found: Mapping[str, Tree]) -> Tree | None:

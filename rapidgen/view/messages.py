@@ -58,6 +58,15 @@ class SeenRobot(Spoken):
     """Where its root is drawn: apart from robots that would stand in it."""
 
 
+class SeenThing(Spoken):
+    """A mesh of the cell, by its name on this server."""
+
+    name: str
+    mesh: str
+    scale: float
+    pose: Pose
+
+
 class Scene(Spoken):
     """The first message of a connection, and of a controller that has restarted."""
 
@@ -67,6 +76,7 @@ class Scene(Spoken):
     may_command: bool
     """False: nothing that is sent moves or changes anything."""
     groups: tuple[SeenRobot, ...]
+    things: tuple[SeenThing, ...] = ()
     faults: tuple[str, ...] = ()
     """What does not look as its description says."""
 

@@ -87,3 +87,25 @@ def test_meshes_that_cannot_be_had_are_said_and_solids_stand_in(tmp_path, open_p
         # A solid from the elbow's joint to the next one.
         assert parts["part_2"][0][2][2] == pytest.approx(0.27, abs=0.01)
         page.close()
+
+
+def test_what_stands_in_the_cell_is_drawn_and_robots_stand_where_it_says(tmp_path, open_page):
+    (tmp_path / "table.stl").write_bytes(mesh_files.stl())
+    (tmp_path / "p.mod").write_text("MODULE p\nPROC main()\nWaitTime 1000;\nENDPROC\nENDMODULE\n")
+    cell = tmp_path / "cell.yaml"
+    cell.write_text(
+        "robots:\n  T_ROB1: {model: irb120, base: {position: [0, 500, 250]}}\n"
+        "things:\n"
+        "  table: {mesh: table.stl, scale: 2, frame: {position: [600, 0, 100]}}\n"
+        "  gone: {mesh: ../gone.stl}\n"
+        "  other: {mesh: ../../../etc/passwd}\n"
+    )
+    with simulator(str(tmp_path / "p.mod"), "--cell", str(cell)) as (ready, _):
+        page = open_page(ready["view"])
+        until(page, "document.querySelector('.amiss')?.textContent", lambda t: t and ": 2" in t)
+        shown = until(page, "rapidgen.stage.around()", len)
+        assert list(shown) == ["table"]
+        np.testing.assert_allclose(shown["table"], [[0.6, 0, 0.1], [1.0, 0.4, 0.7]], atol=1e-6)
+        poses = page.evaluate("rapidgen.stage.robots.get('rob1').poses()")
+        np.testing.assert_allclose(poses["base"][12:15], [0, 0.5, 0.25], atol=1e-9)
+        page.close()

@@ -127,6 +127,11 @@ def mesh_file(name: str, description: Path, packages: Packages, folder: Path) ->
     return _within([found], found / inside, name)
 
 
+def mesh_beside(name: str, folder: Path) -> Path:
+    """A mesh in a folder or below. NoMesh."""
+    return _within([folder], folder / name, name)
+
+
 def _within(roots: Sequence[Path], path: Path, name: str) -> Path:
     if path.suffix.lower() not in SUFFIXES:
         raise NoMesh(f"'{name}' is no STL, DAE or OBJ")

@@ -34,6 +34,7 @@ class MotionAspect:
             kind="simulation",
             may_command=True,
             groups=tuple(side_by_side(configs, self._drawings)),
+            things=self._look.things,
             faults=self._look.faults,
         )
         yield self._state(self._now())

@@ -341,6 +341,7 @@ export interface Scene {
   readonly kind: "simulation" | "robot" | "recording";
   readonly may_command: boolean;
   readonly groups: readonly SeenRobot[];
+  readonly things: readonly SeenThing[];
   readonly faults: readonly string[];
 }
 
@@ -415,6 +416,14 @@ export interface SeenTask {
   readonly state: string;
   readonly stack: readonly SeenPlace[];
   readonly motion: SeenPlace | null;
+}
+
+/** A mesh of the cell, by its name on this server. */
+export interface SeenThing {
+  readonly name: string;
+  readonly mesh: string;
+  readonly scale: number;
+  readonly pose: Pose;
 }
 
 /** A value in RAPID's own words. */

@@ -7,7 +7,7 @@ import { Grip, type GripMode, type Wanted } from "./grip";
 import { Labels } from "./labels";
 import { Meshes } from "./meshes";
 import { palette } from "./palette";
-import { axes, Robot } from "./robot";
+import { axes, place, Robot } from "./robot";
 import { TargetMarks } from "./targets";
 import { drawnWay } from "./way";
 
@@ -28,6 +28,7 @@ export class Stage {
   private readonly palette = palette();
   private readonly floor = new THREE.Group();
   private readonly way = new THREE.Group();
+  readonly things = new THREE.Group();
   readonly labels = new Labels();
   private targets: readonly SeenTarget[] = [];
   private marks: TargetMarks[] = [];
@@ -60,7 +61,7 @@ export class Stage {
       (...wanted) => this.onwanted(...wanted), () => this.draw(), (free) => { this.controls.enabled = free; });
     const sun = new THREE.DirectionalLight("#ffffff", 1.9);
     sun.position.set(2, -3, 4);
-    this.space.add(new THREE.HemisphereLight("#ffffff", "#8a9096", 1.6), sun, this.floor, this.way);
+    this.space.add(new THREE.HemisphereLight("#ffffff", "#8a9096", 1.6), sun, this.floor, this.way, this.things);
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.paint());
     this.paint();
   }
@@ -99,10 +100,26 @@ export class Stage {
       this.robots.set(group.name, robot);
       this.space.add(robot.root);
     }
+    this.things.clear();
+    const coming = scene.things.map(async (thing) => {
+      const mesh = await this.meshes.load(thing.mesh);
+      if (!mesh) return false;
+      const stand = new THREE.Group();
+      place(stand, thing.pose);
+      mesh.scale.multiplyScalar(thing.scale);
+      mesh.traverse((part) => {
+        const skin = part instanceof THREE.Mesh ? (part.material as THREE.MeshLambertMaterial) : null;
+        if (skin?.name === "body") skin.color.set("#9aa5ad");
+      });
+      stand.name = thing.name;
+      stand.add(mesh);
+      this.things.add(stand);
+      return true;
+    });
     this.look("fit");
     // Meshes come later: what has been seen by then stays where somebody has turned it.
     this.touched = false;
-    void Promise.all([...this.robots.values()].map((robot) => robot.ready)).then((came) => {
+    void Promise.all([...coming, ...[...this.robots.values()].map((robot) => robot.ready)]).then((came) => {
       if (came.includes(true) && !this.touched) this.look("fit");
       else this.draw();
     });
@@ -121,7 +138,7 @@ export class Stage {
   /** Look at everything from one of the named sides. */
   look(name: ViewName): void {
     const box = new THREE.Box3();
-    for (const robot of this.robots.values()) box.expandByObject(robot.root);
+    for (const part of [...[...this.robots.values()].map((robot) => robot.root), this.things]) box.expandByObject(part);
     if (box.isEmpty()) box.set(new THREE.Vector3(-0.5, -0.5, 0), new THREE.Vector3(0.5, 0.5, 1));
     const ball = box.getBoundingSphere(new THREE.Sphere());
     const narrow = Math.min(1, this.camera.aspect);
@@ -202,6 +219,13 @@ export class Stage {
   /** For tests: the targets, and the handle's middle and its x arrow on the picture. */
   aimed(): readonly SeenTarget[] {
     return this.targets;
+  }
+
+  around(): Record<string, [number[], number[]]> {
+    return Object.fromEntries(this.things.children.map((thing) => {
+      const box = new THREE.Box3().setFromObject(thing);
+      return [thing.name, [box.min.toArray(), box.max.toArray()]];
+    }));
   }
 
   handle(): [number, number, [number, number]] {
