@@ -132,7 +132,7 @@ async def watch(url, count, seconds, pid):
 
 
 def spent(pid):
-    """CPU of all threads, s. What the kernel counts in ticks would be as coarse as what is sought."""
+    """CPU of all threads, s; ticks would be as coarse as what is sought."""
     threads = Path(f"/proc/{pid}/task").iterdir()
     return sum(int((own / "schedstat").read_text().split()[0]) for own in threads) / 1e9
 
