@@ -75,34 +75,36 @@ def test_every_text_stands_out(irb120, open_page, scheme):
     assert [text for text in page.evaluate(CONTRASTS) if text[0] < text[1]] == []
 
 
-@pytest.mark.parametrize("tab", TABS)
-def test_everything_is_reached_by_the_keyboard(irb120, open_page, tab):
+def test_everything_is_reached_by_the_keyboard(irb120, open_page):
     page = open_page(irb120["view"])
     until(page, STATE)
     page.get_by_role("tab", name="Pendant").focus()
-    for _ in TABS:
-        if page.evaluate("document.activeElement.textContent") == tab:
-            break
-        page.keyboard.press("ArrowRight")
-    assert page.get_by_role("tab", name=tab).get_attribute("aria-selected") == "true"
-    wanted = page.evaluate(
-        "() => { const all = [...document.querySelectorAll('button, input, select, canvas')]"
-        ".filter(e => e.checkVisibility() && !e.disabled && e.tabIndex >= 0);"
-        " all.forEach((e, i) => { e.dataset.wanted = i }); return all.length }"
-    )
-    seen, outlined = set(), True
-    for _ in range(2 * wanted + 20):
-        page.keyboard.press("Tab")
-        number, line = page.evaluate(
-            "[document.activeElement.dataset.wanted, getComputedStyle(document.activeElement)"
-            ".outlineStyle]"
+    for tab in TABS:
+        shown = page.get_by_role("tab", name=tab)
+        assert shown.get_attribute("aria-selected") == "true"
+        wanted = page.evaluate(
+            "() => { const all = [...document.querySelectorAll('button, input, select, canvas')]"
+            ".filter(e => e.checkVisibility() && !e.disabled && e.tabIndex >= 0);"
+            " all.forEach((e, i) => { e.dataset.wanted = i }); return all.length }"
         )
-        if number is not None:
-            outlined = outlined and line != "none"
-            seen.add(int(number))
-        # The editor takes the key for itself: Escape gives it back [WCAG 2.1.2].
-    assert len(seen) == wanted
-    assert outlined
+        seen = set()
+        for _ in range(2 * wanted + 20):
+            page.keyboard.press("Tab")
+            number, line = page.evaluate(
+                "[document.activeElement.dataset.wanted,"
+                " getComputedStyle(document.activeElement).outlineStyle]"
+            )
+            if number is not None:
+                assert line != "none"
+                seen.add(int(number))
+            if len(seen) == wanted:
+                break
+        assert len(seen) == wanted, tab
+        page.evaluate(
+            "document.querySelectorAll('[data-wanted]').forEach(e => { delete e.dataset.wanted })"
+        )
+        shown.focus()
+        page.keyboard.press("ArrowRight")
 
 
 def test_nothing_is_cut_off_at_1280_by_720(irb120, open_page):
