@@ -105,7 +105,7 @@ def sim(
     from rapidgen.cli.bootable import chosen
     from rapidgen.cli.observed import Outputs, observing
     from rapidgen.controller.cabinet import Cabinet
-    from rapidgen.controller.faults import read_plan
+    from rapidgen.controller.faults import FaultPlan, read_plan
     from rapidgen.machine.operator import read_answers
 
     if ports is not None and port_offset:
@@ -123,7 +123,8 @@ def sim(
         overrides=overrides,
         check=check,
     )
-    plan = read_plan(faults) if faults is not None else None
+    # A page lets connections go wrong without a plan.
+    plan = read_plan(faults) if faults is not None else FaultPlan() if view else None
     script = read_answers(answers) if answers is not None else None
     _check_host(host)
     _check_release(found, rws)
@@ -147,7 +148,7 @@ def sim(
         with (
             _control(cabinet) as control,
             _faces(cabinet, host, ftp, sftp, (rws, rws_port, not rws_lenient, denied)) as faces,
-            _page(cabinet, host, view_port if view else None) as page,
+            _page(cabinet, found, host, view_port if view else None) as page,
             _recording(cabinet, record, watch or ()),
             observing(cabinet, wanted),
         ):
@@ -306,7 +307,9 @@ def _faces(
 
 
 @contextmanager
-def _page(cabinet: "Cabinet", host: str, port: int | None) -> "Iterator[Members]":
+def _page(
+    cabinet: "Cabinet", target: "Bootable", host: str, port: int | None
+) -> "Iterator[Members]":
     """The page that shows the robot; what `ready` tells of it.
 
     Raises DiagnosticError RG920, RG921.
@@ -314,10 +317,14 @@ def _page(cabinet: "Cabinet", host: str, port: int | None) -> "Iterator[Members]
     if port is None:
         yield {}
         return
+    from rapidgen.view.appearance import appearance
     from rapidgen.view.server import serve_page
     from rapidgen.view.simulator.simulation import Simulation
 
-    page = serve_page(Simulation(cabinet), host, port)
+    look = appearance(target.groups, target.described, target.overrides, target.cell)
+    for fault in look.faults:
+        typer.echo(f"not drawn as described: {letters(fault)}", err=True)
+    page = serve_page(Simulation(cabinet, look), host, port, look.files)
     cabinet.on_boot.append(page.renew)
     try:
         yield {"view": page.url}

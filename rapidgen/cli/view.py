@@ -10,9 +10,12 @@ from rapidgen.cli import options
 from rapidgen.diagnostics import refusal
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from rapidgen.client import Robot
     from rapidgen.client.address import Address
     from rapidgen.config.model import GroupConfig
+    from rapidgen.view.appearance import Appearance
     from rapidgen.view.aspect import Viewed
 
 _LOOK = 3.0
@@ -57,7 +60,8 @@ def view(
         if not _is_recording(target):
             if csv is not None:
                 raise typer.BadParameter("--csv is of a recording")
-            return _serve(_robots(stack, target, to, group, take, reconnect), host, port)
+            viewed, look = _robots(stack, target, to, group, take, reconnect)
+            return _serve(viewed, host, port, look.files)
         from rapidgen.view.recording.reader import RecordingFile
         from rapidgen.view.recording.viewing import RecordingSubject
 
@@ -80,7 +84,9 @@ def _is_recording(target: str) -> bool:
     )
 
 
-def _serve(viewed: "Viewed", host: str, port: int) -> int:
+def _serve(
+    viewed: "Viewed", host: str, port: int, files: "Mapping[str, bytes] | None" = None
+) -> int:
     """Serve the page until a signal comes; the exit code."""
     import json
     import signal
@@ -91,7 +97,7 @@ def _serve(viewed: "Viewed", host: str, port: int) -> int:
     ended = threading.Event()
     before = {s: signal.signal(s, lambda *_: ended.set()) for s in (signal.SIGINT, signal.SIGTERM)}
     try:
-        page = serve_page(viewed, host, port)
+        page = serve_page(viewed, host, port, files or {})
         try:
             typer.echo(f"ready {json.dumps({'view': page.url})}")
             ended.wait()
@@ -108,10 +114,12 @@ def _serve(viewed: "Viewed", host: str, port: int) -> int:
 
 def _robots(
     stack: ExitStack, target: str, to: str, group: str, take: bool, reconnect: float
-) -> "Viewed":
-    """All robots of a configuration, or one at an address, connected until the stack closes."""
+) -> "tuple[Viewed, Appearance]":
+    """All robots of a configuration, or one at an address, connected until the stack closes; and
+    what they look like."""
     from rapidgen.client import Robot
     from rapidgen.client.target import groups_of
+    from rapidgen.view.appearance import appearance
     from rapidgen.view.robot.observed import ObservedRobots
 
     robots = []
@@ -124,7 +132,11 @@ def _robots(
             raise _plain(robot.address)
         robot.next_state(_LOOK)
         robots.append((robot, _known(target, name, robot)))
-    return ObservedRobots(f"{target} at {robots[0][0].address.host}", robots)
+    configs = [config for _, config in robots]
+    file = Path(target)
+    described = {config.name: file for config in configs} if file.is_file() else {}
+    look = appearance(configs, described)
+    return ObservedRobots(f"{target} at {robots[0][0].address.host}", robots, look), look
 
 
 def _known(target: str, group: str, robot: "Robot") -> "GroupConfig":

@@ -13,10 +13,11 @@ from typing import Annotated
 from rapidgen.config.assemble import keys_of, shown_path
 from rapidgen.config.draft import DraftFindings
 from rapidgen.config.few import few
-from rapidgen.config.model import Load, Tool, WorkObject
+from rapidgen.config.model import Load, Placement, Tool, WorkObject
 from rapidgen.config.registry import is_path
 from rapidgen.config.rules import Rule
 from rapidgen.config.schema import (
+    FrameKeys,
     Identifier,
     LoadKeys,
     Part,
@@ -27,7 +28,7 @@ from rapidgen.config.schema import (
     WorkObjectDataKeys,
     WorkObjectKeys,
 )
-from rapidgen.config.tooling import load_of, tool_of, work_object_of
+from rapidgen.config.tooling import load_of, placement_of, tool_of, work_object_of
 from rapidgen.config.tree import read_bytes
 from rapidgen.config.validate import sound
 from rapidgen.diagnostics import DiagnosticError, Severity
@@ -53,6 +54,10 @@ class CellRobotKeys(Part):
         list[float],
         Rule("Where it stands when it is switched on: deg or mm, a value for each axis."),
     ] = field(default_factory=list)
+    base: Annotated[
+        FrameKeys | None,
+        Rule("Where the page draws its base; what RAPID says stays in the robot's own world."),
+    ] = None
 
 
 @dataclass(frozen=True)
@@ -103,6 +108,16 @@ class CameraKeys(Part):
     ] = field(default_factory=dict)
 
 
+class ThingKeys(Part):
+    """Something that the page draws: it is looked at, nothing runs into it."""
+
+    mesh: Annotated[str, Rule("STL, DAE or OBJ in this file's folder or below.")]
+    frame: Annotated[FrameKeys, Rule("Where it stands.")] = field(default_factory=FrameKeys)
+    scale: Annotated[
+        float, Rule("Metres of one unit of the mesh; 0.001 for mm.", gt=0, le=1000)
+    ] = 1.0
+
+
 @dataclass(frozen=True)
 class CellKeys(Part):
     """What stands around a controller."""
@@ -130,6 +145,19 @@ class CellKeys(Part):
     cameras: Annotated[dict[Identifier, CameraKeys], Rule("Cameras by name.")] = field(
         default_factory=dict
     )
+    things: Annotated[dict[Identifier, ThingKeys], Rule("What the page draws around robots.")] = (
+        field(default_factory=dict)
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class Thing:
+    """A mesh that stands in the cell: m in one of its units; the file as it is named."""
+
+    name: str
+    mesh: str
+    frame: Placement
+    scale: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -143,6 +171,11 @@ class CellDescription:
     loads: Mapping[str, Load] = field(default_factory=dict)
     devices: Mapping[str, Sequence[ReactionKeys]] = field(default_factory=dict)
     cameras: Mapping[str, CameraKeys] = field(default_factory=dict)
+    folder: Path = Path()
+    """Where its files are."""
+    things: tuple[Thing, ...] = ()
+    bases: Mapping[str, Placement] = field(default_factory=dict)
+    """Where robots are drawn, by task."""
 
 
 def load_cell(path: Path) -> CellDescription:
@@ -178,6 +211,21 @@ def load_cell(path: Path) -> CellDescription:
         {name: load_of(load, ("loads", name), report) for name, load in keys.loads.items()},
         keys.devices,
         keys.cameras,
+        path.parent,
+        tuple(
+            Thing(
+                name,
+                thing.mesh,
+                placement_of(thing.frame, ("things", name, "frame"), report),
+                thing.scale,
+            )
+            for name, thing in keys.things.items()
+        ),
+        {
+            task: placement_of(robot.base, ("robots", task, "base"), report)
+            for task, robot in keys.robots.items()
+            if robot.base is not None
+        },
     )
     if any(d.severity is Severity.ERROR for d in report.found):
         raise DiagnosticError(few(report.found))

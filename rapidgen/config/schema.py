@@ -302,7 +302,7 @@ class PortsKeys(Part):
 
 @dataclass(frozen=True)
 class UrdfKeys(Part):
-    """A robot description. Meshes are never opened; ROS is not needed."""
+    """A robot description. Its meshes are for the page alone; ROS is not needed."""
 
     file: Annotated[str, Rule("URDF or xacro file, relative to this file.")]
     macro: Annotated[str | None, Rule("Macro to call when the file only defines macros.")] = None

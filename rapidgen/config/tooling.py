@@ -32,7 +32,8 @@ def _metres(values: list[float]) -> tuple[float, float, float]:
     return (x, y, z)
 
 
-def _frame(frame: schema.FrameKeys, path: KeyPath, report: DraftFindings) -> model.Placement:
+def placement_of(frame: schema.FrameKeys, path: KeyPath, report: DraftFindings) -> model.Placement:
+    """A frame in m."""
     return model.Placement(
         _metres(frame.position),
         _unit_quaternion(frame.orientation, (*path, "orientation"), report),
@@ -61,7 +62,7 @@ def tool_of(tool: schema.ToolKeys, path: KeyPath, report: DraftFindings) -> mode
         tool.name,
         tool.declared == "elsewhere",
         tool.held,
-        _frame(tool.frame, (*path, "frame"), report),
+        placement_of(tool.frame, (*path, "frame"), report),
         load_of(load, (*path, "load"), report),
     )
 
@@ -93,8 +94,8 @@ def work_object_of(
         given.name,
         given.declared == "elsewhere",
         given.held,
-        _frame(given.user_frame, (*path, "user_frame"), report),
-        _frame(given.object_frame, (*path, "object_frame"), report),
+        placement_of(given.user_frame, (*path, "user_frame"), report),
+        placement_of(given.object_frame, (*path, "object_frame"), report),
     )
 
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import rapidgen.system as files
 from rapidgen.config import from_manifest, load_config
 from rapidgen.config.model import GroupConfig, RobotConfig
+from rapidgen.config.registry import is_path
 from rapidgen.controller.mechanics import DEFAULT_ROBOT, mechanics
 from rapidgen.controller.starts import in_front, stands, start_of, usual_start
 from rapidgen.controller.surroundings import Surroundings, cameras_of, furnish
@@ -60,6 +61,12 @@ class Bootable:
     """The robot that was guessed."""
     cfg: "ControllerCfg | None" = None
     """All domains of a backup."""
+    described: Mapping[str, Path] = field(default_factory=dict)
+    """Configurations that say what groups look like."""
+    overrides: Sequence[str] = ()
+    """Of those configurations."""
+    cell: "CellDescription | None" = None
+    """What stands around it."""
 
 
 def load_target(targets: Sequence[Source], wishes: Wishes | None = None) -> Bootable:
@@ -72,7 +79,10 @@ def load_target(targets: Sequence[Source], wishes: Wishes | None = None) -> Boot
 
         config = load_config(str(targets[0]), overrides=tuple(wishes.overrides))
         system = make_system(config, build(config))
-        return _driver(config, system, tuple(config.diagnostics), wishes)
+        made = _driver(config, system, tuple(config.diagnostics), wishes)
+        named = [group.name for group in config.groups if is_path(str(first))]
+        described = dict.fromkeys(named, first)
+        return replace(made, described=described, overrides=wishes.overrides)
     notes: list[Diagnostic] = []
     folder = first if first is not None and first.is_dir() else None
     if folder is not None and files.is_generated(folder):
@@ -160,7 +170,10 @@ def _foreign(system: System, notes: list[Diagnostic] | None, wishes: Wishes) -> 
         robot = model.model if model is not None else ""
     groups, which = mechanics(system, robot, robots)
     told = () if notes is None else (*notes, *which)
-    found = Bootable(system.name, system, groups, False, told, likely=model)
+    models = {task.casefold(): keys.model for task, keys in robots.items()}
+    chosen = {group.name: models.get(group.task.casefold()) or robot for group in groups}
+    described = {name: Path(model) for name, model in chosen.items() if is_path(model)}
+    found = Bootable(system.name, system, groups, False, told, likely=model, described=described)
     return _surrounded(found, cell, wishes)
 
 
@@ -190,6 +203,7 @@ def _surrounded(found: Bootable, cell: "CellDescription | None", wishes: Wishes)
     inputs = [name.casefold() for name, keys in cell.signals.items() if keys.kind.endswith("I")]
     return replace(
         found,
+        cell=cell,
         system=furnish(found.system, cell)
         if guessed is None
         else furnish(found.system, cell, guessed.data, guessed.routines),

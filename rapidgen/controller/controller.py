@@ -146,7 +146,7 @@ class VirtualController:
                 if host or clock == "real"
                 else MemoryNetwork(self.scheduler)
             )
-        if faults is not None and faults.network:
+        if faults is not None:
             network = FaultyNetwork(network, self.scheduler, faults.network)
         self.network = network
         self.sockets = SocketTable(network, limited=self.dialect.sockets_limited)

@@ -10,6 +10,7 @@ from typing import Annotated, Literal, TypeAlias
 
 from pydantic import Field, TypeAdapter
 
+from rapidgen.view import network_messages as n
 from rapidgen.view import program_messages as p
 from rapidgen.view import trajectory_messages as t
 from rapidgen.view.spoken import Spoken
@@ -39,7 +40,8 @@ class Axis(Spoken):
 
 
 class SeenRobot(Spoken):
-    """A robot. `urdf` is its description, whose meshes are paths of this server."""
+    """A robot. `urdf` is its description; its meshes are names on this server, empty for one that
+    is not to be had."""
 
     name: str
     task: str
@@ -56,6 +58,15 @@ class SeenRobot(Spoken):
     """Where its root is drawn: apart from robots that would stand in it."""
 
 
+class SeenThing(Spoken):
+    """A mesh of the cell, by its name on this server."""
+
+    name: str
+    mesh: str
+    scale: float
+    pose: Pose
+
+
 class Scene(Spoken):
     """The first message of a connection, and of a controller that has restarted."""
 
@@ -65,6 +76,9 @@ class Scene(Spoken):
     may_command: bool
     """False: nothing that is sent moves or changes anything."""
     groups: tuple[SeenRobot, ...]
+    things: tuple[SeenThing, ...] = ()
+    faults: tuple[str, ...] = ()
+    """What does not look as its description says."""
 
 
 # -- to the page: what changes --------------------------------------------------------------------
@@ -91,6 +105,24 @@ class Positions(Spoken):
     type: Literal["positions"] = "positions"
     time: float
     groups: tuple[RobotPlace, ...]
+
+
+class SeenTarget(Spoken):
+    """Where a move of a program goes: the TCP, in the world."""
+
+    group: str
+    name: str
+    """Of the datum; empty for what is written out."""
+    module: str
+    line: int
+    pose: Pose
+
+
+class Targets(Spoken):
+    """What the moves of the loaded programs go to."""
+
+    type: Literal["targets"] = "targets"
+    targets: tuple[SeenTarget, ...]
 
 
 class PanelState(Spoken):
@@ -183,23 +215,6 @@ class SignalValues(Spoken):
     values: Mapping[str, float]
 
 
-class ShownSocket(Spoken):
-    """A socket of a task. Addresses are empty where there is none."""
-
-    number: int
-    task: str
-    status: str
-    local: str
-    peer: str
-
-
-class Connections(Spoken):
-    """All sockets in use."""
-
-    type: Literal["connections"] = "connections"
-    sockets: tuple[ShownSocket, ...]
-
-
 class Replied(Spoken):
     """The answer to a request; `error` is empty when it was carried out."""
 
@@ -243,10 +258,10 @@ class SetOverride(Spoken):
 
 
 class SetPace(Spoken):
-    """Simulated seconds in a second; 0 lets time stand."""
+    """Simulated seconds in a second. That it stands is the debugger's business (Proceed)."""
 
     do: Literal["pace"] = "pace"
-    value: Annotated[float, Field(ge=0, le=100)]
+    value: Annotated[float, Field(ge=0.1, le=100)]
 
 
 class SetSignal(Spoken):
@@ -255,13 +270,6 @@ class SetSignal(Spoken):
     do: Literal["signal"] = "signal"
     name: str
     value: Finite
-
-
-class Cut(Spoken):
-    """Cut a connection: the task's socket is reset, and so is the other end."""
-
-    do: Literal["cut"] = "cut"
-    number: int
 
 
 class AnswerQuestion(Spoken):
@@ -280,6 +288,15 @@ class Jog(Spoken):
     axes: Annotated[tuple[Finite, ...], Field(max_length=12)]
 
 
+class JogTo(Spoken):
+    """Put a standing robot where its TCP is at a place (of its world), on the same branch."""
+
+    do: Literal["jog-to"] = "jog-to"
+    group: str
+    position: tuple[Finite, Finite, Finite]
+    orientation: tuple[Finite, Finite, Finite, Finite]
+
+
 class Copy(Spoken):
     """Where a robot is, as text for a program; it is the reply's."""
 
@@ -293,13 +310,15 @@ class Copy(Spoken):
 ToPage: TypeAlias = (
     Scene
     | Positions
+    | Targets
     | PanelState
     | Log
     | Screen
     | Dialogs
     | AllSignals
     | SignalValues
-    | Connections
+    | n.Connections
+    | n.Conversation
     | p.LoadedPrograms
     | p.Pointers
     | p.Debugging
@@ -316,14 +335,18 @@ Request: TypeAlias = (
     | SetPace
     | AnswerQuestion
     | Jog
+    | JogTo
     | Copy
     | SetSignal
-    | Cut
+    | n.Cut
+    | n.Afflict
+    | n.Listen
     | p.ReadSource
     | p.SetBreakpoint
     | p.RemoveBreakpoint
     | p.Proceed
     | p.RunTo
+    | p.RunFor
     | p.StopOnErrors
     | p.LookAt
     | p.Evaluate

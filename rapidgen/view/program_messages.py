@@ -70,10 +70,12 @@ class SeenBreakpoint(Spoken):
 class SeenHalt(Spoken):
     """Why everything is paused."""
 
-    reason: Literal["breakpoint", "step", "cursor", "error", "pause"]
+    reason: Literal["breakpoint", "step", "cursor", "error", "pause", "time"]
     task: str
     place: SeenPlace | None
     text: str
+    time: float
+    """The controller's, s."""
 
 
 class Debugging(Spoken):
@@ -158,6 +160,13 @@ class RunTo(Spoken):
     task: Name
     module: Name
     line: Line
+
+
+class RunFor(Spoken):
+    """Go on for so many seconds of the controller's time."""
+
+    do: Literal["run-for"] = "run-for"
+    seconds: Annotated[float, Field(gt=0, le=3600)]
 
 
 class StopOnErrors(Spoken):

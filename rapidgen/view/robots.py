@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from math import hypot
 
 from rapidgen.axes import frames
+from rapidgen.axes.chain import along, steps_of
 from rapidgen.axes.kinematics import Kinematics, Posture
 from rapidgen.config.model import GroupConfig, Placement
 from rapidgen.view.drawing import Drawing
@@ -37,22 +38,35 @@ def group_of(config: GroupConfig, description: Drawing) -> SeenRobot:
             for joint in config.joints
         ),
         has_geometry=bool(config.chain),
+        base=pose_of(description.base or frames.IDENTITY),
     )
 
 
-def side_by_side(configs: Sequence[GroupConfig], seen: Sequence[SeenRobot]) -> Iterator[SeenRobot]:
-    """The robots, those apart that would stand in one another: nothing tells where they are."""
+def side_by_side(
+    configs: Sequence[GroupConfig], drawings: Sequence[Drawing]
+) -> Iterator[SeenRobot]:
+    """The robots, those apart that would stand in one another where nothing tells their place."""
     standing: list[frames.Vector] = []
     y = 0.0
-    for config, robot in zip(configs, seen, strict=True):
-        foot = config.chain[0].xyz if config.chain else (0.0, 0.0, 0.0)
-        if any(hypot(foot[0] - x, foot[1] - y) < _SAME for x, y, _ in standing):
+    for config, drawing in zip(configs, drawings, strict=True):
+        robot = group_of(config, drawing)
+        foot = frames.transform(drawing.base or frames.IDENTITY, _foot(config))
+        if drawing.base is None and any(
+            hypot(foot[0] - x, foot[1] - y) < _SAME for x, y, _ in standing
+        ):
             y += _ROOM * sum(hypot(*step.xyz) for step in config.chain)
             robot = robot.model_copy(
                 update={"base": Pose(position=(0.0, -y, 0.0), orientation=frames.UNIT)}
             )
         standing.append(foot)
         yield robot
+
+
+def _foot(config: GroupConfig) -> frames.Vector:
+    """Where the first axis is."""
+    steps = steps_of(config, config.chain)
+    first = next((i for i, step in enumerate(steps) if step.joint >= 0), -1)
+    return along(steps[: first + 1], (0.0,) * len(config.joints))[0]
 
 
 def pose_of(frame: frames.Pose) -> Pose:

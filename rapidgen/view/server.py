@@ -7,11 +7,12 @@ import asyncio
 import logging
 import struct
 import threading
-from collections.abc import Awaitable, Callable
+from collections.abc import Awaitable, Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
+from types import MappingProxyType
 from typing import Final
 
 from aiohttp import WSMsgType, web
@@ -53,12 +54,17 @@ class Page:
         self._stop()
 
 
-def serve_page(watched: Viewed, host: str = "127.0.0.1", port: int = 0) -> Page:
-    """Serve the page of what is watched.
+def serve_page(
+    watched: Viewed,
+    host: str = "127.0.0.1",
+    port: int = 0,
+    files: Mapping[str, bytes] = MappingProxyType({}),
+) -> Page:
+    """Serve the page of what is watched; `files` are what it draws with, for who is admitted.
 
     DiagnosticError RG920 (not built), RG921 (port), RG922 (token).
     """
-    server = _Server(watched, _assets())
+    server = _Server(watched, _assets(), files)
     server.start(host, port)
     shown = "127.0.0.1" if host == "0.0.0.0" else host
     return Page(
@@ -103,12 +109,15 @@ class _Viewer:
 class _Server:
     """One port, and the thread with its loop."""
 
-    def __init__(self, watched: Viewed, assets: dict[str, tuple[bytes, str]]) -> None:
+    def __init__(
+        self, watched: Viewed, assets: dict[str, tuple[bytes, str]], files: Mapping[str, bytes]
+    ) -> None:
         self.hub = Hub(watched, self._tell)
         self.door = Doorkeeper()
         self.port = 0
         self._watched = watched
         self._assets = assets
+        self._files = files
         self._loop = asyncio.new_event_loop()
         self._viewers: dict[_Viewer, web.WebSocketResponse] = {}
         self._looked = True
@@ -117,6 +126,7 @@ class _Server:
         app.router.add_get("/session", self._admitted)
         app.router.add_post("/session", self._enter)
         app.router.add_get("/link", self._link)
+        app.router.add_get("/files/{name}", self._file)
         app.router.add_get("/{name}", self._asset)
         self._runner = web.AppRunner(app, access_log=None, shutdown_timeout=0.05)
         self._thread: threading.Thread | None = None
@@ -206,6 +216,14 @@ class _Server:
         if found is None:
             return web.Response(status=404)
         return web.Response(body=found[0], content_type=found[1], charset="utf-8")
+
+    async def _file(self, request: web.Request) -> web.Response:
+        if not self.door.admitted(request, self.port):
+            return web.Response(status=403)
+        found = self._files.get(request.match_info["name"])
+        if found is None:
+            return web.Response(status=404)
+        return web.Response(body=found, content_type="application/octet-stream")
 
     async def _admitted(self, request: web.Request) -> web.Response:
         return web.Response(status=204 if self.door.admitted(request, self.port) else 403)

@@ -418,3 +418,25 @@ def test_steps_stay_in_a_module_that_is_executed_as_a_whole_only_if_they_began_t
     debugger.step("T_ROB1", "in")
     controller.run_for(1.0)
     assert line(debugger) == 9
+
+
+def test_a_time_step_lets_so_much_time_pass(boot):
+    controller, debugger = boot()
+    with pytest.raises(NotNow):
+        debugger.run_for(0.1)
+    controller.run_for(0.2)
+    debugger.pause()
+    before = controller.now
+    debugger.run_for(0.1)
+    controller.run_for(5.0)
+    assert debugger.halt.reason == "time"
+    assert controller.now == pytest.approx(before + 0.1, abs=1e-6)
+    # What pauses before the time is over ends the step.
+    debugger.add(Breakpoint("m", 9))
+    debugger.run_for(3.0)
+    controller.run_for(5.0)
+    assert debugger.halt.reason == "breakpoint"
+    debugger.remove(1)
+    debugger.resume()
+    controller.run_for(5.0)
+    assert debugger.halt is None

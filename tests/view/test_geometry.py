@@ -61,16 +61,21 @@ def test_links_are_where_axes_says(stage, name):
     groups = load_config(name).groups
     stage.evaluate("scene => rapidgen.stage.build(scene)", scene_of(groups).model_dump(mode="json"))
     chance = random.Random(name)
-    for _ in range(POSTURES):
-        postures = [
-            tuple(chance.uniform(j.lower, j.upper) for j in group.joints) for group in groups
-        ]
-        state = Positions(time=0.0, groups=tuple(map(place_of, groups, postures)))
-        drawn = stage.evaluate(
-            "state => (rapidgen.stage.show(state),"
-            " [...rapidgen.stage.robots.values()].map(robot => robot.poses()))",
-            state.model_dump(mode="json"),
-        )
+    tried = [
+        [tuple(chance.uniform(j.lower, j.upper) for j in group.joints) for group in groups]
+        for _ in range(POSTURES)
+    ]
+    states = [
+        Positions(time=0.0, groups=tuple(map(place_of, groups, postures))).model_dump(mode="json")
+        for postures in tried
+    ]
+    # All at once: each that is asked for alone would be drawn, too.
+    shown = stage.evaluate(
+        "states => states.map(state => (rapidgen.stage.show(state),"
+        " [...rapidgen.stage.robots.values()].map(robot => robot.poses())))",
+        states,
+    )
+    for postures, drawn in zip(tried, shown, strict=True):
         for group, posture, poses in zip(groups, postures, drawn, strict=True):
             steps = steps_of(group, group.chain)
             urdf = JointMap.of(group).to_urdf(posture)

@@ -137,3 +137,24 @@ def test_a_condition_a_hover_and_a_log_point(page):
 def test_lines_are_counted(page):
     page.get_by_text("Count how often lines are reached").click()
     page.locator(".cm-covered .cm-reached").first.wait_for()
+
+
+def test_the_pendant_and_the_debugger_pause_the_same_and_time_is_stepped(page):
+    page.get_by_role("tab", name="Pendant").click()
+    pendant = page.locator("#panel-pendant")
+    pendant.get_by_role("button", name="Pause").click()
+    pendant.get_by_role("button", name="Go on").wait_for()
+    halted_at = "rapidgen.panels.program.seen.halted"
+    before = until(page, halted_at)
+    page.get_by_label("Length of a time step").select_option(label="1 s")
+    pendant.get_by_role("button", name="Time step").click()
+    after = until(page, halted_at, lambda time: time and time > before)
+    assert after == pytest.approx(before + 1, abs=1e-6)
+    page.get_by_role("tab", name="Program").click()
+    until(page, HALTED, lambda text: text and "time step" in text)
+    page.locator("#panel-program").get_by_role("button", name="Go on").click()
+    page.get_by_role("tab", name="Pendant").click()
+    pendant.get_by_role("button", name="Pause").wait_for()
+    page.get_by_label("Pace of time").select_option("10")
+    shown = "parseFloat(document.querySelectorAll('.chip')[3].textContent)"
+    until(page, shown, lambda time: time > after + 2)

@@ -82,7 +82,7 @@ class Packages:
             for count, folder in enumerate(_folders(root, 0)):
                 if count > MAX_FOLDERS:
                     break
-                name = _package_name(folder)
+                name = package_name(folder)
                 if name:
                     known.setdefault(name, []).append(folder)
             self._scans[root] = known
@@ -102,7 +102,14 @@ def _folders(root: Path, depth: int) -> Iterator[Path]:
             yield from _folders(root / name, depth + 1)
 
 
-def _package_name(folder: Path) -> str:
+def package_of(folder: Path) -> Path | None:
+    """The package that a folder lies in, links followed."""
+    real = folder.resolve()
+    return next((f for f in (real, *real.parents) if (f / "package.xml").is_file()), None)
+
+
+def package_name(folder: Path) -> str:
+    """What package.xml in a folder calls the package; empty: there is none."""
     try:
         with (folder / "package.xml").open("rb") as stream:
             hit = _NAME.search(stream.read(20_000))

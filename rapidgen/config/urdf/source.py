@@ -88,6 +88,23 @@ def _doctype(text: str) -> int:
     return 0
 
 
+def xml_fault(data: bytes) -> str:
+    """Why bytes are no XML that is read here; empty: they are."""
+
+    def declared(*_: object) -> None:
+        raise _Declared
+
+    parser = expat.ParserCreate()
+    parser.StartDoctypeDeclHandler = declared
+    try:
+        parser.Parse(data, True)
+    except _Declared:
+        return "it has a document type"
+    except expat.ExpatError as fault:
+        return f"it is not well-formed XML: {fault}"
+    return ""
+
+
 def is_xacro(path: Path, text: str) -> bool:
     """True for what xacro has to expand first."""
     return path.suffix == ".xacro" or "xmlns:xacro" in text or "<xacro:" in text

@@ -16,14 +16,14 @@ from rapidgen.controller.debugger import pointers, values
 from rapidgen.controller.debugger.breakpoints import Breakpoint, Placed
 from rapidgen.controller.debugger.stack import Level, StackFrame, depth_here, frames_of, innermost
 from rapidgen.controller.debugger.values import NotNow, Shown
-from rapidgen.machine.scheduler import WaitSet
+from rapidgen.machine.scheduler import S, Timer, WaitSet
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.compiler.symbols import LoadedModule, Routine
 from rapidgen.runtime.compiler.watching import WatchedExpression
 from rapidgen.runtime.errors import FatalError, Location, RapidError
 from rapidgen.runtime.task.task import Task
 
-Reason: TypeAlias = Literal["breakpoint", "step", "cursor", "error", "pause"]
+Reason: TypeAlias = Literal["breakpoint", "step", "cursor", "error", "pause", "time"]
 StepKind: TypeAlias = Literal["in", "over", "out"]
 ErrorStop: TypeAlias = Literal["never", "unhandled", "all"]
 """At which errors everything pauses: at those that stop a task, or before each handler, too."""
@@ -91,6 +91,7 @@ class Debugger:
         self._watched: dict[tuple[str, Routine, str], WatchedExpression] = {}
         self._step: _Step | None = None
         self._cursor: Placed | None = None
+        self._timer: Timer | None = None
         controller.statements.errors.append(self._error)
         controller.statements.failures.append(self._failure)
         for asked in breakpoints:
@@ -151,10 +152,25 @@ class Debugger:
 
     def pause(self) -> None:
         """Pause wherever the tasks are, also in the middle of a statement."""
+        self._pause("pause")
+
+    def run_for(self, seconds: float) -> None:
+        """Go on, and pause when so much of the controller's time has passed, if nothing else has
+        paused it before. NotNow: it is not paused."""
+        self._go_on(None)
+        self._timer = self._scheduler.after(round(seconds * S), lambda: self._pause("time"))
+
+    def _pause(self, reason: Reason) -> None:
+        self._end_timer()
         if self.halt is None:
-            self.halt = Halt("pause")
+            self.halt = Halt(reason)
             self._scheduler.pause()
             self.changed.notify()
+
+    def _end_timer(self) -> None:
+        timer, self._timer = self._timer, None
+        if timer is not None:
+            timer.cancel()
 
     def resume(self) -> None:
         """Go on to the next breakpoint."""
@@ -187,6 +203,7 @@ class Debugger:
 
     def _go_on(self, step: _Step | None) -> None:
         self._require_halt()
+        self._end_timer()
         self._step = step
         self._place()
         self._listen()
@@ -205,6 +222,7 @@ class Debugger:
         statements.failures.remove(self._failure)
         self.placed.clear()
         self._cursor = self._step = None
+        self._end_timer()
         self._place()
         self._listen()
         self.halt = None
@@ -290,6 +308,7 @@ class Debugger:
 
     def _hold(self, halt: Halt) -> None:
         """Pause in the task that tells: it goes on from here."""
+        self._end_timer()
         self._step = self._cursor = None
         self.halt = halt
         self.changed.notify()

@@ -6,6 +6,7 @@ through queues here; all others go straight through.
 """
 
 from collections import deque
+from dataclasses import replace
 
 from rapidgen.machine.network.interface import (
     BUFFER,
@@ -46,6 +47,10 @@ class _Lane:
             if rule.do in ("reset", "silent") and self._taken >= rule.after:
                 return rule
         return None
+
+    def obey(self, rules: list[NetworkRule]) -> None:
+        """Other rules from the next byte on."""
+        self._rules = [replace(rule, after=self._taken + rule.after) for rule in rules]
 
     def half_open(self) -> bool:
         """Whether the end of the connection is kept from the program."""
@@ -197,13 +202,26 @@ class FaultyNetwork(Network):
         self._lines.clear()
         self._inner.shut_down()
 
+    def afflict(self, endpoint: Endpoint, rule: NetworkRule) -> None:
+        """From now on one rule is about a connection, instead of those of the plan; what waits
+        passes before."""
+        line = self._lines.get(endpoint)
+        if line is None:
+            self._put_under(endpoint, [rule])
+            return
+        for way, lane in (("in", line.lane_in), ("out", line.lane_out)):
+            lane.obey([rule] if rule.direction in (way, "both") else [])
+        self._advance(endpoint, line)
+
     # -- inside -----------------------------------------------------------------------------
 
     def _watch(self, endpoint: Endpoint, port: int) -> None:
         number = self._counts[port] = self._counts.get(port, 0) + 1
         rules = [rule for rule in self._rules if rule.concerns(port, number)]
-        if not rules:
-            return
+        if rules:
+            self._put_under(endpoint, rules)
+
+    def _put_under(self, endpoint: Endpoint, rules: list[NetworkRule]) -> None:
         lanes = [
             _Lane(self._scheduler, [r for r in rules if r.direction in (way, "both")])
             for way in ("in", "out")

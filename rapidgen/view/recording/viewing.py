@@ -1,8 +1,10 @@
 """A recording as the page sees it: everything as it was at the moment to which it is scrubbed."""
 
+import base64
 import json
 import threading
 import time
+from collections import deque
 from collections.abc import Callable, Iterable, Mapping
 
 from rapidgen.axes.kinematics import Kinematics
@@ -10,8 +12,10 @@ from rapidgen.axes.mapping import JointMap
 from rapidgen.config.model import GroupConfig
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.view import messages as v
+from rapidgen.view import network_messages as n
 from rapidgen.view import program_messages as p
 from rapidgen.view.aspect import Aspect, Declined, Handler
+from rapidgen.view.conversation import Heard, Interpreter
 from rapidgen.view.drawing import described
 from rapidgen.view.messages import Request, ToPage
 from rapidgen.view.recording import messages as m
@@ -20,6 +24,8 @@ from rapidgen.view.robots import Carried, group_of, pose_of
 
 _CURVES = 1500
 """Points of a curve."""
+_BACK, _PIECES = 3.0, 150
+"""s before a moment, and pieces of them, that are told of what sockets said."""
 
 
 class RecordingSubject:
@@ -82,6 +88,7 @@ class RecordedAspect:
         self._rate = 0.0
         self._looked = 0.0
         self._fault = ""
+        self._listening = False
         self._task = next((robot.config.task for robot in self._robots), "")
         self._seen: tuple[object, ...] = ()
         self._sources: dict[str, int] = {}
@@ -105,7 +112,7 @@ class RecordedAspect:
         if self._rate:
             self._go_on((now - self._looked) * self._rate)
         self._looked = now
-        seen = (self._moment, self._rate, self._task, self._fault)
+        seen = (self._moment, self._rate, self._task, self._fault, self._listening)
         if seen == self._seen:
             return
         self._seen = seen
@@ -138,7 +145,8 @@ class RecordedAspect:
                 if name in moment.signals
             )
         )
-        yield v.Connections(sockets=tuple(map(_socket, moment.connections)))
+        yield n.Connections(sockets=tuple(map(_socket, moment.connections)))
+        yield self._conversation(moment)
         yield self._loaded(moment)
         yield _pointers(moment)
         yield self._values(moment)
@@ -149,6 +157,19 @@ class RecordedAspect:
             rate=self._rate,
             fault=self._fault or ("it was cut off, and ends here" if self._file.cut else ""),
         )
+
+    def _conversation(self, moment: Moment) -> n.Conversation:
+        """What was said just before, where somebody wants to know."""
+        heard: deque[Heard] = deque(maxlen=_PIECES)
+        if self._listening:
+            begin = max(self._file.begin, moment.time - _BACK)
+            for at, frame in self._file.frames(begin, moment.time):
+                ends = (frame.task, frame.local, frame.peer)
+                data = base64.b64decode(frame.data)
+                heard.append(Heard(at, frame.change, *ends, data))
+        interpreter = Interpreter()
+        lines = tuple(line for piece in heard for line in interpreter.lines(piece))
+        return n.Conversation(listening=self._listening, lines=lines, fresh=True)
 
     def _panel(self, moment: Moment, panel: m.RecordedPanel) -> v.PanelState:
         tasks = {name: task.state for name, task in moment.tasks.items()}
@@ -190,7 +211,13 @@ class RecordedAspect:
             p.ReadCurves: _read(self._curves),
             p.ReadSource: _read(self._source),
             p.LookAt: _read(self._look),
+            n.Listen: _read(self._listen),
         }
+
+    def _listen(self, request: Request) -> str:
+        assert isinstance(request, n.Listen)
+        self._listening = request.on
+        return ""
 
     def _look(self, request: Request) -> str:
         assert isinstance(request, p.LookAt)
@@ -267,8 +294,8 @@ def _entry(line: m.LogLine) -> v.LogEntry:
     return v.LogEntry.model_validate(line.model_dump())
 
 
-def _socket(frame: m.SocketFrame) -> v.ShownSocket:
-    return v.ShownSocket(
+def _socket(frame: m.SocketFrame) -> n.ShownSocket:
+    return n.ShownSocket(
         number=0, task=frame.task, status="connected", local=frame.local, peer=frame.peer
     )
 

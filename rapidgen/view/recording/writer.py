@@ -30,6 +30,7 @@ from rapidgen.motion.recorder import Recorder
 from rapidgen.runtime.errors import Location
 from rapidgen.runtime.task.task import Task
 from rapidgen.view.recording import messages as m
+from rapidgen.view.recording.schemas import plain_schema
 from rapidgen.view.robots import Carried
 
 TICK_NS = 16_666_667
@@ -246,7 +247,8 @@ class RecordingWriter:
             kind = m.CHANNELS[topic.split("/", 1)[0]]
             schema = self._schemas.get(kind)
             if schema is None:
-                text = json.dumps(kind.model_json_schema()).encode()
+                names = [signal.name for signal in self._controller.io.signals.values()]
+                text = json.dumps(plain_schema(kind, names)).encode()
                 name = f"rapidgen.{kind.__name__}"
                 schema = self._schemas[kind] = self._writer.register_schema(
                     name, "jsonschema", text

@@ -10,9 +10,9 @@ from rapidgen.client import Robot
 from rapidgen.client.core.state import Event, State
 from rapidgen.client.errors import RobotError
 from rapidgen.config.model import GroupConfig
+from rapidgen.view.appearance import PLAIN, Appearance
 from rapidgen.view.aspect import Aspect, Declined, Handler
 from rapidgen.view.copying import copied
-from rapidgen.view.drawing import described
 from rapidgen.view.messages import (
     Copy,
     Log,
@@ -24,7 +24,7 @@ from rapidgen.view.messages import (
     Scene,
     ToPage,
 )
-from rapidgen.view.robots import Carried, group_of, pose_of, side_by_side
+from rapidgen.view.robots import Carried, pose_of, side_by_side
 from rapidgen.wire.simple_message.spec import EventType, Mode, TriState
 
 _MODES: dict[Mode, Literal["auto", "manual_reduced"]] = {
@@ -41,8 +41,10 @@ _KINDS: dict[EventType, Literal["info", "warning", "error"]] = {
 class ObservedRobots:
     """What the server watches: connected robots with what is known of each."""
 
-    def __init__(self, title: str, robots: Sequence[tuple[Robot, GroupConfig]]) -> None:
-        self._aspects = (_StateAspect(title, robots), _EventsAspect([r for r, _ in robots]))
+    def __init__(
+        self, title: str, robots: Sequence[tuple[Robot, GroupConfig]], look: Appearance = PLAIN
+    ) -> None:
+        self._aspects = (_StateAspect(title, robots, look), _EventsAspect([r for r, _ in robots]))
         self._functions: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
         threading.Thread(target=self._run, name="view of robots", daemon=True).start()
 
@@ -63,11 +65,14 @@ class ObservedRobots:
 class _StateAspect:
     """Where the robots are, and what their status says."""
 
-    def __init__(self, title: str, robots: Sequence[tuple[Robot, GroupConfig]]) -> None:
+    def __init__(
+        self, title: str, robots: Sequence[tuple[Robot, GroupConfig]], look: Appearance
+    ) -> None:
+        self._look = look
         self._title = title
         self._robots = [robot for robot, _ in robots]
         self._configs = [config for _, config in robots]
-        self._drawings = [described(config) for config in self._configs]
+        self._drawings = [look.of(config) for config in self._configs]
         self._kinematics = [Kinematics.of(config) for config in self._configs]
         self._numbers: list[int] = []
         self._told: PanelState | None = None
@@ -80,9 +85,8 @@ class _StateAspect:
             title=self._title,
             kind="robot",
             may_command=False,
-            groups=tuple(
-                side_by_side(self._configs, [*map(group_of, self._configs, self._drawings)])
-            ),
+            groups=tuple(side_by_side(self._configs, self._drawings)),
+            faults=self._look.faults,
         )
         states = [robot.state for robot in self._robots]
         yield self._positions(states)

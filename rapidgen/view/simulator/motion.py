@@ -2,24 +2,28 @@
 
 from collections.abc import Iterable, Mapping
 
+from rapidgen.axes import frames
+from rapidgen.axes.kinematics import Posture
 from rapidgen.controller.cabinet import Cabinet
 from rapidgen.motion.group import MotionGroup
 from rapidgen.runtime.task.task import Task
+from rapidgen.view.appearance import PLAIN, Appearance
 from rapidgen.view.aspect import Declined, Handler
 from rapidgen.view.copying import copied
-from rapidgen.view.drawing import Drawing, described
-from rapidgen.view.messages import Copy, Jog, Positions, Request, RobotPlace, Scene, ToPage
-from rapidgen.view.robots import Carried, group_of, pose_of, side_by_side
+from rapidgen.view.drawing import Drawing
+from rapidgen.view.messages import Copy, Jog, JogTo, Positions, Request, RobotPlace, Scene, ToPage
+from rapidgen.view.robots import Carried, pose_of, side_by_side
 
 
 class MotionAspect:
     """The scene, positions, and the robots put elsewhere by hand."""
 
-    def __init__(self, cabinet: Cabinet) -> None:
+    def __init__(self, cabinet: Cabinet, look: Appearance = PLAIN) -> None:
         self._controller = cabinet.controller
+        self._look = look
         self._scheduler = cabinet.controller.scheduler
         self._groups = tuple(self._controller.motion.groups.values())
-        self._drawings = tuple(described(group.config) for group in self._groups)
+        self._drawings = tuple(look.of(group.config) for group in self._groups)
         self._told: tuple[RobotPlace, ...] = ()
 
     def whole(self) -> Iterable[ToPage]:
@@ -29,7 +33,9 @@ class MotionAspect:
             title=self._controller.system.name,
             kind="simulation",
             may_command=True,
-            groups=tuple(side_by_side(configs, [*map(group_of, configs, self._drawings)])),
+            groups=tuple(side_by_side(configs, self._drawings)),
+            things=self._look.things,
+            faults=self._look.faults,
         )
         yield self._state(self._now())
 
@@ -42,7 +48,7 @@ class MotionAspect:
 
     def handlers(self) -> Mapping[type, Handler]:
         """Jogging, and positions as text."""
-        return {Jog: self._jog, Copy: self._copy}
+        return {Jog: self._jog, JogTo: self._jog_to, Copy: self._copy}
 
     def _state(self, groups: tuple[RobotPlace, ...]) -> Positions:
         return Positions(time=self._controller.now, groups=groups)
@@ -81,16 +87,35 @@ class MotionAspect:
         joints = group.config.joints
         if len(request.axes) != len(joints):
             raise Declined(f"{group.name} has {len(joints)} axes")
-        for joint, value in zip(joints, request.axes, strict=True):
+        self._put(group, request.axes)
+        return ""
+
+    def _jog_to(self, request: Request) -> str:
+        assert isinstance(request, JogTo)
+        group = self._group(request.group)
+        carried, kinematics = self._carried(group), group.kinematics
+        if kinematics is None or not carried.held:
+            raise Declined(f"{group.name} does not carry its TCP")
+        if not any(request.orientation):
+            raise Declined("this is no orientation")
+        tcp = (request.position, frames.normalise(request.orientation))
+        flange = frames.compose(tcp, frames.invert(carried.tool))
+        found = kinematics.follow(flange, group.positions())
+        if found is None:
+            raise Declined("the TCP does not reach that place as the arm is bent now")
+        self._put(group, found)
+        return ""
+
+    def _put(self, group: MotionGroup, axes: Posture) -> None:
+        for joint, value in zip(group.config.joints, axes, strict=True):
             if not joint.lower <= value <= joint.upper:
                 raise Declined(f"{joint.name} would leave its range")
         if any(t.state == "running" and t.spec.motion for t in self._tasks()):
             raise Declined("a program has the robot: stop it first")
         try:
-            group.jog(request.axes)
+            group.jog(axes)
         except ValueError as error:
             raise Declined(str(error)) from error
-        return ""
 
     def _copy(self, request: Request) -> str:
         assert isinstance(request, Copy)

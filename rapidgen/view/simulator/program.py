@@ -91,7 +91,7 @@ class ProgramAspect:
     def _debugging(self) -> p.Debugging:
         debugger = self._debugger
         return p.Debugging(
-            halt=_halt(debugger.halt) if debugger.halt is not None else None,
+            halt=_halt(debugger.halt, self._controller.now) if debugger.halt is not None else None,
             breakpoints=tuple(map(_breakpoint, debugger.placed.values())),
             errors=debugger.errors,
             output=tuple(
@@ -147,6 +147,7 @@ class ProgramAspect:
             p.RemoveBreakpoint: self._unbreak,
             p.Proceed: self._drive,
             p.RunTo: self._run_to,
+            p.RunFor: self._run_for,
             p.StopOnErrors: self._stop_on,
             p.LookAt: self._look,
             p.Evaluate: self._evaluate,
@@ -208,6 +209,11 @@ class ProgramAspect:
         assert isinstance(request, p.RunTo)
         self._known(request.task)
         self._debugger.run_to(request.task, request.module, request.line)
+        return ""
+
+    def _run_for(self, request: Request) -> str:
+        assert isinstance(request, p.RunFor)
+        self._debugger.run_for(request.seconds)
         return ""
 
     def _stop_on(self, request: Request) -> str:
@@ -278,9 +284,9 @@ def _of_frame(frame: StackFrame) -> p.SeenPlace:
     return _place(frame.place, frame.level)
 
 
-def _halt(halt: Halt) -> p.SeenHalt:
+def _halt(halt: Halt, time: float) -> p.SeenHalt:
     place = _place(halt.place) if halt.place is not None else None
-    return p.SeenHalt(reason=halt.reason, task=halt.task, place=place, text=halt.text)
+    return p.SeenHalt(reason=halt.reason, task=halt.task, place=place, text=halt.text, time=time)
 
 
 def _breakpoint(placed: Placed) -> p.SeenBreakpoint:

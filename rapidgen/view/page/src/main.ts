@@ -3,9 +3,10 @@
 import "./page.css";
 import { h, say } from "./dom";
 import { Link, type Connection } from "./link";
-import type { Positions, PanelState } from "./messages";
+import type { JogTo, Positions, PanelState } from "./messages";
 import type { View } from "./panel";
 import { PANELS } from "./panels";
+import type { GripMode } from "./stage/grip";
 import { Stage, type ViewName } from "./stage/stage";
 import { isDark } from "./stage/palette";
 import { Tabs } from "./tabs";
@@ -84,12 +85,60 @@ function showTime(time: number): void {
 // -- the robots -----------------------------------------------------------------------------------
 
 const space = h("main", {});
+
+/** Buttons that put a handle on a TCP, of one robot after the other. */
+function grips(stage: Stage): HTMLElement[] {
+  let held: [string, GripMode] | null = null;
+  const buttons = (["translate", "rotate"] as const).map((mode) => {
+    const button: HTMLButtonElement = h("button", { type: "button", class: "commands", "aria-pressed": "false", onclick: () => {
+      const names = [...stage.robots.keys()];
+      const at = held && held[1] === mode ? names.indexOf(held[0]) + 1 : 0;
+      const name = names[at];
+      held = name === undefined ? null : [name, mode];
+      stage.hold(held?.[0] ?? null, mode);
+      for (const own of buttons) own.setAttribute("aria-pressed", String(held !== null && own === button));
+    } }, mode === "translate" ? "Drag TCP" : "Turn TCP");
+    return button;
+  });
+  link.on("scene", () => {
+    held = null;
+    for (const own of buttons) own.setAttribute("aria-pressed", "false");
+  });
+  let why = "";
+  stage.onwanted = async (robot, position, orientation) => {
+    const asked: JogTo = { do: "jog-to", group: robot.group.name, position, orientation };
+    try {
+      await link.ask(asked);
+      why = "";
+    } catch (fault) {
+      // While it is dragged the same reason comes again and again.
+      if (why !== (fault as Error).message) view.notice(why = (fault as Error).message, "fault");
+    }
+  };
+  return buttons;
+}
 if (stage) {
   const names: [ViewName, string][] = [["fit", "Fit"], ["front", "Front"], ["side", "Side"], ["top", "Top"]];
   const views = names.map(([name, text]) =>
     h("button", { type: "button", onclick: () => stage.look(name) }, text));
   const trail = h("button", { type: "button", onclick: () => stage.clearTrails() }, "Clear trail");
-  space.append(stage.element, h("div", { class: "views", role: "group", "aria-label": "View" }, ...views, trail));
+  const gap = (): HTMLElement => h("span", { class: "gap" });
+  const layers = (["targets", "frames", "ghost"] as const).map((name) => {
+    const button: HTMLButtonElement = h("button", { type: "button", "aria-pressed": "true", onclick: () => {
+      const shown = button.getAttribute("aria-pressed") !== "true";
+      button.setAttribute("aria-pressed", String(shown));
+      stage.layer(name, shown);
+    } }, name[0]?.toUpperCase() + name.slice(1));
+    return button;
+  });
+  const amiss = h("details", { class: "amiss", hidden: true });
+  stage.onfault = () => {
+    const list = stage.faults.map((why) => h("li", {}, why));
+    amiss.hidden = !list.length;
+    amiss.replaceChildren(h("summary", {}, `Not drawn as described: ${list.length}`), h("ul", {}, ...list));
+  };
+  space.append(stage.element, amiss, h("div", { class: "views", role: "group", "aria-label": "View" },
+    ...views, gap(), ...layers, gap(), trail, gap(), ...grips(stage)), stage.labels.element);
   new ResizeObserver(() => stage.resize(space.clientWidth, space.clientHeight)).observe(space);
 } else {
   space.append(h("p", { class: "without" },
@@ -120,6 +169,7 @@ link.on("positions", (now) => {
   stage?.show(now);
   showTime(now.time);
 });
+link.on("targets", ({ targets }) => stage?.aim(targets));
 link.on("panel", (now) => {
   panel = now;
   showStatus(now);

@@ -6,6 +6,13 @@ export interface Act {
   readonly action: "e-stop" | "reset-e-stop" | "motors-on" | "motors-off" | "start" | "stop" | "pp-to-main" | "power-loss";
 }
 
+/** Let a connection be slow, silent and so on from now on. */
+export interface Afflict {
+  readonly do: "afflict";
+  readonly number: number;
+  readonly ailment: "well" | "delay" | "split" | "slow" | "silent" | "half-open";
+}
+
 /** All signals. */
 export interface AllSignals {
   readonly type: "signals";
@@ -40,6 +47,15 @@ export interface Axis {
 export interface Connections {
   readonly type: "connections";
   readonly sockets: readonly ShownSocket[];
+}
+
+/** What sockets said, oldest first; only while somebody listens. */
+export interface Conversation {
+  readonly type: "conversation";
+  readonly listening: boolean;
+  readonly lines: readonly SpokenLine[];
+  readonly missed: number;
+  readonly fresh: boolean;
 }
 
 /** Where a robot is, as text for a program; it is the reply's. */
@@ -129,7 +145,7 @@ export interface ForgetTrajectory {
 /** A request and the number that its reply will have. */
 export interface FromPage {
   readonly id: number;
-  readonly request: Act | SetMode | SetOverride | SetPace | AnswerQuestion | Jog | Copy | SetSignal | Cut | ReadSource | SetBreakpoint | RemoveBreakpoint | Proceed | RunTo | StopOnErrors | LookAt | Evaluate | Assign | SetWatch | Cover | Seek | Play | ReadCurves | DropTrajectory | RunTrajectory | ForgetTrajectory;
+  readonly request: Act | SetMode | SetOverride | SetPace | AnswerQuestion | Jog | JogTo | Copy | SetSignal | Cut | Afflict | Listen | ReadSource | SetBreakpoint | RemoveBreakpoint | Proceed | RunTo | RunFor | StopOnErrors | LookAt | Evaluate | Assign | SetWatch | Cover | Seek | Play | ReadCurves | DropTrajectory | RunTrajectory | ForgetTrajectory;
 }
 
 /** What the routine that is looked at holds, and the watch list. */
@@ -146,6 +162,20 @@ export interface Jog {
   readonly do: "jog";
   readonly group: string;
   readonly axes: readonly number[];
+}
+
+/** Put a standing robot where its TCP is at a place (of its world), on the same branch. */
+export interface JogTo {
+  readonly do: "jog-to";
+  readonly group: string;
+  readonly position: readonly [number, number, number];
+  readonly orientation: readonly [number, number, number, number];
+}
+
+/** Tell what sockets say from now on, or no more. */
+export interface Listen {
+  readonly do: "listen";
+  readonly on: boolean;
 }
 
 /** Modules of a task. A text that two tasks share has one number. */
@@ -285,6 +315,12 @@ export interface RobotPlace {
   readonly standing: boolean;
 }
 
+/** Go on for so many seconds of the controller's time. */
+export interface RunFor {
+  readonly do: "run-for";
+  readonly seconds: number;
+}
+
 /** Go on to a line. */
 export interface RunTo {
   readonly do: "run-to";
@@ -305,6 +341,8 @@ export interface Scene {
   readonly kind: "simulation" | "robot" | "recording";
   readonly may_command: boolean;
   readonly groups: readonly SeenRobot[];
+  readonly things: readonly SeenThing[];
+  readonly faults: readonly string[];
 }
 
 /** Rows of the operator window. */
@@ -334,10 +372,11 @@ export interface SeenBreakpoint {
 
 /** Why everything is paused. */
 export interface SeenHalt {
-  readonly reason: "breakpoint" | "step" | "cursor" | "error" | "pause";
+  readonly reason: "breakpoint" | "step" | "cursor" | "error" | "pause" | "time";
   readonly task: string;
   readonly place: SeenPlace | null;
   readonly text: string;
+  readonly time: number;
 }
 
 /** Where in a program. `made` is the template's line of a generated one. */
@@ -349,7 +388,7 @@ export interface SeenPlace {
   readonly level: "program" | "trap" | "event";
 }
 
-/** A robot. `urdf` is its description, whose meshes are paths of this server. */
+/** A robot. `urdf` is its description; its meshes are names on this server, empty for one that is not to be had. */
 export interface SeenRobot {
   readonly name: string;
   readonly task: string;
@@ -362,12 +401,29 @@ export interface SeenRobot {
   readonly base: Pose;
 }
 
+/** Where a move of a program goes: the TCP, in the world. */
+export interface SeenTarget {
+  readonly group: string;
+  readonly name: string;
+  readonly module: string;
+  readonly line: number;
+  readonly pose: Pose;
+}
+
 /** A task: what it executes, outermost routine first, and what its robot executes. */
 export interface SeenTask {
   readonly name: string;
   readonly state: string;
   readonly stack: readonly SeenPlace[];
   readonly motion: SeenPlace | null;
+}
+
+/** A mesh of the cell, by its name on this server. */
+export interface SeenThing {
+  readonly name: string;
+  readonly mesh: string;
+  readonly scale: number;
+  readonly pose: Pose;
 }
 
 /** A value in RAPID's own words. */
@@ -401,7 +457,7 @@ export interface SetOverride {
   readonly value: number;
 }
 
-/** Simulated seconds in a second; 0 lets time stand. */
+/** Simulated seconds in a second. That it stands is the debugger's business (Proceed). */
 export interface SetPace {
   readonly do: "pace";
   readonly value: number;
@@ -436,6 +492,7 @@ export interface ShownSocket {
   readonly status: string;
   readonly local: string;
   readonly peer: string;
+  readonly ailment: "well" | "delay" | "split" | "slow" | "silent" | "half-open";
 }
 
 /** AllSignals that have changed. */
@@ -444,10 +501,28 @@ export interface SignalValues {
   readonly values: Readonly<Record<string, number>>;
 }
 
+/** A frame of simple_message, or bytes that are none; `way` is seen from the program. */
+export interface SpokenLine {
+  readonly time: number;
+  readonly way: "open" | "in" | "out" | "close";
+  readonly task: string;
+  readonly local: string;
+  readonly peer: string;
+  readonly name: string;
+  readonly text: string;
+  readonly fault: boolean;
+}
+
 /** At which errors everything pauses. */
 export interface StopOnErrors {
   readonly do: "errors";
   readonly errors: "never" | "unhandled" | "all";
+}
+
+/** What the moves of the loaded programs go to. */
+export interface Targets {
+  readonly type: "targets";
+  readonly targets: readonly SeenTarget[];
 }
 
 /** What is wrong or doubtful; `point` counts from 0, None: it is of no point. */
@@ -460,6 +535,6 @@ export interface TrajectoryFinding {
   readonly point: number | null;
 }
 
-export type ToPage = AllSignals | Connections | Covered | Debugging | Dialogs | DroppedTrajectory | HeldValues | LoadedPrograms | Log | PanelState | Playback | Pointers | Positions | Replied | Scene | Screen | SignalValues;
+export type ToPage = AllSignals | Connections | Conversation | Covered | Debugging | Dialogs | DroppedTrajectory | HeldValues | LoadedPrograms | Log | PanelState | Playback | Pointers | Positions | Replied | Scene | Screen | SignalValues | Targets;
 
-export type Request = Act | AnswerQuestion | Assign | Copy | Cover | Cut | DropTrajectory | Evaluate | ForgetTrajectory | Jog | LookAt | Play | Proceed | ReadCurves | ReadSource | RemoveBreakpoint | RunTo | RunTrajectory | Seek | SetBreakpoint | SetMode | SetOverride | SetPace | SetSignal | SetWatch | StopOnErrors;
+export type Request = Act | Afflict | AnswerQuestion | Assign | Copy | Cover | Cut | DropTrajectory | Evaluate | ForgetTrajectory | Jog | JogTo | Listen | LookAt | Play | Proceed | ReadCurves | ReadSource | RemoveBreakpoint | RunFor | RunTo | RunTrajectory | Seek | SetBreakpoint | SetMode | SetOverride | SetPace | SetSignal | SetWatch | StopOnErrors;

@@ -23,14 +23,23 @@ class RobotAxes {
   readonly element: HTMLElement;
   private readonly rows: AxisRow[];
   private readonly pose = h("output", { class: "pose" });
+  private readonly place: HTMLInputElement[];
   private state: RobotPlace | undefined;
 
   constructor(private readonly group: SeenRobot, commands: boolean, private readonly view: View) {
     this.rows = group.axes.map((axis, i) => new AxisRow(axis, commands, (value) => this.jog(i, value)));
     const buttons = FORMS.map(([form, name]) =>
       h("button", { type: "button", onclick: () => void this.copy(form, name) }, name));
+    const numbers = ["x", "y", "z"].map((name, i) => {
+      const input: HTMLInputElement = h("input", { type: "number", step: 1, "aria-label": `TCP ${name} of ${group.name} in mm`,
+        onchange: () => this.jogTo(i, Number(input.value) / 1000) });
+      return input;
+    });
+    this.place = numbers;
     this.element = h("section", {}, h("h2", {}, `${group.name} · ${group.task}`),
       h("div", { class: "axes" }, ...this.rows.map((row) => row.element)), this.pose,
+      h("div", { class: "row commands place", hidden: !commands || !group.has_geometry },
+        h("span", { class: "label" }, "TCP to"), ...numbers, h("span", { class: "label" }, "mm")),
       h("div", { class: "row" }, h("span", { class: "label" }, "Copy as"), ...buttons));
   }
 
@@ -41,7 +50,18 @@ class RobotAxes {
     if (state.tcp) {
       const [x, y, z] = state.tcp.position.map((value) => (value * 1000).toFixed(1));
       say(this.pose, `TCP  x ${x}  y ${y}  z ${z} mm`);
+      [x, y, z].forEach((value, i) => {
+        const input = this.place[i];
+        if (input && document.activeElement !== input) input.value = value ?? "";
+      });
     }
+  }
+
+  private jogTo(index: number, value: number): void {
+    const tcp = this.state?.tcp;
+    if (!tcp) return;
+    const position = tcp.position.map((own, i) => (i === index ? value : own)) as [number, number, number];
+    this.view.order({ do: "jog-to", group: this.group.name, position, orientation: tcp.orientation });
   }
 
   private jog(index: number, value: number): void {

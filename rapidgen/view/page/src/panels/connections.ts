@@ -1,26 +1,106 @@
-// Who is connected, and what goes wrong at a click.
+// The network: who is connected, what is said, and what goes wrong at a click.
 
-import { h, section } from "../dom";
-import type { Act } from "../messages";
-import type { MakePanel } from "../panel";
+import { h, say, section } from "../dom";
+import type { Act, Afflict, ShownSocket, SpokenLine } from "../messages";
+import type { MakePanel, View } from "../panel";
 
 const FAULTS: readonly (readonly [Act["action"], string])[] =
   [["e-stop", "Emergency stop"], ["motors-off", "Motors off"], ["stop", "Program stop"], ["power-loss", "Power failure"]];
+const AILMENTS: readonly (readonly [Afflict["ailment"], string])[] = [["well", "well"], ["delay", "0.5 s late"],
+  ["split", "in pieces"], ["slow", "slow (400 B/s)"], ["silent", "silent"], ["half-open", "half open"]];
+const WAYS = { open: "·", in: "→", out: "←", close: "·" } as const;
+const MOST = 1000; // lines that are kept
 
-export const connectionsPanel: MakePanel = ({ link, order }) => {
+export const connectionsPanel: MakePanel = (view) => {
   const body = h("tbody", {});
-  link.on("connections", ({ sockets }) => {
-    body.replaceChildren(...sockets.map((socket) => h("tr", {},
-      h("th", { scope: "row" }, socket.peer || `${socket.status} on ${socket.local}`,
-        h("small", {}, `${socket.task}${socket.peer ? ` · ${socket.local}` : ""}`)),
-      h("td", {}, socket.peer
-        ? h("button", { type: "button", class: "commands", onclick: () => order({ do: "cut", number: socket.number }) }, "Cut")
-        : null))));
-  });
+  view.link.on("connections", ({ sockets }) => body.replaceChildren(...sockets.map((socket) => row(socket, view))));
   const faults = FAULTS.map(([action, text]) =>
-    h("button", { type: "button", onclick: () => order({ do: "act", action }) }, text));
+    h("button", { type: "button", onclick: () => view.order({ do: "act", action }) }, text));
+  const log = new ProtocolLog(view);
   const element = h("div", { class: "panel" },
     section("Sockets of the program", h("table", { class: "sockets" }, body)),
-    h("div", { class: "commands" }, section("Let something go wrong", h("div", { class: "row" }, ...faults))));
-  return { id: "connections", title: "Network", element, kinds: ["simulation"] };
+    h("div", { class: "commands" }, section("Let something go wrong", h("div", { class: "row" }, ...faults))),
+    log.element);
+  return {
+    id: "connections", title: "Network", element, kinds: ["simulation", "recording"],
+    shown: (visible) => document.body.classList.toggle("talking", visible),
+  };
 };
+
+function row(socket: ShownSocket, { order }: View): HTMLElement {
+  const ill: HTMLSelectElement = h("select", { "aria-label": `How ${socket.peer} fares`,
+    onchange: () => order({ do: "afflict", number: socket.number, ailment: ill.value as Afflict["ailment"] }) },
+    ...AILMENTS.map(([value, text]) => h("option", { value, selected: value === socket.ailment }, text)));
+  return h("tr", {},
+    h("th", { scope: "row" }, socket.peer || `${socket.status} on ${socket.local}`,
+      h("small", {}, `${socket.task}${socket.peer ? ` · ${socket.local}` : ""}`)),
+    h("td", {}, socket.peer ? h("div", { class: "row commands" }, ill,
+      h("button", { type: "button", onclick: () => order({ do: "cut", number: socket.number }) }, "Cut")) : null));
+}
+
+interface Row {
+  line: SpokenLine;
+  count: number;
+}
+
+class ProtocolLog {
+  readonly element: HTMLElement;
+  private lines: SpokenLine[] = [];
+  private missed = 0;
+  private readonly listen: HTMLInputElement;
+  private readonly words = h("input", { type: "search", placeholder: "Filter", "aria-label": "Filter what was said",
+    oninput: () => this.draw() });
+  private readonly still = h("input", { type: "checkbox" });
+  private readonly list = h("ol", { class: "log said", "aria-label": "Protocol log", tabindex: 0 });
+  private readonly about = h("p", { class: "soft", role: "status" });
+
+  constructor(view: View) {
+    this.listen = h("input", { type: "checkbox", onchange: () => view.order({ do: "listen", on: this.listen.checked }) });
+    this.element = section("What is said",
+      h("div", { class: "row" }, h("label", { class: "row" }, this.listen, "Listen"),
+        h("label", { class: "row" }, this.still, "Hold the list"), this.words,
+        h("button", { type: "button", onclick: () => this.clear() }, "Clear")),
+      this.about, this.list);
+    view.link.on("conversation", ({ listening, lines, missed, fresh }) => {
+      this.listen.checked = listening;
+      this.lines = [...(fresh ? [] : this.lines), ...lines].slice(-MOST);
+      this.missed = fresh ? 0 : this.missed + (missed ?? 0);
+      if (!this.still.checked) this.draw();
+    });
+  }
+
+  private clear(): void {
+    this.lines = [];
+    this.missed = 0;
+    this.draw();
+  }
+
+  /** The latest first; what comes again and again is one row. */
+  private draw(): void {
+    const wanted = this.words.value.trim().toLowerCase();
+    const rows: Row[] = [];
+    const runs = new Map<string, { way: string; rows: Map<string, Row> }>();
+    for (const line of this.lines) {
+      if (wanted && !`${line.name} ${line.text} ${line.task} ${line.peer}`.toLowerCase().includes(wanted)) continue;
+      const who = `${line.task} ${line.peer}`;
+      let run = runs.get(who);
+      if (!run || run.way !== line.way || !line.name) runs.set(who, run = { way: line.way, rows: new Map() });
+      const same = run.rows.get(line.name);
+      if (same) {
+        same.line = line;
+        same.count += 1;
+      } else {
+        const row = { line, count: 1 };
+        run.rows.set(line.name, row);
+        rows.push(row);
+      }
+    }
+    rows.sort((a, b) => b.line.time - a.line.time);
+    this.list.replaceChildren(...rows.slice(0, 200).map(({ line, count }) => h("li", { "data-kind": line.fault ? "error" : "info" },
+      h("div", { class: "event" }, h("code", {}, line.time.toFixed(3)),
+        h("span", {}, `${WAYS[line.way]} ${line.name || (line.way === "in" || line.way === "out" ? "bytes" : line.text)}${count > 1 ? ` ×${count}` : ""}`),
+        h("small", {}, `${line.task} ${line.way === "out" ? "to" : "from"} ${line.peer}`)),
+      line.way === "in" || line.way === "out" ? h("p", {}, line.text) : null)));
+    say(this.about, this.missed ? `${this.missed} pieces came too fast to be shown.` : "");
+  }
+}

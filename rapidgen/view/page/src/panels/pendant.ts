@@ -4,6 +4,7 @@ import { Choice, h, say, section } from "../dom";
 import type { Act, Dialog, PanelState } from "../messages";
 import type { MakePanel } from "../panel";
 
+const STEPS = [[0.004, "4 ms"], [0.024, "24 ms"], [0.1, "0.1 s"], [1, "1 s"]] as const;
 const PACES = [0.1, 0.25, 0.5, 1, 2, 5, 10, 50, 100];
 
 export const pendantPanel: MakePanel = ({ link, order }) => {
@@ -27,11 +28,21 @@ export const pendantPanel: MakePanel = ({ link, order }) => {
   speed.addEventListener("change", () => order({ do: "override", value: Number(speed.value) / 100 }));
   speed.addEventListener("input", () => say(speedText, `${speed.value} %`));
 
-  const pause = h("button", { type: "button" }, "Pause");
-  const pace = h("select", { id: "pace" },
+  // One way of standing still: the debugger's. The robot stands in the middle of its move, nothing stops.
+  let held = false;
+  const pause = h("button", { type: "button",
+    onclick: () => order({ do: "drive", how: held ? "resume" : "pause", task: "" }) }, "Pause");
+  const length = h("select", { "aria-label": "Length of a time step" },
+    ...STEPS.map(([value, text]) => h("option", { value }, text)));
+  const step = h("button", { type: "button", disabled: true, title: "Go on for so long, then pause",
+    onclick: () => order({ do: "run-for", seconds: Number(length.value) }) }, "Time step");
+  link.on("debugging", ({ halt }) => {
+    held = halt !== null;
+    say(pause, held ? "Go on" : "Pause");
+    step.disabled = !held;
+  });
+  const pace = h("select", { id: "pace", "aria-label": "Pace of time" },
     ...PACES.map((value) => h("option", { value, selected: value === 1 }, `${value} ×`)));
-  pause.addEventListener("click", () =>
-    order({ do: "pace", value: status?.pace ? 0 : Number(pace.value) }));
   pace.addEventListener("change", () => order({ do: "pace", value: Number(pace.value) }));
 
   const tasks = h("tbody", {});
@@ -46,7 +57,6 @@ export const pendantPanel: MakePanel = ({ link, order }) => {
     motors.show(now.motors_on === null ? null : now.motors_on ? "motors-on" : "motors-off");
     if (document.activeElement !== speed) speed.value = String(Math.round((now.override ?? 1) * 100));
     say(speedText, `${speed.value} %`);
-    say(pause, now.pace ? "Pause" : "Go on");
     if (now.pace) pace.value = String(PACES.find((value) => value >= (now.pace ?? 1)) ?? 100);
     tasks.replaceChildren(...Object.entries(now.tasks).map(([name, word]) =>
       h("tr", {}, h("th", { scope: "row" }, name), h("td", { "data-state": word }, word))));
@@ -65,7 +75,7 @@ export const pendantPanel: MakePanel = ({ link, order }) => {
     section("Program", h("div", { class: "row" },
       button("Start", "start", "primary"), button("Stop", "stop"), button("PP to main", "pp-to-main"))),
     section("Speed", h("label", { class: "row", for: "speed" }, speed, speedText)),
-    section("Time", h("div", { class: "row" }, pause, pace)),
+    section("Time", h("div", { class: "row" }, pause, pace, step, length)),
     section("Operator window", rows),
     section("Tasks", h("table", {}, tasks)),
   );

@@ -6,7 +6,7 @@ import type { MakePanel, View } from "../panel";
 import { SourceEditor } from "../program/editor";
 import { Sources } from "../program/sources";
 
-const REASONS = { breakpoint: "At a breakpoint", step: "Stepped", cursor: "At the cursor", error: "Error", pause: "Paused" };
+const REASONS = { breakpoint: "At a breakpoint", step: "Stepped", cursor: "At the cursor", error: "Error", pause: "Paused", time: "Paused after a time step" };
 const KEYS: Record<string, Proceed["how"]> = { F5: "resume", F6: "pause", F10: "over", F11: "in" };
 
 export const programPanel: MakePanel = (view) => new ProgramPanel(view);
@@ -122,8 +122,8 @@ class ProgramPanel {
   }
 
   /** For tests: what the editor shows. */
-  get seen(): SourceEditor["seen"] & { module: string } {
-    return { ...this.editor.seen, module: this.module };
+  get seen(): SourceEditor["seen"] & { module: string; halted: number | null } {
+    return { ...this.editor.seen, module: this.module, halted: this.debugging?.halt?.time ?? null };
   }
 
   private drive(how: Proceed["how"]): void {

@@ -1,8 +1,10 @@
 // One robot in space: its links, its TCP with a trail, and the ghost that is ahead of it.
 
 import * as THREE from "three";
-import URDFLoader, { type URDFRobot } from "urdf-loader";
+import type { URDFRobot } from "urdf-loader";
 import type { SeenRobot, RobotPlace, Pose } from "../messages";
+import { Body } from "./body";
+import type { Meshes } from "./meshes";
 import { nearness } from "./nearness";
 import type { Palette } from "./palette";
 import { Trail } from "./trail";
@@ -12,79 +14,56 @@ const AHEAD = 2e-3; // rad or m: the ghost is shown where it differs by more
 export class Robot {
   readonly root = new THREE.Group();
   readonly tcp = new THREE.Group();
+  readonly object = new THREE.Group();
   readonly trail: Trail;
-  private readonly body: URDFRobot;
-  private readonly ghost: URDFRobot;
-  private readonly housings = new Map<string, THREE.MeshLambertMaterial>();
-  private readonly skin: THREE.MeshLambertMaterial;
+  readonly ready: Promise<boolean>;
+  private readonly body: Body;
+  private readonly ghost: Body;
   private readonly shade: THREE.MeshLambertMaterial;
   ghosted = true;
+  framed = true;
   state: RobotPlace | null = null;
 
-  constructor(
-    readonly group: SeenRobot,
-    private readonly palette: Palette,
-    changed: () => void,
-  ) {
-    this.skin = new THREE.MeshLambertMaterial({ color: palette.body });
+  constructor(readonly group: SeenRobot, private readonly palette: Palette, meshes: Meshes) {
     this.shade = new THREE.MeshLambertMaterial({
       color: palette.accent, transparent: true, opacity: 0.22, depthWrite: false,
     });
-    this.body = this.described(changed);
-    this.ghost = this.described(changed);
-    this.ghost.traverse((part) => {
-      if (part instanceof THREE.Mesh) part.material = this.shade;
-    });
-    this.ghost.visible = false;
-    this.dress();
+    this.body = new Body(group.urdf, meshes, palette);
+    this.ghost = new Body(group.urdf, meshes, palette, this.shade);
+    this.ghost.urdf.visible = false;
+    this.ready = Promise.all([this.body.ready, this.ghost.ready]).then(([meshes]) => meshes);
     this.trail = new Trail(palette);
     this.tcp.add(axes(0.09, palette));
-    const flange = this.body.links[group.flange] ?? this.body;
+    this.object.add(axes(0.16, palette));
+    this.object.visible = false;
+    const flange = this.body.urdf.links[group.flange] ?? this.body.urdf;
     flange.add(this.tcp);
     place(this.root, group.base);
-    this.root.add(this.body, this.ghost, this.trail.line);
-  }
-
-  private described(changed: () => void): URDFRobot {
-    const manager = new THREE.LoadingManager(changed);
-    const loader = new URDFLoader(manager);
-    loader.parseCollision = false;
-    return loader.parse(this.group.urdf);
-  }
-
-  /** Own materials for what has none of its own; a housing is coloured by its axis' limits. */
-  private dress(): void {
-    for (const [name, link] of Object.entries(this.body.links)) {
-      const housing = new THREE.MeshLambertMaterial({ color: this.palette.housing });
-      for (const part of own(link)) {
-        const plain = (part.material as THREE.Material).name;
-        if (plain !== "body" && plain !== "housing") continue;
-        part.material = plain === "body" ? this.skin : housing;
-      }
-      this.housings.set(name, housing);
-    }
+    this.root.add(this.body.urdf, this.ghost.urdf, this.trail.line, this.object);
   }
 
   /** Hide the links, not what they carry. */
   bare(alone: boolean): void {
-    for (const material of [this.skin, ...this.housings.values()]) material.visible = !alone;
+    this.body.bare(alone);
   }
 
   /** New colours. */
   paint(): void {
-    this.skin.color.set(this.palette.body);
+    this.body.paint();
     this.shade.color.set(this.palette.accent);
     this.trail.paint();
-    if (this.state) this.warn(this.state);
   }
 
   show(state: RobotPlace): void {
     this.state = state;
-    this.set(this.body, state.joints);
+    this.set(this.body.urdf, state.joints);
     const ahead = state.commanded.some((value, i) => Math.abs(value - (state.joints[i] ?? 0)) > AHEAD);
-    this.ghost.visible = ahead && this.ghosted;
-    if (this.ghost.visible) this.set(this.ghost, state.commanded);
+    this.ghost.urdf.visible = ahead && this.ghosted;
+    if (this.ghost.urdf.visible) this.set(this.ghost.urdf, state.commanded);
     if (state.tool_held) place(this.tcp, state.tool);
+    place(this.object, state.work_object);
+    // That of the world is where the robot's own is.
+    this.object.visible = this.framed && !isHome(state.work_object);
     this.warn(state);
     this.root.updateMatrixWorld(true);
     this.trail.add(this.root.worldToLocal(this.tcp.getWorldPosition(new THREE.Vector3())));
@@ -95,20 +74,30 @@ export class Robot {
   }
 
   private warn(state: RobotPlace): void {
+    let changed = false;
     this.group.axes.forEach((axis, i) => {
-      const joint = this.body.joints[axis.name];
+      const joint = this.body.urdf.joints[axis.name];
       const link = joint?.children.find((child) => "isURDFLink" in child);
-      const housing = link && this.housings.get(link.name);
-      housing?.color.set(this.palette[nearness(axis, state.axes[i] ?? 0)]);
+      if (link && this.body.warn(link.name, nearness(axis, state.axes[i] ?? 0))) changed = true;
     });
+    if (changed) this.body.paint();
   }
 
   /** Pose of each link in the world: 16 numbers, column by column. */
   poses(): Record<string, number[]> {
     this.root.updateMatrixWorld(true);
     return Object.fromEntries(
-      Object.entries(this.body.links).map(([name, link]) => [name, link.matrixWorld.toArray()]),
+      Object.entries(this.body.urdf.links).map(([name, link]) => [name, link.matrixWorld.toArray()]),
     );
+  }
+
+  /** For tests: corners, lowest and highest point of each shape of a link, in the link's frame. */
+  parts(): Record<string, [number, number[], number[]][]> {
+    return this.body.parts();
+  }
+
+  colours(link: string): string[] {
+    return this.body.colours(link);
   }
 
   dispose(): void {
@@ -119,13 +108,8 @@ export class Robot {
   }
 }
 
-function* own(link: THREE.Object3D): Generator<THREE.Mesh> {
-  for (const child of link.children) {
-    if ("isURDFJoint" in child || "isURDFLink" in child) continue;
-    if (child instanceof THREE.Mesh) yield child;
-    yield* own(child);
-  }
-}
+const isHome = ({ position, orientation }: Pose): boolean =>
+  Math.hypot(...position) < 1e-9 && Math.abs(orientation[0]) > 1 - 1e-12;
 
 export function place(object: THREE.Object3D, pose: Pose): void {
   const [w, x, y, z] = pose.orientation;

@@ -2,9 +2,13 @@
 
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
-import type { Scene, Positions } from "../messages";
+import type { Scene, Positions, SeenTarget } from "../messages";
+import { Grip, type GripMode, type Wanted } from "./grip";
+import { Labels } from "./labels";
+import { Meshes } from "./meshes";
 import { palette } from "./palette";
-import { axes, Robot } from "./robot";
+import { axes, place, Robot } from "./robot";
+import { TargetMarks } from "./targets";
 import { drawnWay } from "./way";
 
 export type ViewName = "fit" | "front" | "side" | "top";
@@ -24,6 +28,19 @@ export class Stage {
   private readonly palette = palette();
   private readonly floor = new THREE.Group();
   private readonly way = new THREE.Group();
+  readonly things = new THREE.Group();
+  readonly labels = new Labels();
+  private targets: readonly SeenTarget[] = [];
+  private marks: TargetMarks[] = [];
+  private readonly layers = { targets: true, frames: true, ghost: true };
+  private readonly grip: Grip;
+  /** Carries out what is dragged. */
+  onwanted: Wanted = () => Promise.resolve();
+  private readonly meshes = new Meshes((why) => { this.faults.push(why); this.onfault(); });
+  /** What does not look as its description says; `onfault` hears when there is more. */
+  faults: string[] = [];
+  onfault = (): void => undefined;
+  private touched = false;
   private due = false;
   private time = 0;
 
@@ -39,9 +56,12 @@ export class Stage {
     this.controls = new OrbitControls(this.camera, this.element);
     this.controls.listenToKeyEvents(this.element);
     this.controls.addEventListener("change", () => this.draw());
+    this.controls.addEventListener("start", () => { this.touched = true; });
+    this.grip = new Grip(this.camera, this.element, this.space,
+      (...wanted) => this.onwanted(...wanted), () => this.draw(), (free) => { this.controls.enabled = free; });
     const sun = new THREE.DirectionalLight("#ffffff", 1.9);
     sun.position.set(2, -3, 4);
-    this.space.add(new THREE.HemisphereLight("#ffffff", "#8a9096", 1.6), sun, this.floor, this.way);
+    this.space.add(new THREE.HemisphereLight("#ffffff", "#8a9096", 1.6), sun, this.floor, this.way, this.things);
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.paint());
     this.paint();
   }
@@ -55,6 +75,7 @@ export class Stage {
     grid.rotation.x = Math.PI / 2;
     this.floor.add(grid, axes(0.18, this.palette));
     for (const robot of this.robots.values()) robot.paint();
+    this.aim(this.targets);
     this.draw();
   }
 
@@ -71,12 +92,37 @@ export class Stage {
   build(scene: Scene): void {
     for (const robot of this.robots.values()) robot.dispose();
     this.robots.clear();
+    this.grip.take(null);
+    this.faults = [...scene.faults];
+    this.onfault();
     for (const group of scene.groups) {
-      const robot = new Robot(group, this.palette, () => this.draw());
+      const robot = new Robot(group, this.palette, this.meshes);
       this.robots.set(group.name, robot);
       this.space.add(robot.root);
     }
+    this.things.clear();
+    const coming = scene.things.map(async (thing) => {
+      const mesh = await this.meshes.load(thing.mesh);
+      if (!mesh) return false;
+      const stand = new THREE.Group();
+      place(stand, thing.pose);
+      mesh.scale.multiplyScalar(thing.scale);
+      mesh.traverse((part) => {
+        const skin = part instanceof THREE.Mesh ? (part.material as THREE.MeshLambertMaterial) : null;
+        if (skin?.name === "body") skin.color.set("#9aa5ad");
+      });
+      stand.name = thing.name;
+      stand.add(mesh);
+      this.things.add(stand);
+      return true;
+    });
     this.look("fit");
+    // Meshes come later: what has been seen by then stays where somebody has turned it.
+    this.touched = false;
+    void Promise.all([...coming, ...[...this.robots.values()].map((robot) => robot.ready)]).then((came) => {
+      if (came.includes(true) && !this.touched) this.look("fit");
+      else this.draw();
+    });
   }
 
   show(state: Positions): void {
@@ -85,13 +131,14 @@ export class Stage {
       const own = state.groups[i];
       if (own) robot.show(own);
     });
+    this.grip.follow();
     this.draw();
   }
 
   /** Look at everything from one of the named sides. */
   look(name: ViewName): void {
     const box = new THREE.Box3();
-    for (const robot of this.robots.values()) box.expandByObject(robot.root);
+    for (const part of [...[...this.robots.values()].map((robot) => robot.root), this.things]) box.expandByObject(part);
     if (box.isEmpty()) box.set(new THREE.Vector3(-0.5, -0.5, 0), new THREE.Vector3(0.5, 0.5, 1));
     const ball = box.getBoundingSphere(new THREE.Sphere());
     const narrow = Math.min(1, this.camera.aspect);
@@ -114,6 +161,7 @@ export class Stage {
     requestAnimationFrame(() => {
       this.due = false;
       this.renderer.render(this.space, this.camera);
+      this.labels.draw(this.camera, this.element.clientWidth, this.element.clientHeight);
       this.drawn = { pictures: this.drawn.pictures + 1, time: this.time };
     });
   }
@@ -130,6 +178,59 @@ export class Stage {
     this.robots.get(group)?.root.add(this.way);
     for (const part of drawnWay(way, pace, marks, this.palette)) this.way.add(part);
     this.draw();
+  }
+
+  /** Draw where moves go. */
+  aim(targets: readonly SeenTarget[]): void {
+    this.targets = targets;
+    for (const marks of this.marks) marks.dispose();
+    this.marks = [];
+    for (const [name, robot] of this.robots) {
+      const own = targets.filter((target) => target.group === name);
+      if (!own.length) continue;
+      const marks = new TargetMarks(own, this.palette);
+      robot.root.add(marks.root);
+      this.marks.push(marks);
+    }
+    this.labels.set(this.marks.flatMap((marks) => marks.names()));
+    this.layer("targets", this.layers.targets);
+  }
+
+  /** Show or hide something. */
+  layer(name: keyof typeof this.layers, shown: boolean): void {
+    this.layers[name] = shown;
+    for (const marks of this.marks) marks.root.visible = this.layers.targets;
+    this.labels.element.hidden = !this.layers.targets;
+    for (const robot of this.robots.values()) {
+      robot.framed = this.layers.frames;
+      robot.tcp.visible = this.layers.frames;
+      robot.ghosted = this.layers.ghost;
+      if (robot.state) robot.show(robot.state);
+    }
+    this.draw();
+  }
+
+  /** A handle on a robot's TCP, by which it can be dragged; null: none. */
+  hold(name: string | null, mode: GripMode = "translate"): void {
+    this.grip.take(name === null ? null : this.robots.get(name) ?? null, mode);
+    this.draw();
+  }
+
+  /** For tests: the targets, and the handle's middle and its x arrow on the picture. */
+  aimed(): readonly SeenTarget[] {
+    return this.targets;
+  }
+
+  around(): Record<string, [number[], number[]]> {
+    return Object.fromEntries(this.things.children.map((thing) => {
+      const box = new THREE.Box3().setFromObject(thing);
+      return [thing.name, [box.min.toArray(), box.max.toArray()]];
+    }));
+  }
+
+  handle(): [number, number, [number, number]] {
+    const [middle, arrow] = this.grip.reach(this.camera);
+    return [...this.pixel(middle), this.pixel(arrow)];
   }
 
   /** Show markers alone, without the robots that are around them. */

@@ -1,0 +1,42 @@
+"""How the robots of a configuration look: the trees of their descriptions with what is drawn."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from rapidgen.config.assemble import assemble
+from rapidgen.config.layers import Overrides
+from rapidgen.config.urdf.expand import expand
+from rapidgen.config.urdf.graph import Graph, build_graph
+from rapidgen.config.urdf.group import request
+from rapidgen.config.urdf.robot import read_robot
+from rapidgen.config.urdf.visuals import Visual, visuals
+from rapidgen.config.validate import validate
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Tree:
+    """A description: its joints, and the visuals of its links by name."""
+
+    graph: Graph
+    visuals: Mapping[str, tuple[Visual, ...]]
+
+
+def trees(path: Path, overrides: Overrides = ()) -> dict[str, Tree]:
+    """Descriptions of a configuration that `load_config` takes, by group; groups that ask for the
+    same share one."""
+    assembly = assemble(path, overrides)
+    made: dict[str, Tree] = {}
+    found: dict[str, Tree] = {}
+    for name, keys in validate(assembly.root).configuration.groups.items():
+        if keys.urdf is None:
+            continue
+        wanted = request(keys.urdf, assembly.path.parent, (), None)
+        asked = repr((wanted.path, wanted.arguments, wanted.macro, wanted.macro_arguments))
+        if asked not in made:
+            description = expand(wanted)
+            graph, _ = build_graph(read_robot(description, None), None)
+            drawn = visuals(description, wanted.packages, assembly.path.parent)
+            made[asked] = Tree(graph, drawn)
+        found[name] = made[asked]
+    return found

@@ -1,0 +1,75 @@
+"""Where the chain of a configuration is in a description whose root may be another one.
+
+A configuration may take its chain from a known model and its looks from a description: of a YuMi,
+say, whose arms hang on one body. Both move alike, so for postures q with `D(q)` the description's
+last link and `K(q)` the chain's end there are a root X and a flange F with D(q) F = X K(q). Of two
+postures it follows that A X = X B, which is solved as in hand-eye calibration [Park & Martin 1994].
+"""
+
+import random
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rapidgen.axes import frames
+from rapidgen.axes.frames import Pose
+from rapidgen.axes.kinematics import Posture
+
+_POSTURES = 12
+_TURN = 0.4
+"""rad or m: how far joints are moved to see."""
+_SAME = 1e-3
+"""m and rad: by so much the two may differ."""
+_NEAR = 1e-6
+"""m and rad: roots that are one."""
+Matrix = NDArray[np.float64]
+
+
+def aligned(
+    description: Callable[[Posture], Pose], chain: Callable[[Posture], Pose], count: int
+) -> tuple[Pose, Pose] | None:
+    """X and F for `count` joints; None: the two do not move alike."""
+    chance = random.Random(1)
+    postures = [(0.0,) * count] + [
+        tuple(chance.uniform(-_TURN, _TURN) for _ in range(count)) for _ in range(_POSTURES)
+    ]
+    seen = [description(q) for q in postures]
+    meant = [chain(q) for q in postures]
+    root = frames.IDENTITY
+    flange = frames.within(seen[0], meant[0])
+    if not _holds(seen, meant, root, flange, _NEAR):
+        root = _root(seen, meant)
+        flange = frames.within(seen[0], frames.compose(root, meant[0]))
+    return (root, flange) if _holds(seen, meant, root, flange, _SAME) else None
+
+
+def _holds(seen: list[Pose], meant: list[Pose], root: Pose, flange: Pose, within: float) -> bool:
+    return all(
+        max(map(abs, frames.error(frames.compose(d, flange), frames.compose(root, k)))) < within
+        for d, k in zip(seen, meant, strict=True)
+    )
+
+
+def _root(seen: list[Pose], meant: list[Pose]) -> Pose:
+    """X of A X = X B: the rotation that fits the turns' axes, then the place."""
+    moved = [
+        (frames.compose(d, frames.invert(seen[0])), frames.compose(k, frames.invert(meant[0])))
+        for d, k in zip(seen[1:], meant[1:], strict=True)
+    ]
+    there, here = (np.array([_turn(pair[i]) for pair in moved]) for i in (0, 1))
+    left, _, right = np.linalg.svd(there.T @ here)
+    mirror = np.diag([1.0, 1.0, float(np.sign(np.linalg.det(left @ right)))])
+    rotation: Matrix = left @ mirror @ right
+    # (R_A - 1) x = R_X t_B - t_A
+    rows = np.concatenate([np.array(frames.to_matrix(a[1])) - np.eye(3) for a, _ in moved])
+    values = np.concatenate([rotation @ b[0] - a[0] for a, b in moved])
+    x, y, z = np.linalg.lstsq(rows, values, rcond=1e-9)[0].tolist()
+    r = rotation.tolist()
+    matrix = tuple((row[0], row[1], row[2]) for row in r)
+    return (x, y, z), frames.from_matrix((matrix[0], matrix[1], matrix[2]))
+
+
+def _turn(pose: Pose) -> list[float]:
+    axis, angle = frames.to_axis(pose[1])
+    return [value * angle for value in axis]

@@ -1,0 +1,81 @@
+// A handle on the TCP of a robot: where it is dragged to, the robot is asked to go.
+
+import * as THREE from "three";
+import { TransformControls } from "three/addons/controls/TransformControls.js";
+import type { Robot } from "./robot";
+
+const SIZE = 0.75;
+export type GripMode = "translate" | "rotate";
+/** Asks for a TCP in the robot's world; resolves when that has been carried out or refused. */
+export type Wanted = (robot: Robot, position: [number, number, number], orientation: [number, number, number, number]) => Promise<void>;
+
+export class Grip {
+  private readonly controls: TransformControls;
+  private readonly handle = new THREE.Object3D();
+  private robot: Robot | null = null;
+  private asked = false;
+  private again = false;
+  held = false;
+
+  constructor(camera: THREE.Camera, element: HTMLElement, space: THREE.Scene,
+    private readonly wanted: Wanted, changed: () => void, turning: (free: boolean) => void) {
+    this.controls = new TransformControls(camera, element);
+    this.controls.setSize(SIZE);
+    this.controls.setSpace("local");
+    space.add(this.handle, this.controls.getHelper());
+    this.controls.addEventListener("change", changed);
+    this.controls.addEventListener("dragging-changed", (event) => {
+      this.held = event.value === true;
+      turning(!this.held);
+      if (!this.held) this.follow();
+    });
+    this.controls.addEventListener("objectChange", () => void this.ask());
+  }
+
+  /** Take a robot's TCP, or none. */
+  take(robot: Robot | null, mode: GripMode = "translate"): void {
+    this.robot = robot;
+    if (!robot) return void this.controls.detach();
+    this.controls.setMode(mode);
+    this.controls.attach(this.handle);
+    this.follow();
+  }
+
+  /** Be where the TCP is, unless somebody drags. */
+  follow(): void {
+    if (!this.robot || this.held) return;
+    this.robot.tcp.getWorldPosition(this.handle.position);
+    this.robot.tcp.getWorldQuaternion(this.handle.quaternion);
+    this.handle.updateMatrixWorld();
+  }
+
+  /** Its middle, and a place on its x arrow, which is as long on every picture. */
+  reach(camera: THREE.PerspectiveCamera): [number[], number[]] {
+    const middle = this.handle.position.clone();
+    // As TransformControls scales itself: 1.9 tan(fov / 2) of the distance, a quarter of it.
+    const size = middle.distanceTo(camera.position) * Math.tan((camera.fov * Math.PI) / 360) * 1.9 * SIZE / 4;
+    const x = new THREE.Vector3(1, 0, 0).applyQuaternion(this.handle.quaternion);
+    return [middle.toArray(), middle.clone().addScaledVector(x, size * 0.4).toArray()];
+  }
+
+  /** One at a time: while one is on its way, the latest other one is remembered. */
+  private async ask(): Promise<void> {
+    if (this.asked) {
+      this.again = true;
+      return;
+    }
+    this.asked = true;
+    do {
+      this.again = false;
+      const robot = this.robot;
+      if (!robot) break;
+      const place = robot.root.matrixWorld.clone().invert().multiply(this.handle.matrixWorld);
+      const position = new THREE.Vector3();
+      const turned = new THREE.Quaternion();
+      place.decompose(position, turned, new THREE.Vector3());
+      await this.wanted(robot, position.toArray(), [turned.w, turned.x, turned.y, turned.z]);
+    } while (this.again);
+    this.asked = false;
+    this.follow();
+  }
+}

@@ -1,0 +1,42 @@
+"""JSON schemas of a recording's channels, as readers of MCAP take them.
+
+Foxglove and Lichtblick read a plain kind of schema: every field has a type, arrays have one kind of
+items, objects their properties. References, unions and tuples they refuse, and the whole channel
+with them [parseJsonSchema in their mcap-support]. Pydantic's become of that kind here.
+"""
+
+from collections.abc import Iterable
+
+from pydantic import BaseModel
+
+from rapidgen._json import Json, Members, items, members, text
+
+
+def plain_schema(kind: type[BaseModel], signals: Iterable[str] = ()) -> Members:
+    """The schema of a message; `values` of signals have their names."""
+    whole: Members = kind.model_json_schema()
+    made = _plain(whole, members(whole.get("$defs", {})))
+    if "values" in members(made["properties"]):
+        numbers: Members = {name: {"type": "number"} for name in signals}
+        members(made["properties"])["values"] = {"type": "object", "properties": numbers}
+    return made
+
+
+def _plain(schema: Members, definitions: Members) -> Members:
+    def inner(part: Json) -> Members:
+        return _plain(members(part), definitions)
+
+    if "$ref" in schema:
+        return inner(definitions[text(schema["$ref"]).rpartition("/")[2]])
+    if "anyOf" in schema:
+        # What may be absent is null then.
+        return inner(next(o for o in items(schema["anyOf"]) if members(o).get("type") != "null"))
+    made: Members = {key: schema[key] for key in ("type", "description", "enum") if key in schema}
+    if made["type"] == "object":
+        own = members(schema.get("properties", {}))
+        made["properties"] = {name: inner(part) for name, part in own.items()}
+    if made["type"] == "array":
+        # Numbers of a frame are told one by one, and are all of a kind.
+        several = items(schema.get("prefixItems", []))
+        made["items"] = inner(several[0] if several else schema["items"])
+    return made
