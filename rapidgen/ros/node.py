@@ -299,10 +299,12 @@ class Door:
         outcome = self._node.ask(self.link.follow(goal, tell, under)).result()
         with self._lock:
             del self._goals[bytes(handle.goal_id.uuid)]
-        log = self._node.get_logger()
-        (log.info if outcome.status is Ending.SUCCEEDED else log.warning)(
-            f"{self._name}: goal {outcome.status.value}: {outcome.text}"
-        )
+        told = f"{self._name}: goal {outcome.status.value}: {outcome.text}"
+        # Two calls: rclpy refuses another severity from the place of an earlier one.
+        if outcome.status is Ending.SUCCEEDED:
+            self._node.get_logger().info(told)
+        else:
+            self._node.get_logger().warning(told)
         return _ending(handle, outcome)
 
     def _goal(self, request: Message) -> Goal:

@@ -297,13 +297,26 @@ class _Moment:
 
 
 class _Logger:
-    def __init__(self):
-        self.lines = []
+    """As rcutils_logger: one place of the program always logs with the same severity."""
 
-    def info(self, text):
+    def __init__(self):
+        self.lines, self._severities = [], {}
+
+    def _log(self, text, severity):
+        caller = sys._getframe(2)
+        place = caller.f_code, caller.f_lasti
+        if self._severities.setdefault(place, severity) != severity:
+            raise ValueError("Logger severity cannot be changed between calls.")
         self.lines.append(text)
 
-    warning = error = info
+    def info(self, text):
+        self._log(text, "info")
+
+    def warning(self, text):
+        self._log(text, "warning")
+
+    def error(self, text):
+        self._log(text, "error")
 
 
 class LifecycleNode:
