@@ -116,8 +116,8 @@ def refused(cell, found):
         (wrong, -2, "unknown: a"),
         (cell.goal([0.0, 9.0, 0.0]), -1, "outside its limits"),
         (cell.goal(_way(20), 0.05), -1, "shorter than the path planner follows"),
-        (cell.goal([0.0, 1.5], 0.2), -1, "too fast"),
-        (cell.goal([0.4, 0.5]), -1, "from the first point"),
+        (cell.goal([0.0, 1.0], 0.15), -1, "too fast"),
+        (cell.goal([0.4, 0.5]), -1, "does not start where the robot stands"),
         (cell.goal([]), -1, "no points"),
     ):
         found.ends(cell.send(goal), ABORTED, code, words)
