@@ -296,6 +296,11 @@ class _Moment:
         return Time(sec=self.nanoseconds // 10**9, nanosec=self.nanoseconds % 10**9)
 
 
+class SignalHandlerOptions(Enum):
+    NO = 0
+    ALL = 3
+
+
 class _Logger:
     """As rcutils_logger: one place of the program always logs with the same severity."""
 
@@ -427,6 +432,7 @@ def modules():
         "rclpy.lifecycle": "LifecycleNode TransitionCallbackReturn",
         "rclpy.qos": "QoSProfile",
         "rclpy.qos_overriding_options": "QoSOverridingOptions",
+        "rclpy.signals": "SignalHandlerOptions",
         "builtin_interfaces.msg": "Duration Time",
         "control_msgs.action": "FollowJointTrajectory",
         "diagnostic_msgs.msg": "DiagnosticArray DiagnosticStatus KeyValue",
