@@ -6,6 +6,7 @@ import sys
 import threading
 import time
 from collections import defaultdict
+from contextlib import suppress
 from pathlib import Path
 
 import rclpy
@@ -14,7 +15,7 @@ from builtin_interfaces.msg import Duration
 from control_msgs.action import FollowJointTrajectory
 from diagnostic_msgs.msg import DiagnosticArray
 from rclpy.action import ActionClient
-from rclpy.executors import MultiThreadedExecutor
+from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
 from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
@@ -38,8 +39,10 @@ class Sent:
         self._cell = cell
         self.feedback = []
         self.began = time.monotonic()
-        self.handle = cell.wait(client.send_goal_async(goal, self._fed), 30)
-        self._result = self.handle.get_result_async() if self.handle.accepted else None
+        self.handle = cell.asked(lambda: client.send_goal_async(goal, self._fed), 30)
+        self._result = None
+        if self.handle.accepted:
+            self._result = cell.inside(self.handle.get_result_async)
 
     def _fed(self, message) -> None:
         self.feedback.append(message.feedback)
@@ -58,7 +61,7 @@ class Sent:
 
     def cancel(self, seconds: float = 10.0):
         """Ask for its end; the response."""
-        return self._cell.wait(self.handle.cancel_goal_async(), seconds)
+        return self._cell.asked(self.handle.cancel_goal_async, seconds)
 
 
 class Cell:
@@ -81,14 +84,15 @@ class Cell:
             )
             for group in self.config.groups
         }
-        self._executor = MultiThreadedExecutor(2)
+        self._executor = SingleThreadedExecutor()
         self._executor.add_node(self.client)
         threading.Thread(target=self._spin, daemon=True).start()
         self.start_node()
 
     def _spin(self) -> None:
-        while rclpy.ok():
-            self._executor.spin_once(0.2)
+        with suppress(ExternalShutdownException):
+            while rclpy.ok():
+                self._executor.spin_once(0.2)
 
     def _into(self, name: str):
         return lambda message: self.heard[name].append((time.monotonic(), message))
@@ -113,6 +117,14 @@ class Cell:
         """Whether joint_states came."""
         return bool(self.heard["states"]) and self.heard["states"][-1][0] > since
 
+    def inside(self, act):
+        """Do something where nothing else of the client runs: rclpy's clients race with answers."""
+        return self.wait(self._executor.create_task(act), 10)
+
+    def asked(self, act, seconds: float):
+        """The answer to what `act` sends."""
+        return self.wait(self.inside(act), seconds)
+
     def wait(self, future, seconds: float):
         """What a future of rclpy gives."""
         done = threading.Event()
@@ -125,7 +137,7 @@ class Cell:
         client = self.client.create_client(kind, name)
         try:
             assert client.wait_for_service(timeout_sec=20), f"no service {name}"
-            return self.wait(client.call_async(request or kind.Request()), seconds)
+            return self.asked(lambda: client.call_async(request or kind.Request()), seconds)
         finally:
             self.client.destroy_client(client)
 
