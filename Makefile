@@ -157,6 +157,11 @@ schedules: $(STAMP) ## 20 min: 20,000 emergency stops and power failures at 80 %
 ros-goals: $(STAMP) ## 20 min: 10,000 goals of FollowJointTrajectory by lot, with faults at any moment
 	$(BIN)/python benchmarks/ros_goals.py
 
+# In a shell that has sourced ROS 2, with its Python: make ros-node ROS_PYTHON=.../bin/python
+ROS_PYTHON ?= python3
+ros-node: ## 5 min: what the ROS 2 node adds to a bare client and publisher, with a real rclpy
+	$(ROS_PYTHON) benchmarks/ros_node.py
+
 driver-frames: $(STAMP) ## 30 min: 100,000 hostile openings on all ports, each followed by a good client
 	$(BIN)/python benchmarks/campaign.py frames --jobs 2
 
