@@ -94,7 +94,7 @@ picture: $(STAMP)
 	$(BIN)/python -m tests.docs.robots_picture
 
 # Trials of programs that are no part of this project: FOREIGN is the folder that holds them,
-# PROGRAM the trial (abb_driver, backups, deployed, descriptions, godel, irb140, keyence, motion_program_exec, open_abb, rfl, ros_nodes, rws_suites, text_servers; default: any).
+# PROGRAM the trial (abb_driver, backups, deployed, descriptions, godel, irb140, keyence, motion_program_exec, open_abb, rfl, ros2, ros_nodes, rws_suites, text_servers; default: any).
 PROGRAM = trial
 foreign: $(STAMP)
 	$(BIN)/python -m tests.foreign.$(PROGRAM) $(FOREIGN)
@@ -156,6 +156,11 @@ schedules: $(STAMP) ## 20 min: 20,000 emergency stops and power failures at 80 %
 
 ros-goals: $(STAMP) ## 20 min: 10,000 goals of FollowJointTrajectory by lot, with faults at any moment
 	$(BIN)/python benchmarks/ros_goals.py
+
+# In a shell that has sourced ROS 2, with its Python: make ros-node ROS_PYTHON=.../bin/python
+ROS_PYTHON ?= python3
+ros-node: ## 5 min: what the ROS 2 node adds to a bare client and publisher, with a real rclpy
+	$(ROS_PYTHON) benchmarks/ros_node.py
 
 driver-frames: $(STAMP) ## 30 min: 100,000 hostile openings on all ports, each followed by a good client
 	$(BIN)/python benchmarks/campaign.py frames --jobs 2

@@ -21,6 +21,14 @@ from rapidgen.wire.simple_message.spec import Feature, TrajectoryState
 _APPROACH = 0.1
 """Share of the axes' speeds at which a replacing goal's first point is gone to."""
 _GRACE = 1e-9
+_LONGER = "plan with a longer sampling period"
+_MENDS = {
+    "RG615": "plan with the speeds of joint_limits.yaml as `rapidgen ros2` writes it",
+    "RG616": "plan again from there, or `replace: approach` goes to the first point",
+    "RG617": _LONGER,
+    "RG618": f"{_LONGER}, or `dense: resample` replaces points",
+}
+"""What to do, for whom ROS sends the goal: the client's own words are Python's."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -403,4 +411,5 @@ def reason(error: RobotError) -> str:
     """What went wrong and what to do about it, as one line."""
     first, *others = error.diagnostics
     told = first.message + (f" (and {len(others)} more faults)" if others else "")
-    return f"{told}; {first.help}" if first.help else told
+    mend = _MENDS.get(first.code, first.help)
+    return f"{told}; {mend}" if mend else told

@@ -51,13 +51,17 @@ class RobotLink:
         policy: Policy,
         now: Callable[[], float],
         public: Public,
+        *,
+        is_clock: bool = False,
     ) -> None:
-        """`make` gives a robot that is not connected; `now` is s of ROS time."""
+        """`make` gives a robot that is not connected; `now` is s of ROS time, which with
+        `is_clock` is only where the controller's own begins."""
         self._make = make
         self._policy = policy
-        self._now = now
+        self._machine = now
+        self._is_clock = is_clock
         self._public = public
-        self._stamps = Stamps()
+        self._stamps = Stamps(is_clock=is_clock)
         self._robot: AsyncRobot | None = None
         self._follower: Follower | None = None
         self._why = "not connected yet"
@@ -67,6 +71,12 @@ class RobotLink:
     def is_up(self) -> bool:
         """Whether the robot can be asked for something."""
         return self._follower is not None
+
+    def now(self) -> float:
+        """s of ROS time."""
+        if self._is_clock and self._stamps.last:
+            return self._stamps.last * 1e-9
+        return self._machine()
 
     async def run(self) -> None:
         """Hold the link until this is cancelled; what moves then is stopped first."""
@@ -84,7 +94,7 @@ class RobotLink:
 
     def _came(self, robot: AsyncRobot) -> None:
         self._robot = robot
-        self._follower = Follower(robot, self._policy, self._now, self._public.note)
+        self._follower = Follower(robot, self._policy, self.now, self._public.note)
         self._why = ""
         self._public.note(f"connected to {robot.address}")
 
@@ -106,7 +116,7 @@ class RobotLink:
             else:
                 state = await robot.next_state()
                 moment, joints, velocity = state.time, state.joints, state.velocity
-            stamp = self._stamps.stamp(moment, self._now())
+            stamp = self._stamps.stamp(moment, self._machine())
             self._public.joint_states(JointStates(stamp, robot.group.names, joints, velocity))
             told = health(state, robot.driver, str(robot.address))
             self._public.status(robot_status(state.status), told)

@@ -5,7 +5,9 @@ QoS: everything that is told is reliable, volatile, depth 10, as joint_state_bro
 """
 
 import asyncio
+import signal
 import threading
+import time
 from collections.abc import Callable, Coroutine
 from concurrent.futures import Future
 from typing import TypeVar
@@ -21,6 +23,7 @@ from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor
 from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackReturn
 from rclpy.qos import QoSProfile
 from rclpy.qos_overriding_options import QoSOverridingOptions
+from rclpy.signals import SignalHandlerOptions
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
@@ -45,6 +48,12 @@ except ImportError:
 
 T = TypeVar("T")
 _QOS = QoSProfile(depth=10)
+_KEPT = 10
+"""s for which a goal's result can be asked for."""
+_LOOK = 0.2
+"""s between two looks for a signal to end."""
+_FAREWELL = 2.0
+"""s within which the results of goals that were stopped at the end are told."""
 
 
 class RobotNode(LifecycleNode):  # type: ignore[misc]
@@ -83,7 +92,10 @@ class RobotNode(LifecycleNode):  # type: ignore[misc]
         for group in config.groups:
             make = _maker(config, parameters, group.name)
             space = f"{group.name}/" if several else ""
-            self._doors.append(Door(self, make, parameters, space, f"{group.name}_controller"))
+            # One clock, however many groups there are: two of them would go back and forth.
+            clock = parameters.publish_clock and not self._doors
+            name = f"{group.name}_controller"
+            self._doors.append(Door(self, make, parameters, space, name, tells_clock=clock))
         return super().on_configure(state)
 
     def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
@@ -116,6 +128,15 @@ class RobotNode(LifecycleNode):  # type: ignore[misc]
             running.cancel()
         self.ask(_ended(len(self._running))).result()
         self._running = []
+
+    def end(self, executor: MultiThreadedExecutor) -> None:
+        """Stop what moves for a goal, and tell whoever sent it."""
+        self._let_go()
+        until = time.monotonic() + _FAREWELL
+        while any(door.is_busy for door in self._doors) and time.monotonic() < until:
+            executor.spin_once(timeout_sec=0.05)
+        for _ in range(5):  # Results go out behind the callback that made them.
+            executor.spin_once(timeout_sec=0.05)
 
     def _parameters_set(self, parameters: list[Message]) -> SetParametersResult:
         """`speed` acts at once; the others are read when the node is configured."""
@@ -151,8 +172,12 @@ class Door:
         parameters: Parameters,
         space: str,
         controller: str,
+        *,
+        tells_clock: bool,
     ) -> None:
-        self.link = RobotLink(make, parameters.policy, node.now, self)
+        self.link = RobotLink(
+            make, parameters.policy, node.now, self, is_clock=parameters.publish_clock
+        )
         self._node = node
         self._prefix = parameters.tf_prefix
         self._name = controller
@@ -166,7 +191,7 @@ class Door:
             if RobotStatusMessage is not None
             else None
         )
-        self._clock = self._publisher(Clock, "/clock") if parameters.publish_clock else None
+        self._clock = self._publisher(Clock, "/clock") if tells_clock else None
         self._services = [
             node.create_service(
                 Trigger, f"{space}{name}", self._serving(act), callback_group=self._callbacks
@@ -192,7 +217,15 @@ class Door:
             # A rejection carries no reason: goals are accepted, and aborted with one.
             goal_callback=lambda _: GoalResponse.ACCEPT,
             cancel_callback=self._cancel,
+            # As rcl has it since Iron; rclpy would keep each goal for a quarter of an hour.
+            result_timeout=_KEPT,
         )
+
+    @property
+    def is_busy(self) -> bool:
+        """Whether a goal has no result yet."""
+        with self._lock:
+            return bool(self._goals)
 
     def destroy(self) -> None:
         """Take everything from ROS again."""
@@ -223,7 +256,7 @@ class Door:
 
     def status(self, status: RobotStatus, health: Health) -> None:
         """As `Public`."""
-        stamp = self._node.get_clock().now().to_msg()
+        stamp = _time(round(self.link.now() * 1e9))
         diagnostics = DiagnosticArray()
         diagnostics.header.stamp = stamp
         diagnostics.status = [
@@ -299,10 +332,12 @@ class Door:
         outcome = self._node.ask(self.link.follow(goal, tell, under)).result()
         with self._lock:
             del self._goals[bytes(handle.goal_id.uuid)]
-        log = self._node.get_logger()
-        (log.info if outcome.status is Ending.SUCCEEDED else log.warning)(
-            f"{self._name}: goal {outcome.status.value}: {outcome.text}"
-        )
+        told = f"{self._name}: goal {outcome.status.value}: {outcome.text}"
+        # Two calls: rclpy refuses another severity from the place of an earlier one.
+        if outcome.status is Ending.SUCCEEDED:
+            self._node.get_logger().info(told)
+        else:
+            self._node.get_logger().warning(told)
         return _ending(handle, outcome)
 
     def _goal(self, request: Message) -> Goal:
@@ -332,7 +367,7 @@ class Door:
 
     def _feedback(self, feedback: GoalFeedback) -> Message:
         message = FollowJointTrajectory.Feedback()
-        message.header.stamp = self._node.get_clock().now().to_msg()
+        message.header.stamp = _time(round(self.link.now() * 1e9))
         message.joint_names = [self._prefix + name for name in feedback.names]
         at = _duration(feedback.time)
         for name, positions, velocities in (
@@ -398,15 +433,22 @@ def _duration(seconds: float) -> Duration:
 
 def run(arguments: list[str]) -> int:
     """The node, until Ctrl-C; `arguments` as ROS 2 has them (`--ros-args -p config:=...`)."""
-    rclpy.init(args=arguments)
+    # With rclpy's own handlers nothing could be told any more behind a signal.
+    rclpy.init(args=arguments, signal_handler_options=SignalHandlerOptions.NO)
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
     node = RobotNode()
     # A goal holds a thread while it is carried out, a service while it is asked.
     executor = MultiThreadedExecutor(num_threads=8)
     executor.add_node(node)
     try:
-        executor.spin()
+        while True:
+            executor.spin_once(timeout_sec=_LOOK)
     except (KeyboardInterrupt, ExternalShutdownException):
+        # `ros2 launch` sends a second one; the robot is stopped whatever comes.
+        for number in (signal.SIGINT, signal.SIGTERM):
+            signal.signal(number, signal.SIG_IGN)
         node.get_logger().info("ending: what moves for a goal is stopped")
+        node.end(executor)
     finally:
         node.destroy_node()
         rclpy.try_shutdown()

@@ -15,7 +15,10 @@ class Stamps:
     shortest), and may grow by the drift of two quartzes.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, *, is_clock: bool = False) -> None:
+        """With `is_clock` ROS time is the controller's own, at whatever speed it is simulated: it
+        begins at the moment of this machine and goes on from where it was behind a restart."""
+        self._is_clock = is_clock
         self._offset: float | None = None
         self._at = 0.0
         self._last = 0
@@ -24,6 +27,8 @@ class Stamps:
         """ns of ROS time, for `time` s of the controller's clock that came at `received` s of
         ROS time. A clock that went back (a restart, a lap, a simulation begun anew) is taken as
         a new one."""
+        if self._is_clock:
+            return self._ticked(time, received)
         offset = received - time
         if self._offset is None or time < self._at or self._went_back(received):
             self._offset = offset
@@ -32,6 +37,20 @@ class Stamps:
         self._at = time
         stamp = round((time + self._offset) * 1e9)
         self._last = max(stamp, self._last + 1)
+        return self._last
+
+    @property
+    def last(self) -> int:
+        """ns of ROS time that were told last; 0 before."""
+        return self._last
+
+    def _ticked(self, time: float, received: float) -> int:
+        if self._offset is None:
+            self._offset = received - time
+        elif time < self._at:
+            self._offset = self._last * 1e-9 - time
+        self._at = time
+        self._last = max(round((time + self._offset) * 1e9), self._last + 1)
         return self._last
 
     def _went_back(self, received: float) -> bool:

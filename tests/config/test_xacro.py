@@ -1,6 +1,7 @@
 """xacro without ROS: where packages are found, macros, hostile XML, what is left untouched."""
 
 import os
+import sys
 
 import pytest
 
@@ -177,6 +178,28 @@ def test_hostile_xml_is_refused(tmp_path, data, name):
     (tmp_path / name).write_bytes(data)
     (tmp_path / "cell.yaml").write_text(f"urdf: {{file: {name}}}\n")
     assert codes(tmp_path / "cell.yaml") == ["RG060"]
+
+
+@pytest.mark.parametrize(
+    "inside",
+    [
+        '<xacro:macro name="a" params="n"><xacro:a n="${n + 1}"/></xacro:macro><xacro:a n="0"/>',
+        '<xacro:include filename="robot.xacro"/>',
+        "<a>" * 5000 + "</a>" * 5000,
+    ],
+    ids=["macro", "include", "elements"],
+)
+def test_nesting_without_end_is_refused_where_rapid_ran_before(tmp_path, inside):
+    """Python 3.10 died of it, later ones took minutes: RAPID's stack needs a larger limit."""
+    path = configure(tmp_path)
+    (tmp_path / "robot.xacro").write_text(f'<robot name="r" {XACRO}>{inside}</robot>')
+    limit = sys.getrecursionlimit()
+    try:
+        sys.setrecursionlimit(20_000)
+        assert "nests too deep" in str(refusal(load_config, path))
+        assert sys.getrecursionlimit() == 20_000
+    finally:
+        sys.setrecursionlimit(limit)
 
 
 def test_hostile_xml_is_refused_in_an_included_file(tmp_path):

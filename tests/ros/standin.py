@@ -296,14 +296,32 @@ class _Moment:
         return Time(sec=self.nanoseconds // 10**9, nanosec=self.nanoseconds % 10**9)
 
 
-class _Logger:
-    def __init__(self):
-        self.lines = []
+class SignalHandlerOptions(Enum):
+    NO = 0
+    ALL = 3
 
-    def info(self, text):
+
+class _Logger:
+    """As rcutils_logger: one place of the program always logs with the same severity."""
+
+    def __init__(self):
+        self.lines, self._severities = [], {}
+
+    def _log(self, text, severity):
+        caller = sys._getframe(2)
+        place = caller.f_code, caller.f_lasti
+        if self._severities.setdefault(place, severity) != severity:
+            raise ValueError("Logger severity cannot be changed between calls.")
         self.lines.append(text)
 
-    warning = error = info
+    def info(self, text):
+        self._log(text, "info")
+
+    def warning(self, text):
+        self._log(text, "warning")
+
+    def error(self, text):
+        self._log(text, "error")
 
 
 class LifecycleNode:
@@ -414,6 +432,7 @@ def modules():
         "rclpy.lifecycle": "LifecycleNode TransitionCallbackReturn",
         "rclpy.qos": "QoSProfile",
         "rclpy.qos_overriding_options": "QoSOverridingOptions",
+        "rclpy.signals": "SignalHandlerOptions",
         "builtin_interfaces.msg": "Duration Time",
         "control_msgs.action": "FollowJointTrajectory",
         "diagnostic_msgs.msg": "DiagnosticArray DiagnosticStatus KeyValue",

@@ -40,6 +40,21 @@ def test_names_in_any_order():
 
 
 @pytest.mark.parametrize(
+    ("asked", "mend"),
+    [
+        (goal(0.0, 1.0, seconds=0.15), "joint_limits.yaml"),
+        (goal(0.1, 0.2), "replace: approach"),
+        (goal(0.0, 0.0, 0.0, 0.0, seconds=0.05), "dense: resample"),
+    ],
+)
+def test_a_refusal_says_what_to_do_in_words_of_ros(asked, mend):
+    with station() as s:
+        text = s.outcome(asked).text
+        assert mend in text
+        assert "`Trajectory" not in text
+
+
+@pytest.mark.parametrize(
     ("asked", "code", "text"),
     [
         (goal(0.0, names=NAMES[:5]), Code.INVALID_JOINTS, "missing: joint_6"),

@@ -98,6 +98,14 @@ def test_refused_is_aborted_with_its_reason(up):
     assert "no joint here" in ended(action(node).send(toleranced))[2]
 
 
+def test_a_good_goal_behind_a_refused_one_is_told_as_good(up):
+    """rclpy ends a goal ABORTED and without a text where the callback raises, as its logger did."""
+    node = up()
+    assert ended(action(node).send(goal(9.0, 9.1)))[0] == "aborted"
+    status, code, text = ended(action(node).send(goal(0.0, 0.1)))
+    assert (status, code, "done in" in text) == ("succeeded", 0, True)
+
+
 def test_cancel_is_canceled_and_of_a_second_goal_leaves_the_first(up):
     node = up()
     first = action(node).send(goal(0.0, 0.5, 1.0, seconds=20.0))

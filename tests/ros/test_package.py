@@ -16,7 +16,7 @@ from rapidgen.axes.mapping import JointMap
 from rapidgen.cli.app import main
 from rapidgen.config import load_config, shipped_names
 from rapidgen.diagnostics import DiagnosticError
-from rapidgen.ros.package import ros1_package, ros2_package, write
+from rapidgen.ros.package import Member, ros1_package, ros2_cell, ros2_package, write
 from rapidgen.ros.package.urdf import draw
 
 
@@ -79,8 +79,80 @@ def test_srdf_names_links_and_joints_that_the_urdf_has():
     pairs = list(srdf.iter("disable_collisions"))
     assert {pair.attrib[key] for pair in pairs for key in ("link1", "link2")} <= links
     assert {group.attrib["name"] for group in srdf.findall("group")} == {
-        "rob_l", "rob_l_arm", "rob_r", "rob_r_arm"
+        "rob_l", "rob_l_arm", "rob_r", "rob_r_arm", "robots"
     }  # fmt: skip
+
+
+@pytest.fixture
+def cell(tmp_path):
+    """Two robots with a controller each, one of them with a linkage, 2 m apart and turned."""
+    for name, model in (("left", "irb120"), ("right", "irb2400")):
+        (tmp_path / f"{name}.yaml").write_text(f"name: {name}\nmodel: {model}\n")
+    return [
+        Member(load_config(str(tmp_path / "left.yaml")), "left.yaml"),
+        Member(load_config(str(tmp_path / "right.yaml")), "right.yaml", (2, 0, 0.5, 0, 0, np.pi)),
+    ]
+
+
+def test_two_robots_of_a_cell_are_where_they_were_put(cell):
+    files = ros2_cell(cell, "cell")
+    text = files["config/cell_rapidgen.urdf"]
+    robot = yourdfpy.URDF.load(BytesIO(text.encode()), load_meshes=False)
+    rows = {}
+    for member, prefix in zip(cell, ("left_", "right_"), strict=True):
+        (group,) = member.config.groups
+        joints, wire = JointMap.of(group), [0.1] * len(group.joints)
+        told = zip(joints.names, joints.to_urdf(wire), strict=True)
+        robot.update_cfg({prefix + name: value for name, value in told})
+        rows[prefix] = Kinematics.of(group).forward(wire)[0]
+    left, right = (robot.get_transform(f"{p}tool0", "world")[:3, 3] for p in rows)
+    assert left == pytest.approx(rows["left_"], abs=1e-6)
+    x, y, z = rows["right_"]
+    assert right == pytest.approx((2 - x, -y, 0.5 + z), abs=1e-6)
+
+
+def test_two_robots_share_a_moveit(cell):
+    files = ros2_cell(cell, "cell")
+    told = YAML(typ="safe").load(files["config/moveit_controllers.yaml"])
+    controllers = told["moveit_simple_controller_manager"]
+    assert controllers["controller_names"] == ["left/rob1_controller", "right/rob1_controller"]
+    assert controllers["right/rob1_controller"]["joints"][2] == "right_joint_3"
+    urdf = ET.fromstring(files["config/cell_rapidgen.urdf"])
+    srdf = ET.fromstring(files["config/cell_rapidgen.srdf"])
+    joints = [joint.attrib["name"] for joint in urdf.iter("joint")]
+    assert len(set(joints)) == len(joints)
+    assert {m.attrib["joint"] for m in urdf.iter("mimic")} <= set(joints)
+    named = [joint.attrib["name"] for joint in srdf.iter("joint")]
+    assert set(named) <= set(joints)
+    assert set(YAML(typ="safe").load(files["config/joint_limits.yaml"])["joint_limits"]) == set(
+        named
+    )
+    groups = {group.attrib["name"] for group in srdf.findall("group")}
+    assert groups == {"left_rob1", "left_rob1_arm", "right_rob1", "right_rob1_arm", "robots"}
+    launch = files["launch/driver.launch.py"]
+    ast.parse(launch)
+    assert "__ns:=/right" in launch
+    assert "tf_prefix:=right_" in launch
+
+
+def test_two_robots_of_one_name_are_refused(cell):
+    with pytest.raises(DiagnosticError, match="RG693"):
+        ros2_cell([cell[0], cell[0]], "cell")
+
+
+@pytest.mark.parametrize(
+    ("given", "told"),
+    [
+        (["irb120", "irb2400"], "once for each of several robots"),
+        (["irb120", "--at", "0,0,0"], "for several robots only"),
+        (["irb120", "irb2400", "--at", "0,0,0", "--at", "0,1"], "is not X,Y,Z"),
+        (["irb120", "irb2400", "--at", "0,0,0", "--at", "nan,0,1"], "is not X,Y,Z"),
+    ],
+)
+def test_places_that_do_not_fit_are_refused(given, told, tmp_path, capsys):
+    assert main(["ros2", *given, "-o", str(tmp_path / "p")]) == 2
+    assert told in capsys.readouterr().err
+    assert not (tmp_path / "p").exists()
 
 
 def test_ros1_says_names_coupling_and_ports():
@@ -114,7 +186,7 @@ def test_the_command(verb, tmp_path, capsys):
 
 def test_a_hostile_name_stays_text(tmp_path):
     yaml = tmp_path / "robot.yaml"
-    yaml.write_text('name: "it\'s <b>"\nbase: irb120\n')
+    yaml.write_text('name: "it\'s <b>"\nmodel: irb120\n')
     try:
         config = load_config(str(yaml))
     except DiagnosticError:

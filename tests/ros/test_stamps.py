@@ -41,3 +41,14 @@ def test_a_clock_that_begins_again():
     assert before < after <= 10.1e9
     # simulated ROS time that was reset
     assert stamps.stamp(0.6, 1.0) == pytest.approx(1e9)
+
+
+def test_a_simulators_clock_goes_at_its_own_speed():
+    """Four times as fast as this machine, and on behind a restart."""
+    stamps = Stamps(is_clock=True)
+    told = [stamps.stamp(n * 0.02, 1000 + n * 0.005) for n in range(200)]
+    assert np.diff(told) * 1e-9 == pytest.approx(0.02)
+    assert told[0] == 1000 * 10**9
+    again = stamps.stamp(0.0, 1100.0)
+    assert 0 < again - told[-1] < 10**6
+    assert stamps.stamp(0.02, 1100.005) - again == pytest.approx(0.02e9, rel=1e-3)

@@ -5,9 +5,12 @@ runs (held by a test and the pin `xacro>=2.1.1,<3`). It is not thread-safe, nor 
 """
 
 import re
-from collections.abc import Mapping
+import sys
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
+from types import FrameType
 from xml.dom import minidom
 from xml.parsers.expat import ExpatError
 from xml.sax.saxutils import quoteattr
@@ -37,6 +40,8 @@ _WORLD = "world"
 """Where a macro's `parent` is unless given."""
 _NAMED = re.compile(r"""<(joint|link)\b[^>]*?\bname\s*=\s*["']([^"']*)["']""")
 _NAMESPACE = "http://www.ros.org/wiki/xacro"
+_DEEPEST = 1000
+"""Calls of Python that an expansion may nest: what a fresh interpreter allows."""
 
 
 @dataclass(slots=True)
@@ -174,8 +179,9 @@ def _run(request: Request, document: str, made: Description, texts: list[str]) -
     try:
         xacro.init_stacks(str(request.path))
         tree = minidom.parseString(document)
-        xacro.process_doc(tree, mappings=dict(request.arguments), verbosity=0)
-        return str(tree.toprettyxml(indent="  "))
+        with _bounded_depth():
+            xacro.process_doc(tree, mappings=dict(request.arguments), verbosity=0)
+            return str(tree.toprettyxml(indent="  "))
     except (
         xacro.XacroException,
         substitution_args.SubstitutionException,
@@ -199,6 +205,20 @@ def _run(request: Request, document: str, made: Description, texts: list[str]) -
         xacro.parse = original_parse
         substitution_args._eval_find = original_find
         substitution_args._eval_dict["find"] = original_find
+
+
+@contextmanager
+def _bounded_depth() -> Iterator[None]:
+    """RAPID's own depth needs a larger limit, at which Python 3.10 runs out of its C stack."""
+    limit, depth = sys.getrecursionlimit(), 0
+    frame: FrameType | None = sys._getframe()
+    while frame is not None:
+        depth, frame = depth + 1, frame.f_back
+    sys.setrecursionlimit(min(limit, depth + _DEEPEST))
+    try:
+        yield
+    finally:
+        sys.setrecursionlimit(limit)
 
 
 def _translate(request: Request, fault: BaseException, at: Path) -> Diagnostic:
@@ -230,7 +250,8 @@ def _translate(request: Request, fault: BaseException, at: Path) -> Diagnostic:
             hint,
         )
     if isinstance(inner, RecursionError):
-        return error("RG061", place, f"xacro: a macro of {name} calls itself without end")
+        hint = "a macro calls, or a file includes, itself without end?"
+        return error("RG061", place, f"xacro: {name} nests too deep", hint)
     text = " ".join(str(inner).split()) or type(inner).__name__
     hint = ""
     if type(inner).__name__ == "ArgException":

@@ -1,8 +1,8 @@
 """Files that ROS 2 and ROS 1 want of a robot, from its configuration alone.
 
-`urdf` draws the chain, `moveit` what planning needs, `files` puts a package together.
+`urdf` draws the chain, `srdf` what planning needs, `files` puts a package together.
 """
 
-from rapidgen.ros.package.files import ros1_package, ros2_package, write
+from rapidgen.ros.package.files import Member, ros1_package, ros2_cell, ros2_package, write
 
-__all__ = ["ros1_package", "ros2_package", "write"]
+__all__ = ["Member", "ros1_package", "ros2_cell", "ros2_package", "write"]

@@ -4,6 +4,8 @@ Templates are in `templates/ros2` and `templates/ros1`; all of them see the same
 """
 
 import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 import jinja2
@@ -16,36 +18,102 @@ from rapidgen.ros.package import srdf, urdf
 
 _START_SHARE = 0.8
 """allowed_start_tolerance as a share of the driver's: MoveIt is to complain before it does."""
-_ROS1_PORTS = (11000, 11002)
-"""The old nodes' defaults for motion and state."""
+
+
+@dataclass(frozen=True, slots=True)
+class Member:
+    """A robot of a package."""
+
+    config: RobotConfig
+    source: str
+    """The configuration as the node is to read it: a file, or a shipped name."""
+    at: tuple[float, ...] = (0.0,) * 6
+    """Its base in the world: x, y, z in m; roll, pitch, yaw in rad."""
 
 
 def ros2_package(config: RobotConfig, source: str) -> dict[str, str]:
-    """Files by path of a ROS 2 package that starts the node, rviz and MoveIt for this robot.
+    """Files by path of a ROS 2 package that starts the node, rviz and MoveIt for this robot."""
+    return _ros2([Member(config, source)], config.name, [""])
 
-    `source` is the configuration as the node is to read it: a file, or a shipped name.
+
+def ros2_cell(members: Sequence[Member], name: str) -> dict[str, str]:
+    """The same for several robots, each with a controller and a node of its own, in one MoveIt.
+
+    Names of joints, links and planning groups begin with the robot's. Raises DiagnosticError where
+    two robots have the same one.
     """
-    name = package_name(config)
-    drawn = urdf.draw(config, config.name)
-    files = _rendered("ros2", name, _context(config, name, drawn, source))
+    names = [_plain(member.config.name) for member in members]
+    twice = sorted({one for one in names if names.count(one) > 1})
+    if twice:
+        raise DiagnosticError(
+            error(
+                "RG693",
+                None,
+                f"several robots are called {', '.join(twice)}",
+                "give each configuration a `name` of its own",
+            )
+        )
+    return _ros2(members, name, names)
+
+
+def _ros2(members: Sequence[Member], called: str, names: Sequence[str]) -> dict[str, str]:
+    name = package_name(called)
+    placed = [
+        urdf.Placed(member.config, f"{one}_" if one else "", member.at)
+        for member, one in zip(members, names, strict=True)
+    ]
+    drawn = urdf.draw_cell(placed, called)
+    robots = [
+        {
+            "name": one,
+            "source": member.source,
+            "prefix": robot.prefix,
+            "host": f"127.0.0.{number}",
+            "groups": [_group(group, one) for group in member.config.groups],
+        }
+        for number, (one, member, robot) in enumerate(zip(names, members, placed, strict=True), 1)
+    ]
+    tolerance = min(member.config.trajectory.start_tolerance for member in members)
+    files = _rendered(
+        "ros2",
+        name,
+        {
+            "called": called,
+            "name": name,
+            "robots": robots,
+            "groups": [group for robot in robots for group in robot["groups"]],
+            "start_tolerance": f"{tolerance * _START_SHARE:.4f}",
+            "is_cell": any(names),
+        },
+    )
     files[f"config/{name}.urdf"] = drawn.text
-    files[f"config/{name}.srdf"] = srdf.draw(config, drawn, config.name)
+    files[f"config/{name}.srdf"] = srdf.draw(placed, drawn, called)
     return files
 
 
 def ros1_package(config: RobotConfig, source: str) -> dict[str, str]:
     """Files by path for the unmodified ROS-Industrial nodes: launch, parameters, a watcher."""
-    name = package_name(config)
+    name = package_name(config.name)
     drawn = urdf.draw(config, config.name)
-    files = _rendered("ros1", name, _context(config, name, drawn, source))
+    context = {
+        "config": config,
+        "name": name,
+        "groups": [_group(group) for group in config.groups],
+        "several": len(config.groups) > 1,
+    }
+    files = _rendered("ros1", name, context)
     files[f"config/{name}.urdf"] = drawn.text
     return files
 
 
-def package_name(config: RobotConfig) -> str:
+def package_name(called: str) -> str:
     """A name that ament and catkin take: small letters, digits, single underscores."""
-    plain = re.sub(r"[^a-z0-9]+", "_", config.name.lower()).strip("_")
-    return f"{plain if plain[:1].isalpha() else f'robot_{plain}'}_rapidgen"
+    return f"{_plain(called)}_rapidgen"
+
+
+def _plain(called: str) -> str:
+    plain = re.sub(r"[^a-z0-9]+", "_", called.lower()).strip("_")
+    return plain if plain[:1].isalpha() else f"robot_{plain}"
 
 
 def write(files: dict[str, str], folder: Path) -> None:
@@ -73,7 +141,7 @@ def write(files: dict[str, str], folder: Path) -> None:
         write_whole(folder / path, text.encode())
 
 
-def _rendered(kind: str, name: str, context: dict[str, object]) -> dict[str, str]:
+def _rendered(kind: str, name: str, context: Mapping[str, object]) -> dict[str, str]:
     folder = data_folder("templates") / kind
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(folder),
@@ -91,36 +159,21 @@ def _rendered(kind: str, name: str, context: dict[str, object]) -> dict[str, str
     return files
 
 
-def _context(config: RobotConfig, name: str, drawn: urdf.Drawn, source: str) -> dict[str, object]:
-    tolerance = config.trajectory.start_tolerance
+def _group(group: GroupConfig, robot: str = "") -> dict[str, object]:
+    prefix = f"{robot}_" if robot else ""
     return {
-        "config": config,
-        "name": name,
-        "source": source,
-        "groups": [_group(group, drawn) for group in config.groups],
-        "start_tolerance": f"{tolerance * _START_SHARE:.4f}",
-        "several": len(config.groups) > 1,
-        "state_rate": round(1 / config.state_period),
-    }
-
-
-def _group(group: GroupConfig, drawn: urdf.Drawn) -> dict[str, object]:
-    return {
-        "name": group.name,
-        "controller": f"{group.name}_controller",
+        "name": prefix + group.name,
+        "controller": (f"{robot}/" if robot else "") + f"{group.name}_controller",
         "joints": [
             {
-                "name": joint.name,
+                "name": prefix + joint.name,
                 "speed": f"{joint.speed:.4f}",
                 "acceleration": f"{joint.acceleration:.4f}",
                 "unit": "rad" if joint.kind == "revolute" else "m",
             }
             for joint in group.joints
         ],
-        "base": drawn.arms[group.name].links[0],
-        "tool": drawn.arms[group.name].tip,
         "is_coupled": bool(group.coupling),
         "motion": group.ports.motion,
         "state": group.ports.state,
-        "has_old_ports": (group.ports.motion, group.ports.state) == _ROS1_PORTS,
     }

@@ -4,26 +4,26 @@ Only pairs that a joint connects are taken from the collision check: what else c
 not known without the robot's real shape, and a check too many harms nobody.
 """
 
+from collections.abc import Sequence
 from xml.etree import ElementTree as ET
 
-from rapidgen.config.model import GroupConfig, RobotConfig
-from rapidgen.ros.package.urdf import Drawn, urdf_range
+from rapidgen.config.model import GroupConfig
+from rapidgen.ros.package.urdf import Drawn, Placed, urdf_range
+
+TOGETHER = "robots"
+"""The planning group of all others, where there are several: a plan for all arms at once."""
 
 
-def draw(config: RobotConfig, drawn: Drawn, name: str) -> str:
+def draw(robots: Sequence[Placed], drawn: Drawn, name: str) -> str:
     """The text for the URDF that `drawn` is; planning groups are named as motion groups."""
     root = ET.Element("robot", name=name)
-    for group in config.groups:
-        element = ET.SubElement(root, "group", name=group.name)
-        for joint in group.joints:
-            ET.SubElement(element, "joint", name=joint.name)
-        tool = drawn.arms[group.name].tip
-        ET.SubElement(root, "group", name=f"{group.name}_arm").append(
-            ET.Element("chain", base_link=drawn.arms[group.name].links[0], tip_link=tool)
-        )
-        home = ET.SubElement(root, "group_state", name="home", group=group.name)
-        for joint_name, value in home_posture(group):
-            ET.SubElement(home, "joint", name=joint_name, value=f"{value:.6g}")
+    for robot in robots:
+        for group in robot.config.groups:
+            _group(root, group, robot.prefix, drawn)
+    if len(drawn.arms) > 1:
+        together = ET.SubElement(root, "group", name=TOGETHER)
+        for member in drawn.arms:
+            ET.SubElement(together, "group", name=member)
     for element in drawn.root.iter("joint"):
         if element.find("mimic") is not None:
             ET.SubElement(root, "passive_joint", name=element.attrib["name"])
@@ -31,6 +31,20 @@ def draw(config: RobotConfig, drawn: Drawn, name: str) -> str:
         ET.SubElement(root, "disable_collisions", link1=one, link2=other, reason="Adjacent")
     ET.indent(root)
     return ET.tostring(root, encoding="unicode", xml_declaration=True) + "\n"
+
+
+def _group(root: ET.Element, group: GroupConfig, prefix: str, drawn: Drawn) -> None:
+    name = prefix + group.name
+    element = ET.SubElement(root, "group", name=name)
+    for joint in group.joints:
+        ET.SubElement(element, "joint", name=prefix + joint.name)
+    arm = drawn.arms[name]
+    ET.SubElement(root, "group", name=f"{name}_arm").append(
+        ET.Element("chain", base_link=arm.links[0], tip_link=arm.tip)
+    )
+    home = ET.SubElement(root, "group_state", name="home", group=name)
+    for joint_name, value in home_posture(group):
+        ET.SubElement(home, "joint", name=prefix + joint_name, value=f"{value:.6g}")
 
 
 def home_posture(group: GroupConfig) -> list[tuple[str, float]]:

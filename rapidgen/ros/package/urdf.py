@@ -9,13 +9,23 @@ from dataclasses import dataclass
 from math import acos, atan2, sqrt
 from xml.etree import ElementTree as ET
 
-from rapidgen.config.model import ChainLink, GroupConfig, Joint, RobotConfig
+from rapidgen.config.model import ChainLink, Joint, RobotConfig
 
 ROOT = "world"
 _EFFORT = "1000"
 """N m, N: URDF wants one, and the controller does not tell it."""
 _THICKNESS = 0.12
 """Radius of a drawn link, as a share of its length."""
+
+
+@dataclass(frozen=True, slots=True)
+class Placed:
+    """A robot of a drawing: what its names begin with, and where its base is in the world."""
+
+    config: RobotConfig
+    prefix: str = ""
+    at: tuple[float, ...] = (0.0,) * 6
+    """x, y, z in m; roll, pitch, yaw in rad."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,7 +48,7 @@ class Drawn:
 
     root: ET.Element
     arms: dict[str, LinkChain]
-    """By motion group."""
+    """By motion group, with its robot's prefix."""
     positioners: dict[str, tuple[LinkChain, ...]]
 
     @property
@@ -59,19 +69,27 @@ class Drawn:
 
 def draw(config: RobotConfig, name: str) -> Drawn:
     """The URDF of all groups of a configuration, in m and rad."""
+    return draw_cell([Placed(config)], name)
+
+
+def draw_cell(robots: Sequence[Placed], name: str) -> Drawn:
+    """The same of several robots in one world."""
     root = ET.Element("robot", name=name)
     ET.SubElement(root, "link", name=ROOT)
     arms, positioners = {}, {}
-    several = len(config.groups) > 1
-    for group in config.groups:
-        prefix = f"{group.name}_" if several else ""
-        joints = {joint.name: joint for joint in group.joints}
-        drawer = _Drawer(root, joints, _coupled(group))
-        arms[group.name] = drawer.branch(f"{prefix}base_link", group.chain, f"{prefix}tool0")
-        positioners[group.name] = tuple(
-            drawer.branch(f"{prefix}{unit.unit}_base", unit.chain, f"{prefix}{unit.unit}_table")
-            for unit in group.positioners
-        )
+    for robot in robots:
+        several = len(robot.config.groups) > 1
+        for group in robot.config.groups:
+            prefix = robot.prefix + (f"{group.name}_" if several else "")
+            joints = {joint.name: joint for joint in group.joints}
+            drawer = _Drawer(root, joints, robot.prefix, robot.at)
+            arms[robot.prefix + group.name] = drawer.branch(
+                f"{prefix}base_link", group.chain, f"{prefix}tool0"
+            )
+            positioners[robot.prefix + group.name] = tuple(
+                drawer.branch(f"{prefix}{unit.unit}_base", unit.chain, f"{prefix}{unit.unit}_table")
+                for unit in group.positioners
+            )
     return Drawn(root, arms, positioners)
 
 
@@ -81,26 +99,22 @@ def urdf_range(joint: Joint) -> tuple[float, float]:
     return ends[0], ends[1]
 
 
-def _coupled(group: GroupConfig) -> str:
-    if not group.coupling:
-        return ""
-    return next(joint.name for joint in group.joints if joint.axis == "rax_3")
-
-
 @dataclass(frozen=True, slots=True)
 class _Drawer:
     root: ET.Element
     joints: dict[str, Joint]
-    coupled: str
+    prefix: str
+    """Of joints."""
+    at: Sequence[float]
 
     def branch(self, base: str, chain: Sequence[ChainLink], tip: str) -> LinkChain:
         ET.SubElement(self.root, "link", name=base)
-        self._joint(f"{base}_joint", "fixed", ROOT, base, (0, 0, 0), (0, 0, 0))
+        self._joint(f"{base}_joint", "fixed", ROOT, base, self.at[:3], self.at[3:])
         links, joints = [base], []
         for number, step in enumerate(chain, 1):
             end = tip if number == len(chain) and not (step.joint or step.follows) else ""
             if step.joint:
-                joints.append(step.joint)
+                joints.append(self.prefix + step.joint)
             links += self._step(links[-1], step, end or f"{base}_{number}")
         if links[-1] != tip:
             ET.SubElement(self.root, "link", name=tip)
@@ -112,10 +126,11 @@ class _Drawer:
         """Links behind `parent`; it is drawn as a bar to where the next one begins."""
         self._bar(parent, step.xyz)
         if step.joint:
-            child = f"{step.joint}_link"
+            name, joint = self.prefix + step.joint, self.joints[step.joint]
+            child = f"{name}_link"
             self._link(child)
-            joint = self.joints[step.joint]
-            self._joint(step.joint, joint.kind, parent, child, step.xyz, step.rpy, step.axis)
+            element = self._joint(name, joint.kind, parent, child, step.xyz, step.rpy, step.axis)
+            _limit(element, joint)
             return [child]
         if not step.follows:
             self._link(child)
@@ -130,7 +145,9 @@ class _Drawer:
             at = made[-1] if made else parent
             name = f"{link}_joint"
             element = self._joint(name, "continuous", at, link, xyz, rpy, step.axis)
-            ET.SubElement(element, "mimic", joint=followed, multiplier=_number(factor))
+            ET.SubElement(
+                element, "mimic", joint=self.prefix + followed, multiplier=_number(factor)
+            )
             made.append(link)
             xyz = rpy = (0.0, 0.0, 0.0)
         return made
@@ -154,17 +171,6 @@ class _Drawer:
         ET.SubElement(element, "origin", xyz=_numbers(xyz), rpy=_numbers(rpy))
         if axis is not None:
             ET.SubElement(element, "axis", xyz=_numbers(axis))
-        if name in self.joints:
-            joint = self.joints[name]
-            lower, upper = urdf_range(joint)
-            ET.SubElement(
-                element,
-                "limit",
-                lower=_number(lower),
-                upper=_number(upper),
-                velocity=_number(joint.speed),
-                effort=_EFFORT,
-            )
         return element
 
     def _bar(self, link: str, to: Sequence[float]) -> None:
@@ -180,6 +186,18 @@ class _Drawer:
             geometry = ET.SubElement(shape, "geometry")
             radius = _number(min(length * _THICKNESS, 0.12))
             ET.SubElement(geometry, "cylinder", radius=radius, length=_number(length))
+
+
+def _limit(element: ET.Element, joint: Joint) -> None:
+    lower, upper = urdf_range(joint)
+    ET.SubElement(
+        element,
+        "limit",
+        lower=_number(lower),
+        upper=_number(upper),
+        velocity=_number(joint.speed),
+        effort=_EFFORT,
+    )
 
 
 def _number(value: float) -> str:

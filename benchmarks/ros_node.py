@@ -1,0 +1,117 @@
+"""What the ROS 2 node adds to a bare client and publisher, in one run with a real rclpy.
+
+    python benchmarks/ros_node.py [--rounds N] [--seconds S]
+
+The Python is that of a sourced ROS 2. Both publish the joints of the same `rapidgen sim`, in turns;
+told are how late joint_states are heard behind their stamps, and each process' share of a core.
+"""
+
+import argparse
+import asyncio
+import os
+import re
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import rclpy
+from builtin_interfaces.msg import Time
+from rclpy.qos import QoSProfile
+from rclpy.signals import SignalHandlerOptions
+from sensor_msgs.msg import JointState
+
+from rapidgen.client import AsyncRobot
+from rapidgen.ros.stamps import Stamps
+
+LATER, MORE = 2.0, 5.0
+"""ms of p99, and points of CPU, that the node may add."""
+
+
+async def bare(address):
+    """A client, and a publisher of what it hears."""
+    rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
+    node, stamps = rclpy.create_node("bare"), Stamps()
+    publisher = node.create_publisher(JointState, "joint_states", QoSProfile(depth=10))
+    async with AsyncRobot("irb120", address=address, feedback=True) as robot:
+        while True:
+            fed = await robot.next_feedback()
+            message = JointState(name=list(robot.group.names))
+            message.position, message.velocity = list(fed.joints), list(fed.velocity)
+            seconds, rest = divmod(stamps.stamp(fed.time, time.time()), 10**9)
+            message.header.stamp = Time(sec=seconds, nanosec=rest)
+            publisher.publish(message)
+
+
+def cpu(process):
+    """s of CPU that a process has used."""
+    told = Path(f"/proc/{process.pid}/stat").read_text().rsplit(")", 1)[1].split()
+    return (int(told[11]) + int(told[12])) / os.sysconf("SC_CLK_TCK")
+
+
+def heard(command, seconds):
+    """ms behind the stamps, and the share of a core in percent, once states come."""
+    node, late, process = rclpy.create_node("ear"), [], subprocess.Popen(command)
+    try:
+
+        def hear(message):
+            stamp = message.header.stamp
+            late.append(time.time() - stamp.sec - stamp.nanosec * 1e-9)
+
+        node.create_subscription(JointState, "joint_states", hear, 50)
+        begin = time.monotonic()
+        while len(late) < 20:
+            assert time.monotonic() - begin < 60, "no joint_states"
+            rclpy.spin_once(node, timeout_sec=0.5)
+        late.clear()
+        begin, used = time.monotonic(), cpu(process)
+        while time.monotonic() - begin < seconds:
+            rclpy.spin_once(node, timeout_sec=0.1)
+        share = (cpu(process) - used) / (time.monotonic() - begin)
+    finally:
+        process.terminate()
+        process.wait()
+        node.destroy_node()
+    return np.array(late) * 1e3, share * 100
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--rounds", type=int, default=5)
+    parser.add_argument("--seconds", type=float, default=20.0)
+    parser.add_argument("--bare", help=argparse.SUPPRESS)
+    asked = parser.parse_args()
+    if asked.bare:
+        asyncio.run(bare(asked.bare))
+    program = str(Path(sys.executable).with_name("rapidgen"))
+    sim = subprocess.Popen(
+        [program, "sim", "irb120", "--ports", "auto"], stdout=subprocess.PIPE, text=True
+    )
+    try:
+        address = re.search(r'"address": \{"rob1": "([^"]+)"', sim.stdout.readline())[1]
+        node = ["-m", "rapidgen.ros", "--ros-args", "-p", "config:=irb120", "-p"]
+        commands = {
+            "bare": [sys.executable, __file__, "--bare", address],
+            "node": [sys.executable, *node, f"address:={address}"],
+        }
+        rclpy.init()
+        found = {name: ([], []) for name in commands}
+        for _ in range(asked.rounds):
+            for name, command in commands.items():
+                late, share = heard(command, asked.seconds)
+                found[name][0].append(np.quantile(late, 0.99))
+                found[name][1].append(share)
+    finally:
+        sim.terminate()
+    late, share = ({name: np.median(one[i]) for name, one in found.items()} for i in (0, 1))
+    for name in commands:
+        print(f"{name}: p99 {late[name]:.2f} ms, {share[name]:.1f} % of a core")
+    adds = late["node"] - late["bare"], share["node"] - share["bare"]
+    kept = adds[0] <= LATER and adds[1] <= MORE
+    print(f"adds {adds[0]:+.2f} ms and {adds[1]:+.1f} points: {'kept' if kept else 'MISSED'}")
+    return 0 if kept else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
