@@ -28,7 +28,15 @@ from rapidgen.client.errors import (
     StopFailed,
     TrajectoryRefused,
 )
-from rapidgen.client.program import Program, Speed, Trigger, Zone, pulse
+from rapidgen.client.program import (
+    OwnTool,
+    OwnWorkObject,
+    Program,
+    Speed,
+    Trigger,
+    Zone,
+    pulse,
+)
 from rapidgen.client.threads import Execution, ProgramRun, Robot, Stream
 from rapidgen.client.trajectory import Trajectory, Waypoint
 from rapidgen.wire.simple_message.spec import EventType, Reason, TrajectoryState
@@ -64,6 +72,8 @@ __all__ = [
     "MotionStopped",
     "NotReady",
     "NotSupported",
+    "OwnTool",
+    "OwnWorkObject",
     "Program",
     "ProgramRun",
     "Progress",

@@ -26,6 +26,9 @@ from rapidgen.wire.simple_message import messages, rapid, spec
 from rapidgen.wire.simple_message.instructions import MOST_SIGNALS
 from rapidgen.wire.simple_message.spec import MOST_ARGUMENTS, ReplyCode
 
+# Those of a program's own values, as they are before a program gave any.
+_OWN_TOOL = Tool("ROS_own_tool", load=Load(1.0, (0.0, 0.0, 0.001)))
+_OWN_WORK_OBJECT = WorkObject("ROS_own_wobj")
 # Clients that the state port serves at a time.
 STATE_CLIENTS = 3
 # A multiple of every ring's size within the integers that a num counts exactly, 2^23 [K §2.13].
@@ -119,10 +122,7 @@ def group_context(config: RobotConfig, group: GroupConfig, build_id: str) -> dic
         "tool": _tool(group.tool),
         "payload": payload,
         "wobj": _work_object(group.work_object),
-        "tools": [_tool(tool, n) for n, tool in enumerate((group.tool, *group.tools))],
-        "wobjs": [
-            _work_object(wobj, n) for n, wobj in enumerate((group.work_object, *group.work_objects))
-        ],
+        **_frames(group),
         "tload": f" \\TLoad:={payload['name']}" if payload["with_moves"] else "",
         # A clock counts microseconds only on newer controllers [mem].
         "high_res": " \\HighRes" if config.robotware[0] >= 6 else "",
@@ -146,6 +146,18 @@ def group_context(config: RobotConfig, group: GroupConfig, build_id: str) -> dic
         "heartbeat_reply": messages.HEARTBEAT.reply(ReplyCode.SUCCESS).length,
         "signal_reply": messages.SIGNAL.reply(ReplyCode.SUCCESS).length,
     }
+
+
+def _frames(group: GroupConfig) -> dict[str, object]:
+    """Tools and work objects by number; those of a program's own values come behind the others."""
+    tools = [_tool(tool, n) for n, tool in enumerate((group.tool, *group.tools))]
+    wobjs = [
+        _work_object(wobj, n) for n, wobj in enumerate((group.work_object, *group.work_objects))
+    ]
+    if group.chain:
+        tools.append(_tool(_OWN_TOOL))
+        wobjs.append(_work_object(_OWN_WORK_OBJECT))
+    return {"tools": tools, "wobjs": wobjs}
 
 
 def _tight(config: RobotConfig, group: GroupConfig) -> bool:

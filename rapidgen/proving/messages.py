@@ -98,6 +98,8 @@ class RawInstruction(IntEnum):
     SET = 7
     CALL = 8
     SETTINGS = 9
+    TOOL = 10
+    WORK_OBJECT = 11
 
 
 class RawModal(IntFlag):

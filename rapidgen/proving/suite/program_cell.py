@@ -1,13 +1,11 @@
-"""What a program does beside moving: signals on the way, other tools and objects, SPEED."""
+"""What a program does beside moving: signals on the way and standing, SPEED, settings."""
 
 import math
 import random
 from collections.abc import Sequence
 from dataclasses import replace
 
-from rapidgen.axes import frames
-from rapidgen.axes.frames import Pose
-from rapidgen.config.model import ExposedSignal, Placement
+from rapidgen.config.model import ExposedSignal
 from rapidgen.motion.moves import Singularities
 from rapidgen.proving import messages
 from rapidgen.proving.batches import millionths
@@ -280,57 +278,6 @@ def _sends(
 def _accepted(told: messages.RawContent) -> None:
     if not isinstance(told, messages.RawPointsAccepted):
         raise Broken(f"a right program is answered by {told}")
-
-
-@case("program-tools", "a program moves other tools in other work objects")
-def _tools(bench: Bench) -> None:
-    """Each of the configuration's: a pose of another tool is refused, the right one is reached,
-    with a stop point before the first move of it."""
-    client = Programmer(bench)
-    first, *more = orders(bench, 6, random.Random(24))
-    client.takes("a program", [first])
-    bench.wait_until_at(first.joints, 60)
-    tools = (bench.group.tool, *bench.group.tools)
-    objects = (bench.group.work_object, *bench.group.work_objects)
-    told = client.send([replace(first, frames=(len(tools), 0))])
-    client.refused(told, RawReason.NO_FRAME, 0, "a tool too many")
-    told = client.send([replace(first, frames=(0, len(objects)))])
-    client.refused(told, RawReason.NO_FRAME, 0, "a work object too many")
-    if not computes(bench) or (len(tools), len(objects)) == (1, 1):
-        return
-    for tool in range(len(tools)):
-        for wobj in range(len(objects)):
-            frame = tools[tool].frame, objects[wobj].user_frame
-            own = [
-                replace(o, pose=_seen(bench, o.joints, *frame), kind=MOVES[0], frames=(tool, wobj))
-                for o in more[:3]
-            ]
-            if (tool, wobj) != (0, 0):
-                other = replace(own[0], frames=(0, 0))
-                client.refused(
-                    client.send([other]), RawReason.POSE_MISMATCH, 0, f"tool {tool}, object {wobj}"
-                )
-            start, since = bench.position, bench.now
-            client.takes(f"tool {tool} in work object {wobj}", [*more[3:4], *own])
-            bench.wait_until_at(own[-1].joints, 60)
-            joints = [start, more[3].joints, *(o.joints for o in own)]
-            bench.followed(joints, since=since, corner=0.1)
-
-
-def _seen(bench: Bench, joints: Position, tool: Placement, wobj: Placement) -> Pose:
-    """The pose of joints, in m, with another tool in another work object."""
-    geometry = bench.motion_group.kinematics
-    assert geometry is not None
-    flange = geometry.forward(joints)
-    tip = frames.compose(flange, (tool.position, tool.orientation))
-    pose = frames.compose(frames.invert((wobj.position, wobj.orientation)), tip)
-    (x, y, z), q = pose
-    return (round(x, 6), round(y, 6), round(z, 6)), (
-        round(q[0], 6),
-        round(q[1], 6),
-        round(q[2], 6),
-        round(q[3], 6),
-    )
 
 
 @case("program-speed", "SPEED is refused while a program is under way", needs="control")

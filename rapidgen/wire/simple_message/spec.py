@@ -140,6 +140,8 @@ class Instruction(IntEnum):
     SET = 7
     CALL = 8
     SETTINGS = 9
+    TOOL = 10
+    WORK_OBJECT = 11
 
 
 class Modal(IntFlag):

@@ -8,7 +8,7 @@ MODULE ROS_execution
     ! In the motion task. All was checked before it came into the ring; ROS_motion takes it out there, and
     ! leaves an instruction that is under way when the robot was stopped.
 
-    CONST string ROS_BUILD_EXECUTION := "a79f808325b7";
+    CONST string ROS_BUILD_EXECUTION := "d95735168132";
 
     ! The instruction at hand, and why it could not be carried out, 0: it could.
     VAR ROS_order ROS_ordered;
@@ -16,6 +16,8 @@ MODULE ROS_execution
     LOCAL VAR zonedata zone;
     ! What is other than usual on lines.
     LOCAL VAR num ways := 0;
+    TASK PERS tooldata ROS_own_tool := [TRUE,[[0,0,0],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];
+    TASK PERS wobjdata ROS_own_wobj := [FALSE,TRUE,"",[[0,0,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];
     ! Signals on its way, and triggers for four moves: those of the moves before may be under way.
     LOCAL VAR ROS_mark mark{8};
     LOCAL VAR triggdata trigger{4, 8};
@@ -82,6 +84,14 @@ MODULE ROS_execution
         CASE ROS_DO_SETTINGS:
             set_ways ROS_ordered.value;
             RETURN;
+        CASE ROS_DO_TOOL:
+            ! The robot stands: no move is under way with what it was.
+            ROS_own_tool := [TRUE,[ROS_ordered.target.trans,ROS_ordered.target.rot],ROS_ordered.load];
+            RETURN;
+        CASE ROS_DO_WORK_OBJECT:
+            ROS_own_wobj := [FALSE,TRUE,"",[ROS_ordered.target.trans,ROS_ordered.target.rot],
+                [ROS_ordered.via.trans,ROS_ordered.via.rot]];
+            RETURN;
         CASE ROS_DO_WAIT:
             WaitTime ROS_ordered.seconds;
             RETURN;
@@ -99,6 +109,8 @@ MODULE ROS_execution
         TEST ROS_ordered.tool
         CASE 0:
             move_with tool0;
+        CASE 1:
+            move_with ROS_own_tool;
         ENDTEST
     ERROR
         RAISE;
@@ -108,6 +120,8 @@ MODULE ROS_execution
         TEST ROS_ordered.wobj
         CASE 0:
             move tool, wobj0;
+        CASE 1:
+            move tool, ROS_own_wobj;
         ENDTEST
     ERROR
         RAISE;
