@@ -162,7 +162,7 @@ class RawReason(IntEnum):
     NO_GEOMETRY = 33
     NO_FRAME = 34
     NO_ROUTINE = 35
-    IS_PROGRAM = 36
+    IN_ROUTINE = 36
     NO_DATUM = 37
     STOPPED = 40
     SUPERSEDED = 41

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from driven import BENT, complaints, driven, moved, wiggle
+from driven import BENT, complaints, driven, moved
 
 from rapidgen.axes import frames
 from rapidgen.client import (
@@ -16,7 +16,6 @@ from rapidgen.client import (
     OwnTool,
     OwnWorkObject,
     Program,
-    RequestRefused,
     Speed,
     Trigger,
     pulse,
@@ -174,19 +173,17 @@ def test_signals_are_set_on_the_way():
         assert not complaints(controller)
 
 
-def test_a_speed_for_a_program_is_refused_instead_of_confirmed_and_not_obeyed():
+def test_a_speed_holds_for_a_program_and_no_longer():
     with cell() as (robot, controller):
         robot.move_to(BENT, speed=1.0)
-        execution = robot.run(Program(speed=0.1).move_linear(moved(robot.pose, z=0.05)))
-        with pytest.raises(RequestRefused) as refused:
-            robot.set_speed(20)
-        assert refused.value.reason is Reason.IS_PROGRAM
-        assert robot.override == 1.0
-        assert execution.result().deviation < 1e-4
-        path = wiggle(robot)
-        trajectory = robot.execute(path)
+        here = robot.pose
+        program = Program(speed=0.1).move_linear(moved(here, z=0.05))
+        quick = robot.run(program).result().seconds
+        execution = robot.run(Program(speed=0.1).move_linear(here))
         robot.set_speed(20)
-        assert trajectory.result().seconds > path.duration
+        assert execution.result().deviation < 1e-4
+        assert execution.result().seconds > 3 * quick
+        assert robot.run(program).result().seconds == pytest.approx(quick, abs=0.15)
         assert not complaints(controller)
 
 

@@ -13,7 +13,7 @@ from rapidgen.proving.link import RawLink
 from rapidgen.proving.messages import RawInstruction, RawReason, RawTrajectoryState
 from rapidgen.proving.model import Broken
 from rapidgen.proving.programs import ALL, Programmer, orders
-from rapidgen.proving.suite.control import stop
+from rapidgen.proving.suite.control import not_done, stop
 from rapidgen.system.model import ModuleFile, System
 
 case = Theme("own routines", needs="stream")
@@ -112,6 +112,8 @@ def _alone(bench: Bench) -> None:
         other.run(0.5)
         told = _calls(client, LONG)
         client.refused(told, RawReason.MOVING, -1, "a program into a routine")
+        told = other.control().ask(messages.RawSpeed(50.0))
+        not_done(told, RawReason.IN_ROUTINE, "SPEED of a routine")
         points = other.wave(4)
         client.link.send(other.download(points))
         newer = RawLink(other, other.group.ports.motion)

@@ -1,4 +1,4 @@
-"""What a program does beside moving: signals on the way and standing, SPEED, settings."""
+"""What a program does beside moving: signals on the way and standing, settings."""
 
 import math
 import random
@@ -21,7 +21,6 @@ from rapidgen.proving.programs import (
     orders,
     reached,
 )
-from rapidgen.proving.suite.control import not_done
 from rapidgen.proving.suite.programs import corners_made
 from rapidgen.proving.track import Position
 
@@ -278,24 +277,6 @@ def _sends(
 def _accepted(told: messages.RawContent) -> None:
     if not isinstance(told, messages.RawPointsAccepted):
         raise Broken(f"a right program is answered by {told}")
-
-
-@case("program-speed", "SPEED is refused while a program is under way", needs="control")
-def _speed(bench: Bench) -> None:
-    """It would be confirmed and not obeyed; behind the program a trajectory takes it again."""
-    control, client = bench.control(), Programmer(bench)
-    program = orders(bench, 4, random.Random(25))
-    client.takes("a program", program)
-    bench.wait_until_moving()
-    for percent in (50.0, 100.0):
-        told = control.ask(messages.RawSpeed(percent))
-        not_done(told, RawReason.IS_PROGRAM, "SPEED during a program")
-    bench.wait_until_at(program[-1].joints, 60)
-    bench.run(0.5)
-    not_done(control.ask(messages.RawSpeed(50.0)), RawReason.IDLE, "SPEED behind a program")
-    bench.sets_off(client.link, bench.wave(10), 0.3)
-    if not isinstance(control.ask(messages.RawSpeed(50.0)), messages.RawAcknowledged):
-        raise Broken("a trajectory behind a program does not take SPEED")
 
 
 @case("program-settings", "singularities and configurations are allowed on request alone")

@@ -301,7 +301,7 @@ def _waits(bench: Bench) -> None:
         ([1024 + MOVE_ABSJ, *millionths([99.0, 0.0])], RawReason.NO_FRAME),
         ([1024 + MOVE_ABSJ, *millionths([0.0, 0.5])], RawReason.NO_FRAME),
         ([int(RawInstruction.SET), *millionths([99.0, 0.0])], None),
-        ([10, 0], RawReason.NO_INSTRUCTION),
+        ([12, 0], RawReason.NO_INSTRUCTION),
     ):
         client.number += 1
         start = millionths(bench.position)
