@@ -124,6 +124,20 @@ class OwnWorkObject:
 
 
 @dataclass(frozen=True, slots=True)
+class Target:
+    """A robtarget that a routine has left: pose (m), configuration, and values of external axes by
+    name (rad, m), as `move_to` takes them. What it left is not checked."""
+
+    pose: Pose
+    configuration: AxisConfiguration
+    external: Mapping[str, float]
+
+
+Left: TypeAlias = float | bool | str | Target | tuple[float, ...]
+"""What a routine leaves in a parameter: a num, bool or string, a robtarget, joints."""
+
+
+@dataclass(frozen=True, slots=True)
 class Trigger:
     """A signal that is set on the way of a move: `place` is m from its beginning, m
     before its end, or s before its end, as `kind` says."""

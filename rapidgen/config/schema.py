@@ -242,9 +242,7 @@ class ParameterKeys(Part):
         Literal["num", "bool", "string", "robtarget", "jointtarget"],
         Rule("Type; a string has 80 characters."),
     ]
-    mode: Annotated[
-        Literal["in", "inout"], Rule("`inout`: its value then is a result (not of a target).")
-    ] = "in"
+    mode: Annotated[Literal["in", "inout"], Rule("`inout`: its value then is a result.")] = "in"
 
 
 @dataclass(frozen=True)

@@ -52,6 +52,12 @@ _BELIEF = 10.0
 _BELIEF_MESSAGES = 5
 # Of these the driver writes nothing into the event log.
 _ON_THE_WIRE_ALONE = {spec.Reason.NONE, spec.Reason.SUPERSEDED, spec.Reason.POWER_FAILURE}
+# Of a robtarget on the wire: numbers in m, and without a unit.
+_TARGET_PARTS = (
+    *((f"trans.{axis}", " / 1000") for axis in "xyz"),
+    *((f"rot.q{n}", "") for n in range(1, 5)),
+    *((f"robconf.{name}", "") for name in ("cf1", "cf4", "cf6", "cfx")),
+)
 _FACTORS = (
     {"name": "ROS_DEG", "value": "57.29578", "text": "rad to deg"},
     {"name": "ROS_MM", "value": "1000", "text": "m to mm"},
@@ -141,6 +147,12 @@ def group_context(config: RobotConfig, group: GroupConfig, build_id: str) -> dic
         "most_arguments": MOST_ARGUMENTS,
         "most_targets": _most(group, "robtarget"),
         "most_places": _most(group, "jointtarget"),
+        # Some routine leaves a target.
+        "target_results": any(
+            p.inout and p.type.endswith("target") for r in group.routines for p in r.parameters
+        ),
+        "target_parts": _TARGET_PARTS,
+        "target_reply": messages.TARGET.reply(ReplyCode.SUCCESS).length,
         "result_reply": messages.RESULT.reply(ReplyCode.SUCCESS).length,
         "most_marks": MOST_SIGNALS,
         "heartbeat_reply": messages.HEARTBEAT.reply(ReplyCode.SUCCESS).length,

@@ -5,6 +5,7 @@ import struct
 from collections.abc import Sequence
 from dataclasses import replace
 
+from rapidgen.config.model import OwnRoutine
 from rapidgen.proving import messages
 from rapidgen.proving.batches import millionths
 from rapidgen.proving.behaviour import Theme
@@ -12,7 +13,7 @@ from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import RawLink
 from rapidgen.proving.messages import RawInstruction, RawReason, RawTrajectoryState
 from rapidgen.proving.model import Broken
-from rapidgen.proving.programs import ALL, Programmer, orders
+from rapidgen.proving.programs import ALL, Programmer, computes, orders, reached
 from rapidgen.proving.suite.control import not_done, stop
 from rapidgen.system.model import ModuleFile, System
 
@@ -35,6 +36,16 @@ _MODULE = b"""MODULE cell
         RAISE;
     ENDPROC
 
+    PROC teach(INOUT robtarget there, INOUT jointtarget place, INOUT jointtarget back)
+        VAR jointtarget other;
+
+        there.trans.x := there.trans.x + 250;
+        there.robconf := [-1,2,-3,4];
+        other := place;
+        place := back;
+        back := other;
+    ENDPROC
+
     PROC wait_long()
         undone := FALSE;
         WaitTime 8;
@@ -44,8 +55,20 @@ _MODULE = b"""MODULE cell
     ENDPROC
 ENDMODULE
 """
-WELD, LONG, ABSENT = 0, 1, 2
-"""Numbers of the routines that a configuration for these cases has (tests/proving)."""
+WELD, LONG, ABSENT, TEACH = range(4)
+"""Numbers of the routines that a configuration for these cases has (benchmarks/cell.yaml)."""
+_THESE = {
+    "cell:weld": ("num", "bool", "bool", "string"),
+    "cell:wait_long": (),
+    "nocell:weld": (),
+    "cell:teach": ("robtarget", "jointtarget", "jointtarget"),
+}
+
+
+def _has_these(bench: Bench) -> bool:
+    """Whether the configuration's routines are those of the module of these cases."""
+    own = {r.call: tuple(p.type for p in r.parameters) for r in bench.group.routines}
+    return own == _THESE and list(own) == list(_THESE)
 
 
 @case("routine-absent", "a routine of a module that is not there refuses its program")
@@ -56,13 +79,15 @@ def _absent(bench: Bench) -> None:
         told = _calls(client, LONG)
         client.refused(told, RawReason.NO_INSTRUCTION, 0, "a driver without routines")
         return
-    for number in range(3):
-        arguments = _weld(1.0) if number == WELD else ()
-        told = _calls(client, number, arguments)
-        client.refused(told, RawReason.NO_ROUTINE, 0, f"routine {number} is not there")
+    for number, routine in enumerate(bench.group.routines):
+        if ":" in routine.call and not routine.returns:
+            told = _calls(client, number, _zeros(bench, routine))
+            client.refused(told, RawReason.NO_ROUTINE, 0, f"{routine.call} is not there")
+    if not _has_these(bench):
+        return
     with bench.beside(_with_module(bench)) as other:
         client = Programmer(other)
-        for number in (ABSENT, 3, -1):
+        for number in (ABSENT, 4, -1):
             client.refused(_calls(client, number), RawReason.NO_ROUTINE, 0, f"routine {number}")
         for seconds in (-1.0, 2001.0):
             told = _calls(client, LONG, seconds=seconds)
@@ -77,7 +102,7 @@ def _absent(bench: Bench) -> None:
 @case("routine-results", "a routine's parameters and its error come back")
 def _results(bench: Bench) -> None:
     """Numbers, texts, number and name of an error; the program behind it goes on, or ends."""
-    if not bench.group.routines:
+    if not _has_these(bench):
         return
     with bench.beside(_with_module(bench)) as other:
         client, watcher = Programmer(other), other.watcher()
@@ -103,7 +128,7 @@ def _results(bench: Bench) -> None:
 @case("routine-alone", "nothing else begins while a routine runs", needs="control")
 def _alone(bench: Bench) -> None:
     """Not by its own client, nor by another one; STOP and the time-out end it, UNDO runs."""
-    if not bench.group.routines:
+    if not _has_these(bench):
         return
     with bench.beside(_with_module(bench)) as other:
         client, watcher = Programmer(other), other.watcher()
@@ -142,6 +167,60 @@ def _alone(bench: Bench) -> None:
         program = orders(other, 2, random.Random(28))
         client.takes("a program behind a routine", program)
         other.wait_until_at(program[-1].joints, 60)
+
+
+@case("routine-targets", "targets that a routine leaves come back")
+def _targets(bench: Bench) -> None:
+    """Each with its own number, in m and rad; where there is none, none is told."""
+    if not _has_these(bench) or not computes(bench):
+        return
+    with bench.beside(_with_module(bench)) as other:
+        client = Programmer(other)
+        first, second = (order.joints for order in orders(other, 3, random.Random(29))[1:])
+        (x, y, z), turn = reached(other, first)
+        words = millionths([x, y, z, *turn, *first, *first, *second])
+        _taken(_calls(client, TEACH, words))
+        _ended(other, client, 0)
+        told = _asks_target(client, 0, 1)
+        _near("robtarget", (*told.position, *told.orientation), (x + 0.25, y, z, *turn))
+        _near("configuration", told.configuration, (-1, 2, -3, 4))
+        for number, joints in ((1, second), (2, first)):
+            told = _asks_target(client, 1, number)
+            _near(f"jointtarget {number}", told.joints[: len(joints)], joints)
+            if any(told.joints[len(joints) :]) or any(told.position) or any(told.orientation):
+                raise Broken(f"TARGET of a jointtarget is answered by {told}")
+        for kind, number in ((0, 0), (0, 2), (1, 0), (1, 3), (2, 1), (-1, 1), (1, -1)):
+            asked = messages.RawTarget(kind, number)
+            if not isinstance(client.link.ask(asked), messages.RawFailure):
+                raise Broken(f"a routine has no target {asked}")
+
+
+def _asks_target(client: Programmer, joints: int, parameter: int) -> messages.RawTargetReply:
+    told = client.link.ask(messages.RawTarget(joints, parameter))
+    if not isinstance(told, messages.RawTargetReply):
+        raise Broken(f"TARGET is answered by {told}")
+    return told
+
+
+def _near(what: str, told: Sequence[float], wanted: Sequence[float]) -> None:
+    """Broken unless numbers are those that were sent, as far as the wire tells them."""
+    if not all(abs(a - b) < 1e-5 for a, b in zip(told, wanted, strict=True)):
+        raise Broken(f"the {what} has come back as {told}, not {wanted}")
+
+
+def _zeros(bench: Bench, routine: OwnRoutine) -> list[int]:
+    """Words of arguments that any routine takes: nothing, and where the robot is."""
+    here = bench.position
+    values: dict[str, list[float]] = {
+        "num": [0.0],
+        "bool": [0.0],
+        "string": [0.0],
+        "jointtarget": list(here),
+    }
+    if any(p.type == "robtarget" for p in routine.parameters):
+        (x, y, z), turn = reached(bench, here)
+        values["robtarget"] = [x, y, z, *turn, *here]
+    return [w for p in routine.parameters for w in millionths(values[p.type])]
 
 
 def _weld(seam: float, *, dry: int = 0, text: str = "ab") -> list[int]:
