@@ -136,7 +136,7 @@ def _words(
 def _frames(walk: Walk, step: ProgramStep) -> tuple[int, int]:
     """Numbers of tool and work object."""
     geometry = walk.group.geometry
-    found = []
+    found: list[int] = []
     for what, name, known in (
         ("tool", step.tool, geometry.tools if geometry else ()),
         ("work object", step.work_object, geometry.work_objects if geometry else ()),

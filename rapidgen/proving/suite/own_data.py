@@ -47,6 +47,11 @@ def _data(bench: Bench) -> None:
         return
     with bench.beside(_with(bench, listed)) as other:
         control = other.control()
+        if not bench.setting.dialect.data_of_tasks:
+            for index in range(len(listed)):
+                told = _asks(control, index)
+                not_done(told, RawReason.NO_DATUM, f"datum {index} of a task that is not reached")
+            return
         for index, datum in enumerate(listed):
             _one(control, index, datum)
         other.stays(0.5, "data were read and written")

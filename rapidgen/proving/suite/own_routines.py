@@ -65,10 +65,15 @@ _THESE = {
 }
 
 
-def _has_these(bench: Bench) -> bool:
+def _knows_these(bench: Bench) -> bool:
     """Whether the configuration's routines are those of the module of these cases."""
     own = {r.call: tuple(p.type for p in r.parameters) for r in bench.group.routines}
     return own == _THESE and list(own) == list(_THESE)
+
+
+def _has_these(bench: Bench) -> bool:
+    """Whether it does, and the motion task is told that the module is there."""
+    return _knows_these(bench) and bench.setting.dialect.modules_told
 
 
 @case("routine-absent", "a routine of a module that is not there refuses its program")
@@ -80,9 +85,14 @@ def _absent(bench: Bench) -> None:
         client.refused(told, RawReason.NO_INSTRUCTION, 0, "a driver without routines")
         return
     for number, routine in enumerate(bench.group.routines):
-        if ":" in routine.call and not routine.returns:
+        poses = any(p.type == "robtarget" for p in routine.parameters)
+        if ":" in routine.call and not routine.returns and (computes(bench) or not poses):
             told = _calls(client, number, _zeros(bench, routine))
             client.refused(told, RawReason.NO_ROUTINE, 0, f"{routine.call} is not there")
+    if _knows_these(bench) and not bench.setting.dialect.modules_told:
+        with bench.beside(_with_module(bench)) as other:
+            told = _calls(Programmer(other), WELD, _weld(1.0))
+            client.refused(told, RawReason.NO_ROUTINE, 0, "a module of which nobody is told")
     if not _has_these(bench):
         return
     with bench.beside(_with_module(bench)) as other:
