@@ -63,6 +63,8 @@ def _tools(bench: Bench) -> None:
                 )
             start, since = bench.position, bench.now
             client.takes(f"tool {tool} in work object {wobj}", [*more[3:4], *own])
+            # It ends where it began.
+            bench.wait_until_moving()
             bench.wait_until_at(own[-1].joints, 60)
             joints = [start, more[3].joints, *(o.joints for o in own)]
             bench.followed(joints, since=since, corner=0.1)
