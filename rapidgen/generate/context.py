@@ -41,6 +41,8 @@ _DEFAULT_TCP_SPEED = 5.0
 # configuration are estimates.
 _TURN_SHARE = 0.3
 _MM = 1000.0
+# deg that a pose may be turned away for each mm of its tolerance.
+_TURN_PER_MM = 0.2
 # Axes of a kind have one part of a corner's zone.
 _SUMS = (
     {"name": "turning", "field": "zone_ori", "least": "SMALLEST_TURN"},
@@ -109,6 +111,7 @@ def group_context(config: RobotConfig, group: GroupConfig, build_id: str) -> dic
         "zone": config.trajectory.zone,
         "tight": _tight(config, group),
         "min_segment": config.trajectory.min_segment,
+        **_near(config.trajectory.pose_tolerance),
         "approach": config.trajectory.approach_speed,
         "slow_down": config.trajectory.too_fast == "slow_down",
         "commissioning": config.commissioning,
@@ -158,6 +161,12 @@ def group_context(config: RobotConfig, group: GroupConfig, build_id: str) -> dic
         "heartbeat_reply": messages.HEARTBEAT.reply(ReplyCode.SUCCESS).length,
         "signal_reply": messages.SIGNAL.reply(ReplyCode.SUCCESS).length,
     }
+
+
+def _near(tolerance: float) -> dict[str, str]:
+    """How far a pose may be from what its joints reach: mm, and the cosine of half an angle."""
+    angle = math.radians(_TURN_PER_MM * tolerance * _MM)
+    return {"near": literal(tolerance * _MM), "unturned": literal(round(math.cos(angle / 2), 6))}
 
 
 def _frames(group: GroupConfig) -> dict[str, object]:

@@ -92,7 +92,8 @@ def _refused(bench: Bench) -> None:
     for order in right:
         if order.pose is not None:
             (x, y, z), q = order.pose
-            away = replace(order, pose=((x, y, z + 0.002), q))
+            far = 1.1 * bench.config.trajectory.pose_tolerance
+            away = replace(order, pose=((x, y, z + far), q))
             turned = replace(order, pose=((x, y, z), (q[1], q[0], q[3], q[2])))
             wrong += [(away, RawReason.POSE_MISMATCH), (turned, RawReason.POSE_MISMATCH)]
             wrong.append((replace(order, pose=((x, y, z), (0.0,) * 4)), RawReason.BAD_VALUE))

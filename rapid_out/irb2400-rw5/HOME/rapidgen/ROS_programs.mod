@@ -10,7 +10,7 @@ MODULE ROS_programs
     ! pose. So the limits are those of the joints, the configuration is the one that the controller
     ! gives, and a client whose robot is another one is refused before anything moves.
 
-    CONST string ROS_BUILD_PROGRAMS := "defeb5b27e40";
+    CONST string ROS_BUILD_PROGRAMS := "7495a2bd6ba3";
 
     ! mm/s and deg/s of a speed, mm and deg of a zone, at most.
     LOCAL CONST num TCP_SPEED := 1000;
@@ -23,7 +23,7 @@ MODULE ROS_programs
     ! s of a wait, at most.
     LOCAL CONST num LONGEST := 2000;
     ! A pose is reached when it is no farther away than this (mm), and no more turned than this cosine of
-    ! half an angle: 0.2 degrees.
+    ! half an angle: 0.2 degrees for each mm.
     LOCAL CONST num NEAR := 1;
     LOCAL CONST num UNTURNED := 0.999998;
     ! mm, kg and kg m2 of a tool or work object whose values the client sends, at most.
