@@ -117,7 +117,7 @@ def _results(bench: Bench) -> None:
     with bench.beside(_with_module(bench)) as other:
         client, watcher = Programmer(other), other.watcher()
         for seam, dry in ((1.5, 0), (2.0**100, 1)):
-            _taken(_calls(client, WELD, _weld(seam, dry=dry)))
+            _taken(_calls(client, WELD, _weld(seam, dry=dry, good=dry)))
             told = _ended(other, client, 4)
             if (told.error, told.values[:3], told.text) != (0, (2 * seam, dry, 1 - dry), "abab"):
                 raise Broken(f"weld({seam}, {dry}) is told as {told}")
@@ -233,13 +233,13 @@ def _zeros(bench: Bench, routine: OwnRoutine) -> list[int]:
     return [w for p in routine.parameters for w in millionths(values[p.type])]
 
 
-def _weld(seam: float, *, dry: int = 0, text: str = "ab") -> list[int]:
+def _weld(seam: float, *, dry: int = 0, good: int = 0, text: str = "ab") -> list[int]:
     """Words of weld's arguments: a num as float32, two bools, a text."""
     number = struct.unpack("<i", struct.pack("<f", seam))[0]
     letters = text.encode().ljust(4, b"\0")
     return [
         number,
-        *millionths([float(dry), 0.0, float(len(text))]),
+        *millionths([float(dry), float(good), float(len(text))]),
         int.from_bytes(letters, "little"),
     ]
 

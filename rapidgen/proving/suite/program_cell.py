@@ -50,10 +50,17 @@ def _signals(bench: Bench) -> None:
         return
     there = replace(last, kind=MOVES[0], pose=reached(bench, last.joints), speed=0.1)
     back = replace(there, joints=first.joints, pose=reached(bench, first.joints))
-    for kind in (*MOVES, RawInstruction.MOVE_ABSJ):
+    middle = [(a + b) / 2 for a, b in zip(first.joints, last.joints, strict=True)]
+    (x, y, z), turned = reached(bench, tuple(middle))
+    for kind in (*MOVES, RawInstruction.MOVE_ABSJ, RawInstruction.MOVE_C):
         for number in written:
             for go, from_there in ((there, first), (back, there)):
-                own = replace(go, kind=kind, pose=go.pose if kind in MOVES else None)
+                own = replace(
+                    go,
+                    kind=kind,
+                    pose=None if kind is RawInstruction.MOVE_ABSJ else go.pose,
+                    via=((x, y, z + 0.01), turned) if kind is RawInstruction.MOVE_C else None,
+                )
                 _one_way(bench, client, own, from_there.joints, number)
     _eight(bench, client, there, written[0])
     _wrong_marks(bench, client, replace(back, kind=MOVES[0]), written[0])

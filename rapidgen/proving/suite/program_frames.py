@@ -101,6 +101,10 @@ def _own(bench: Bench) -> None:
     for kind, values in _wrong():
         told = _says(client, (kind, values))
         client.refused(told, RawReason.BAD_VALUE, 0, f"{kind.name} {values}")
+    for kind, values in _largest():
+        if not isinstance(_says(client, (kind, values)), messages.RawPointsAccepted):
+            raise Broken(f"{kind.name} {values} is refused")
+        bench.run(0.5)
     own, their = (tools, 0), (0, objects)
     standing = replace(first, kind=RawInstruction.MOVE_ABSJ, pose=None, joints=bench.position)
     for order in (replace(standing, frames=own), replace(standing, frames=their)):
@@ -167,7 +171,7 @@ def _says(
 
 def _tool(away: float, mass: float) -> list[float]:
     """Operands of TOOL: so far from the flange, turned by half a turn."""
-    return [0.01, 0.0, away, 0.0, 1.0, 0.0, 0.0, 0.0, 0.01, away, 1, 0, 0, 0, mass, 0.1, 0.2, 0.3]
+    return [0.01, 0.0, away, 0.0, 1.0, 0.0, 0.0, 0.0, 0.01, away, 0, 1, 0, 0, mass, 0.1, 0.2, 0.3]
 
 
 def _object(away: float) -> list[float]:
@@ -182,9 +186,20 @@ def _wrong() -> list[tuple[RawInstruction, list[float]]]:
     return found + [(WORK_OBJECT, [*wobj[:at], 101.0, *wobj[at + 1 :]]) for at in (0, 7)]
 
 
+def _largest() -> list[tuple[RawInstruction, list[float]]]:
+    """Operands at the end of what is allowed."""
+    turned = [1.0, 0.0, 0.0, 0.0]
+    far, deep = [100.0, 0.0, 0.0, *turned], [0.0, -100.0, 0.0, *turned]
+    return [
+        (TOOL, [*far, *deep, 2000.0, 2000.0, 2000.0, 2000.0]),
+        (TOOL, [*deep, *far, 1e-6, 0.0, 0.0, 0.0]),
+        (WORK_OBJECT, [*far, *deep]),
+    ]
+
+
 _WRONG = (
     *((at, 101.0) for at in (0, 1, 2, 7, 8, 9)),
-    *((at, 2.0) for at in (4, 10)),
+    *((at, 2.0) for at in (4, 11)),
     *((14, mass) for mass in (0.0, -1.0, 2001.0)),
     *((at, value) for at in (15, 16, 17) for value in (-0.1, 2001.0)),
 )
@@ -206,7 +221,8 @@ def _is(bench: Bench, values: Sequence[float], what: str) -> None:
     """Broken unless the motion task has this tool."""
     tool: Value = bench.controller.task(bench.group.task)["ROS_execution:ROS_own_tool"]
     frame, load = tool.tframe, tool.tload
-    has = (frame.trans.z, frame.rot.q2, load.mass, load.cog.z, load.ix, load.iz)
-    wanted = (1000 * values[2], values[4], values[14], 1000 * values[9], values[15], values[17])
+    moments = load.ix, load.iy, load.iz
+    has = (frame.trans.z, frame.rot.q2, load.cog.z, load.aom.q2, load.mass, *moments)
+    wanted = (1000 * values[2], values[4], 1000 * values[9], values[11], *values[14:])
     if not all(abs(a - b) < _NEAR for a, b in zip(has, wanted, strict=True)):
         raise Broken(f"{what} the tool is {has}, not {wanted}")
