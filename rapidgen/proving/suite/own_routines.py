@@ -109,6 +109,28 @@ def _absent(bench: Bench) -> None:
         other.stays(0.5, "no routine was called")
 
 
+@case("routine-missing", "a procedure that its module does not have ends the program in its turn")
+def _missing(bench: Bench) -> None:
+    """With that reason, what was before it is executed, and nothing of another one is called."""
+    if not _has_these(bench):
+        return
+    system = _with_module(bench, ModuleFile("nocell", "nocell.mod", b"MODULE nocell\nENDMODULE\n"))
+    with bench.beside(system) as other:
+        client, watcher = Programmer(other), other.watcher()
+        client.number += 1
+        wait = [RawInstruction.WAIT, *millionths([0.1])]
+        words = [*millionths(other.position), *wait, _CALL, *millionths([ABSENT, 0.0]), *wait]
+        _taken(client.say(words, 3, ALL))
+        other.stays(1, "there is no such procedure")
+        seen = other.progress(watcher)
+        wanted = (RawTrajectoryState.FAILED, RawReason.NO_ROUTINE, 1)
+        if (seen.state, seen.reason, seen.reached) != wanted:
+            raise Broken(f"a procedure is missing, PROGRESS says {seen}")
+        _taken(_calls(client, WELD, _weld(1.0)))
+        if _ended(other, client, 4).values[0] != 2:
+            raise Broken("a routine behind one that is missing has not run")
+
+
 @case("routine-results", "a routine's parameters and its error come back")
 def _results(bench: Bench) -> None:
     """Numbers, texts, number and name of an error; the program behind it goes on, or ends."""
@@ -123,6 +145,11 @@ def _results(bench: Bench) -> None:
                 raise Broken(f"weld({seam}, {dry}) is told as {told}")
             if _asks(client, 1).text or _asks(client, 9).text or _asks(client, -1).text:
                 raise Broken("a parameter that is no string has a text")
+        for text in ("", "x" * 40, "12345"):
+            _taken(_calls(client, WELD, _weld(1.0, text=text)))
+            told = _ended(other, client, 4)
+            if (told.values[0], told.text) != (2.0, 2 * text):
+                raise Broken(f"a text is to come back twice: {told}")
         _taken(_calls(client, WELD, _weld(-1.0)))
         told = _ended(other, client, 0)
         if told.error == 0 or told.text != "weld_failed":
@@ -131,8 +158,8 @@ def _results(bench: Bench) -> None:
         seen = other.progress(watcher)
         if (seen.state, seen.reason) != (RawTrajectoryState.FAILED, RawReason.ROUTINE):
             raise Broken(f"a routine has raised an error, PROGRESS says {seen}")
-        if other.controller.task(other.group.task)["cell:calls"] != 3:
-            raise Broken("weld was not called three times")
+        if other.controller.task(other.group.task)["cell:calls"] != 6:
+            raise Broken("weld was not called six times")
 
 
 @case("routine-alone", "nothing else begins while a routine runs", needs="control")
@@ -236,11 +263,11 @@ def _zeros(bench: Bench, routine: OwnRoutine) -> list[int]:
 def _weld(seam: float, *, dry: int = 0, good: int = 0, text: str = "ab") -> list[int]:
     """Words of weld's arguments: a num as float32, two bools, a text."""
     number = struct.unpack("<i", struct.pack("<f", seam))[0]
-    letters = text.encode().ljust(4, b"\0")
+    letters = text.encode() + bytes(-len(text) % 4)
     return [
         number,
         *millionths([float(dry), float(good), float(len(text))]),
-        int.from_bytes(letters, "little"),
+        *struct.unpack(f"<{len(letters) // 4}i", letters),
     ]
 
 
@@ -277,10 +304,12 @@ def _ended(bench: Bench, client: Programmer, parameter: int) -> messages.RawResu
     raise Broken("RESULT does not tell the newest call")
 
 
-def _with_module(bench: Bench) -> System:
+def _with_module(bench: Bench, *more: ModuleFile) -> System:
     module = ModuleFile("cell", "cell.mod", _MODULE)
     tasks = tuple(
-        replace(task, modules=(*task.modules, module)) if task.name == bench.group.task else task
+        replace(task, modules=(*task.modules, module, *more))
+        if task.name == bench.group.task
+        else task
         for task in bench.system.tasks
     )
     return replace(bench.system, tasks=tasks)

@@ -231,6 +231,13 @@ def _one_without(bench: Bench, index: int, signal: ExposedSignal) -> None:
         bench.stays(1, "the signal is not there")
         _no_signal(bench.progress(watcher), signal)
     for number, other in enumerate(bench.config.signals):
+        if number != index and other.kind[0] != "A":
+            now = float(bench.controller.signals[other.name])
+            _accepted(_sends(client, WAIT_SIGNAL, [float(number), now, 0.5]))
+            bench.run(0.5)
+            seen = bench.progress(watcher)
+            if seen.state != RawTrajectoryState.DONE:
+                raise Broken(f"{signal.name} is not there; a wait for {other.name} ends so: {seen}")
         if number != index and other.access == "write":
             _accepted(_sends(client, SET, [float(number), 1.0]))
             bench.run(0.5)

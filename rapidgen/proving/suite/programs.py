@@ -86,6 +86,12 @@ def _refused(bench: Bench) -> None:
             wanted = (RawReason.JOINT_LIMIT, 3, n + 1)
             if told[-3:] != wanted:
                 raise Broken(f"joint {n + 1} at {value}: the reply is {told}")
+        for value in (own.lower + small_unit(own), own.upper - small_unit(own)):
+            inside = replace(right[3], joints=changed(right[3].joints, n, value), pose=None)
+            # What is behind it is wrong.
+            behind = replace(right[3], speed=0.0)
+            told = client.send([*right[:3], replace(inside, kind=MOVE_ABSJ), behind])
+            client.refused(told, RawReason.BAD_SPEED, 4, f"joint {n + 1} at {value}")
     wrong: list[tuple[RawOrder, RawReason]] = [
         (replace(right[3], speed=0.0), RawReason.BAD_SPEED),
         (replace(right[3], speed=-1.0), RawReason.BAD_SPEED),
