@@ -66,7 +66,8 @@ VARIANTS = {
     "data": (DATA, "own-data hello control-stop"),
     "routines": (
         ROUTINES,
-        "routine-absent routine-results routine-targets routine-alone program-waits",
+        "routine-absent routine-missing routine-results routine-targets routine-alone "
+        "program-waits",
     ),
     "other routines": (
         OTHER_ROUTINES,
