@@ -55,6 +55,17 @@ def _data(bench: Bench) -> None:
         for index, datum in enumerate(listed):
             _one(control, index, datum)
         other.stays(0.5, "data were read and written")
+    for missing, datum in enumerate(listed):
+        others = tuple(d for d in listed if d != datum)
+        with bench.beside(_with(bench, others)) as other:
+            control = other.control()
+            not_done(_asks(control, missing), RawReason.NO_DATUM, f"datum {missing} is missing")
+            for index in range(len(listed)):
+                if index != missing:
+                    _says(
+                        _asks(control, index),
+                        messages.RawDatumReply(index, *_FIRST[listed[index].type]),
+                    )
     elsewhere = tuple(replace(d, name=f"other{d.name}") for d in listed)
     with bench.beside(_with(bench, elsewhere)) as other:
         control = other.control()

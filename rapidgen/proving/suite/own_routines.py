@@ -30,7 +30,7 @@ _MODULE = b"""MODULE cell
         IF weld_failed = -1 BookErrNo weld_failed;
         IF seam < 0 RAISE weld_failed;
         seam := 2 * seam;
-        good := NOT dry;
+        good := (good = dry);
         note := note + note;
     ERROR
         RAISE;
@@ -65,7 +65,7 @@ _THESE = {
 }
 
 
-def _knows_these(bench: Bench) -> bool:
+def knows_these(bench: Bench) -> bool:
     """Whether the configuration's routines are those of the module of these cases."""
     own = {r.call: tuple(p.type for p in r.parameters) for r in bench.group.routines}
     return own == _THESE and list(own) == list(_THESE)
@@ -73,7 +73,7 @@ def _knows_these(bench: Bench) -> bool:
 
 def _has_these(bench: Bench) -> bool:
     """Whether it does, and the motion task is told that the module is there."""
-    return _knows_these(bench) and bench.setting.dialect.modules_told
+    return knows_these(bench) and bench.setting.dialect.modules_told
 
 
 @case("routine-absent", "a routine of a module that is not there refuses its program")
@@ -89,9 +89,9 @@ def _absent(bench: Bench) -> None:
         if ":" in routine.call and not routine.returns and (computes(bench) or not poses):
             told = _calls(client, number, _zeros(bench, routine))
             client.refused(told, RawReason.NO_ROUTINE, 0, f"{routine.call} is not there")
-    if _knows_these(bench) and not bench.setting.dialect.modules_told:
+    if knows_these(bench) and not bench.setting.dialect.modules_told:
         with bench.beside(_with_module(bench)) as other:
-            told = _calls(Programmer(other), WELD, _weld(1.0))
+            told = _calls(Programmer(other), WELD, weld_words(1.0))
             client.refused(told, RawReason.NO_ROUTINE, 0, "a module of which nobody is told")
     if not _has_these(bench):
         return
@@ -102,9 +102,9 @@ def _absent(bench: Bench) -> None:
         for seconds in (-1.0, 2001.0):
             told = _calls(client, LONG, seconds=seconds)
             client.refused(told, RawReason.BAD_VALUE, 0, f"a routine that may take {seconds} s")
-        told = _calls(client, WELD, _weld(1.0, dry=2))
+        told = _calls(client, WELD, weld_words(1.0, dry=2))
         client.refused(told, RawReason.BAD_VALUE, 0, "a bool that is 2")
-        told = _calls(client, WELD, [2143289344, *_weld(1.0)[1:]])
+        told = _calls(client, WELD, [2143289344, *weld_words(1.0)[1:]])
         client.refused(told, RawReason.NOT_FINITE, 0, "a num that is none")
         other.stays(0.5, "no routine was called")
 
@@ -126,7 +126,7 @@ def _missing(bench: Bench) -> None:
         wanted = (RawTrajectoryState.FAILED, RawReason.NO_ROUTINE, 1)
         if (seen.state, seen.reason, seen.reached) != wanted:
             raise Broken(f"a procedure is missing, PROGRESS says {seen}")
-        _taken(_calls(client, WELD, _weld(1.0)))
+        _taken(_calls(client, WELD, weld_words(1.0)))
         if _ended(other, client, 4).values[0] != 2:
             raise Broken("a routine behind one that is missing has not run")
 
@@ -138,19 +138,20 @@ def _results(bench: Bench) -> None:
         return
     with bench.beside(_with_module(bench)) as other:
         client, watcher = Programmer(other), other.watcher()
-        for seam, dry in ((1.5, 0), (2.0**100, 1)):
-            _taken(_calls(client, WELD, _weld(seam, dry=dry, good=dry)))
+        for seam, dry, good in ((1.5, 0, 0), (2.0**100, 1, 1), (-0.0, 0, 1), (1.5, 1, 0)):
+            _taken(_calls(client, WELD, weld_words(seam, dry=dry, good=good)))
             told = _ended(other, client, 4)
-            if (told.error, told.values[:3], told.text) != (0, (2 * seam, dry, 1 - dry), "abab"):
+            same = float(dry == good)
+            if (told.error, told.values[:3], told.text) != (0, (2 * seam, dry, same), "abab"):
                 raise Broken(f"weld({seam}, {dry}) is told as {told}")
             if _asks(client, 1).text or _asks(client, 9).text or _asks(client, -1).text:
                 raise Broken("a parameter that is no string has a text")
         for text in ("", "x" * 40, "12345"):
-            _taken(_calls(client, WELD, _weld(1.0, text=text)))
+            _taken(_calls(client, WELD, weld_words(1.0, text=text)))
             told = _ended(other, client, 4)
             if (told.values[0], told.text) != (2.0, 2 * text):
                 raise Broken(f"a text is to come back twice: {told}")
-        _taken(_calls(client, WELD, _weld(-1.0)))
+        _taken(_calls(client, WELD, weld_words(-1.0)))
         told = _ended(other, client, 0)
         if told.error == 0 or told.text != "weld_failed":
             raise Broken(f"weld has raised weld_failed, RESULT says {told}")
@@ -158,8 +159,8 @@ def _results(bench: Bench) -> None:
         seen = other.progress(watcher)
         if (seen.state, seen.reason) != (RawTrajectoryState.FAILED, RawReason.ROUTINE):
             raise Broken(f"a routine has raised an error, PROGRESS says {seen}")
-        if other.controller.task(other.group.task)["cell:calls"] != 6:
-            raise Broken("weld was not called six times")
+        if other.controller.task(other.group.task)["cell:calls"] != 8:
+            raise Broken("weld was not called eight times")
 
 
 @case("routine-alone", "nothing else begins while a routine runs", needs="control")
@@ -260,7 +261,7 @@ def _zeros(bench: Bench, routine: OwnRoutine) -> list[int]:
     return [w for p in routine.parameters for w in millionths(values[p.type])]
 
 
-def _weld(seam: float, *, dry: int = 0, good: int = 0, text: str = "ab") -> list[int]:
+def weld_words(seam: float, *, dry: int = 0, good: int = 0, text: str = "ab") -> list[int]:
     """Words of weld's arguments: a num as float32, two bools, a text."""
     number = struct.unpack("<i", struct.pack("<f", seam))[0]
     letters = text.encode() + bytes(-len(text) % 4)

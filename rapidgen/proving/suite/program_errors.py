@@ -14,6 +14,7 @@ from rapidgen.proving.link import RawLink
 from rapidgen.proving.messages import PROGRAM, RawInstruction, RawReason, RawTrajectoryState
 from rapidgen.proving.model import Broken
 from rapidgen.proving.programs import ALL, Programmer, RawOrder, computes, orders, reached
+from rapidgen.proving.suite.own_routines import knows_these, weld_words
 
 case = Theme("programs", needs="stream")
 
@@ -53,7 +54,7 @@ def _answered(link: RawLink) -> bool:
 
 
 def _everything(bench: Bench) -> tuple[list[int], int]:
-    """A program of all that this driver reads, the last of it unknown: it is never executed."""
+    """A program of all that this driver reads, the last of it wrong: it is never executed."""
     here = bench.position
     order = RawOrder(RawInstruction.MOVE_ABSJ, here, None, frames=(0, 0))
     parts: list[list[int]] = [order.words, [RawInstruction.WAIT, *millionths([0.1])]]
@@ -78,7 +79,11 @@ def _everything(bench: Bench) -> tuple[list[int], int]:
             parts.append(replace(order, marks=marks).words)
     parts += [[RawInstruction.SET, *millionths([float(n), 1.0])] for n in written[:1]]
     parts += [[RawInstruction.WAIT_SIGNAL, *millionths([float(n), 1, 1])] for n in waited[:1]]
-    parts.append([99])
+    if knows_these(bench):
+        # Its module is not there.
+        parts.append([RawInstruction.CALL, *millionths([0.0, 0.0]), *weld_words(1.0)])
+    else:
+        parts.append([99])
     return [*millionths(here), *(word for part in parts for word in part)], len(parts)
 
 
@@ -97,9 +102,8 @@ def _calls(bench: Bench, name: str, words: list[int], count: int) -> int:
     wrapped(bench.rapid_task("ROS_motionServer"), name, counted)
     link = bench.motion()
     link.send(words_frame(1, 0, count, words, ALL, number=PROGRAM))
-    Programmer(bench, link).refused(
-        link.reply(PROGRAM, 5), RawReason.NO_INSTRUCTION, count - 1, "an unknown instruction"
-    )
+    reason = RawReason.NO_ROUTINE if knows_these(bench) else RawReason.NO_INSTRUCTION
+    Programmer(bench, link).refused(link.reply(PROGRAM, 5), reason, count - 1, "the last one")
     link.close(then=1.5)
     return number
 

@@ -68,6 +68,15 @@ def _tools(bench: Bench) -> None:
             bench.wait_until_at(own[-1].joints, 60)
             joints = [start, more[3].joints, *(o.joints for o in own)]
             bench.followed(joints, since=since, corner=0.1)
+            if (tool, wobj) != (0, 0):
+                _stood_at(bench, more[3].joints, since)
+
+
+def _stood_at(bench: Bench, joints: Position, since: float) -> None:
+    """Broken unless the robot was there, in no zone."""
+    track = [seen for when, seen in bench.track if when >= since]
+    if not any(all(abs(a - b) < 1e-4 for a, b in zip(p, joints, strict=True)) for p in track):
+        raise Broken("the robot did not stop before another tool or work object")
 
 
 def _seen(bench: Bench, joints: Position, tool: Placement, wobj: Placement) -> Pose:
@@ -142,12 +151,7 @@ def _own(bench: Bench) -> None:
     _is(bench, behind, "of the last move")
     joints = [start, *(order.joints for order in (second, third))]
     bench.followed(joints, since=since, corner=0.1)
-    if not any(
-        all(abs(a - b) < 1e-4 for a, b in zip(seen, second.joints, strict=True))
-        for when, seen in bench.track
-        if when >= since
-    ):
-        raise Broken("the robot did not stop before another tool")
+    _stood_at(bench, second.joints, since)
     client.refused(
         _says(client, replace(way[2], frames=(tools, objects))),
         RawReason.NO_FRAME,
