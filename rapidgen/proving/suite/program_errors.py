@@ -32,7 +32,7 @@ def _reading_fails(bench: Bench) -> None:
     for name in _READS:
         for after in range(_calls(bench, name, words, count)):
             link = bench.motion()
-            ends = fails(bench, "ROS_motionServer", name, "ERR_ARGVALERR", after=after)
+            ends = fails(bench, "ROS_motionServer", name, "ERR_OUTOFBND", after=after)
             link.send(words_frame(1, 0, count, words, ALL, number=PROGRAM))
             bench.until(partial(_answered, link), 4, f"{name} has failed; an answer comes")
             ends()
