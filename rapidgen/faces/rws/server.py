@@ -4,6 +4,7 @@ RWS 1.0 is plain HTTP, 2.0 is HTTPS with a certificate that the controller signe
 """
 
 import asyncio
+import logging
 import threading
 from collections.abc import Callable
 from contextlib import suppress
@@ -19,6 +20,8 @@ from rapidgen.faces.rws.office import Accounts
 from rapidgen.faces.service import Service, in_use, loopback
 from rapidgen.wire.rws.bodies import Generation
 from rapidgen.wire.rws.events import PROTOCOLS
+
+_LOG = logging.getLogger("rapidgen.faces")
 
 KNOWN = "robotics"
 """The password that controllers are delivered with."""
@@ -133,6 +136,8 @@ class _Server:
             return web.Response(status=413)
         got = self._received(request, body)
         reply = await self._on_controller(lambda: self._desk.handle(got))
+        # Without the query and the body: they may hold what nobody else should read.
+        _LOG.debug("%s %s: %d", request.method, request.path, reply.status)
         return _response(reply)
 
     def _received(self, request: web.Request, body: bytes = b"") -> Received:
