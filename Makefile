@@ -134,7 +134,7 @@ cluster: $(STAMP)
 .PHONY: cluster
 
 program-mutants: $(STAMP) ## 15 min: the same for the modules of motion programs, in a cell with signals, tools, routines and data
-	$(BIN)/python benchmarks/mutation.py --jobs 2 --budget 8 --output build/program-mutation.jsonl --themes programs "own routines" "own data" --only ROS_programs ROS_execution ROS_data -- benchmarks/cell.yaml
+	$(BIN)/python benchmarks/mutation.py --jobs 2 --budget 8 --output build/program-mutation.jsonl --themes programs "own routines" "own data" speed --only ROS_programs ROS_execution ROS_data -- benchmarks/cell.yaml
 
 program-campaign: $(STAMP) ## 5 min: random motion programs beside the same ones written in RAPID
 	$(BIN)/python benchmarks/program_campaign.py

@@ -15,6 +15,7 @@ MODULE ROS_probe
     LOCAL VAR intnum alarm;
     LOCAL PERS bool rung := FALSE;
     LOCAL PERS num heard := 0;
+    PERS num ROS_probe_find := 0;
     LOCAL VAR clock watch;
     LOCAL VAR signaldo no_signal;
     LOCAL VAR rawbytes bytes;
@@ -35,6 +36,9 @@ MODULE ROS_probe
         ask_axis_limits;
         ask_own_events;
         ask_calc_in_background;
+        ask_modules;
+        ask_symbols;
+        ask_data_of_tasks;
         ask_argument_error;
         tell_interrupt_delay;
         tell_statement_time;
@@ -249,6 +253,55 @@ MODULE ROS_probe
     ERROR
         SkipWarn;
         answer "calc_in_background=false";
+        RETURN;
+    ENDPROC
+
+    ! Does ModExist tell of a module that belongs to the task?
+    LOCAL PROC ask_modules()
+        IF ModExist("ROS_probe") THEN
+            answer "modules_told=true";
+        ELSE
+            answer "modules_told=false";
+        ENDIF
+    ENDPROC
+
+    ! What does a search find: by a part of a name, and in modules without being told so?
+    LOCAL PROC ask_symbols()
+        VAR datapos block;
+        VAR string name;
+
+        SetDataSearch "num" \Object:="^ROS_probe_fin" \InMod:="ROS_probe";
+        IF GetNextSym(name, block) THEN
+            answer "search_pattern=part";
+        ELSE
+            answer "search_pattern=whole";
+        ENDIF
+        SetDataSearch "num" \Object:="^ROS_probe_find$";
+        IF GetNextSym(name, block) THEN
+            answer "next_symbol=below";
+        ELSE
+            answer "next_symbol=level";
+        ENDIF
+        SetDataSearch "num" \Object:="^ROS_probe_find$" \PersSym \InMod:="ROS_probe" \GlobalSym;
+        IF GetNextSym(name, block) THEN
+            answer "! the driver's search for a datum finds it";
+        ELSE
+            answer "! the driver's search for a datum does not find it";
+        ENDIF
+    ENDPROC
+
+    ! Is a persistent of another task reached by its name? Asked when this module is loaded into a task
+    ! without a robot, and into T_ROB1.
+    LOCAL PROC ask_data_of_tasks()
+        VAR num found;
+
+        IF TaskRunMec() RETURN;
+        GetDataVal "ROS_probe_find" \TaskName:="T_ROB1", found;
+        answer "data_of_tasks=true";
+    ERROR
+        SkipWarn;
+        answer "data_of_tasks=false";
+        answer "! unless T_ROB1 has no module ROS_probe";
         RETURN;
     ENDPROC
 

@@ -28,7 +28,16 @@ from rapidgen.client.errors import (
     StopFailed,
     TrajectoryRefused,
 )
-from rapidgen.client.program import Program, Speed, Trigger, Zone, pulse
+from rapidgen.client.program import (
+    OwnTool,
+    OwnWorkObject,
+    Program,
+    Speed,
+    Target,
+    Trigger,
+    Zone,
+    pulse,
+)
 from rapidgen.client.threads import Execution, ProgramRun, Robot, Stream
 from rapidgen.client.trajectory import Trajectory, Waypoint
 from rapidgen.wire.simple_message.spec import EventType, Reason, TrajectoryState
@@ -64,6 +73,8 @@ __all__ = [
     "MotionStopped",
     "NotReady",
     "NotSupported",
+    "OwnTool",
+    "OwnWorkObject",
     "Program",
     "ProgramRun",
     "Progress",
@@ -80,6 +91,7 @@ __all__ = [
     "Status",
     "StopFailed",
     "Stream",
+    "Target",
     "Timeouts",
     "Trajectory",
     "TrajectoryRefused",

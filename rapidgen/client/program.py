@@ -103,6 +103,41 @@ ZoneLike: TypeAlias = float | str | Zone
 
 
 @dataclass(frozen=True, slots=True)
+class OwnTool:
+    """tooldata of a program's own, held by the robot: where its TCP is in the flange's frame, its
+    mass in kg, where that is and how the axes of inertia lie (m), and its moments, kg m2."""
+
+    frame: Pose
+    mass: float
+    centre: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    axes: tuple[float, float, float, float] = (1.0, 0.0, 0.0, 0.0)
+    inertia: tuple[float, float, float] = (0.0, 0.0, 0.0)
+
+
+@dataclass(frozen=True, slots=True)
+class OwnWorkObject:
+    """wobjdata of a program's own, which stands: its user frame in the world's, its object frame in
+    that."""
+
+    user_frame: Pose
+    object_frame: Pose = ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0))
+
+
+@dataclass(frozen=True, slots=True)
+class Target:
+    """A robtarget that a routine has left: pose (m), configuration, and values of external axes by
+    name (rad, m), as `move_to` takes them. What it left is not checked."""
+
+    pose: Pose
+    configuration: AxisConfiguration
+    external: Mapping[str, float]
+
+
+Left: TypeAlias = float | bool | str | Target | tuple[float, ...]
+"""What a routine leaves in a parameter: a num, bool or string, a robtarget, joints."""
+
+
+@dataclass(frozen=True, slots=True)
 class Trigger:
     """A signal that is set on the way of a move: `place` is m from its beginning, m
     before its end, or s before its end, as `kind` says."""
@@ -136,7 +171,8 @@ def pulse(signal: str, after: float, length: float) -> tuple[Trigger, Trigger]:
 @dataclass(frozen=True, slots=True)
 class ProgramStep:
     """One instruction. `speed`, `zone`, `tool` and `work_object` (empty: the group's own) hold for
-    it; a pose may say the configuration of its posture, and values of external axes by name."""
+    it; a pose may say the configuration of its posture, and values of external axes by name. `own`
+    is what TOOL and WORK_OBJECT say."""
 
     kind: Instruction
     speed: Speed
@@ -147,8 +183,9 @@ class ProgramStep:
     configuration: AxisConfiguration | None = None
     external: tuple[tuple[str, float], ...] = ()
     triggers: tuple[Trigger, ...] = ()
-    tool: str = ""
-    work_object: str = ""
+    tool: str | OwnTool = ""
+    work_object: str | OwnWorkObject = ""
+    own: OwnTool | OwnWorkObject | None = None
     signal: str = ""
     value: float = 0.0
     seconds: float = 0.0
@@ -165,6 +202,7 @@ class _Operands(TypedDict, total=False):
     configuration: AxisConfiguration | None
     external: tuple[tuple[str, float], ...]
     triggers: tuple[Trigger, ...]
+    own: OwnTool | OwnWorkObject | None
     signal: str
     value: float
     seconds: float
@@ -182,7 +220,8 @@ class Program:
         self.steps: list[ProgramStep] = []
         self._speed = speed_of(speed)
         self._zone = zone_of(zone)
-        self._tool = self._work_object = ""
+        self._tool: str | OwnTool = ""
+        self._work_object: str | OwnWorkObject = ""
 
     def __len__(self) -> int:
         return len(self.steps)
@@ -244,9 +283,19 @@ class Program:
         self._hold(speed, zone)
         return self._to_pose(Instruction.MOVE_C, pose, via, configuration, external, triggers)
 
-    def use(self, *, tool: str | None = None, work_object: str | None = None) -> Self:
-        """From here on poses are those of this tool in this work object of the configuration, by
-        name; empty: the group's own. The robot stops before the first move with them."""
+    def use(
+        self,
+        *,
+        tool: str | OwnTool | None = None,
+        work_object: str | OwnWorkObject | None = None,
+    ) -> Self:
+        """From here on poses are those of this tool in this work object: of the configuration, by
+        name (empty: the group's own), or of the program's own, by values; these are an instruction.
+        The robot stops before the first move with them."""
+        if isinstance(tool, OwnTool):
+            self._add(Instruction.TOOL, own=tool)
+        if isinstance(work_object, OwnWorkObject):
+            self._add(Instruction.WORK_OBJECT, own=work_object)
         self._tool = self._tool if tool is None else tool
         self._work_object = self._work_object if work_object is None else work_object
         return self
@@ -309,8 +358,16 @@ class Program:
         )
 
     def _add(self, kind: Instruction, **operands: Unpack[_Operands]) -> Self:
-        held = {"tool": self._tool, "work_object": self._work_object}
-        self.steps.append(ProgramStep(kind, self._speed, self._zone, **operands, **held))
+        self.steps.append(
+            ProgramStep(
+                kind,
+                self._speed,
+                self._zone,
+                tool=self._tool,
+                work_object=self._work_object,
+                **operands,
+            )
+        )
         return self
 
 

@@ -71,6 +71,7 @@ def build(
                 **vars(settings),
                 "start_tolerance": math.radians(settings.start_tolerance),
                 "start_tolerance_linear": settings.start_tolerance_linear / 1000,
+                "pose_tolerance": settings.pose_tolerance / 1000,
                 **(_one_size(settings.zone) if basic else {}),
             }
         ),

@@ -204,6 +204,8 @@ class TrajectoryPolicy:
     zone: str = "z50"
     start_tolerance: float = 0.00873
     start_tolerance_linear: float = 0.005
+    pose_tolerance: float = 0.001
+    """m between a pose and what its joints reach on the controller."""
     too_fast: Literal["refuse", "slow_down"] = "refuse"
     min_segment: float = 0.1
     approach_speed: float = 0.1

@@ -242,9 +242,7 @@ class ParameterKeys(Part):
         Literal["num", "bool", "string", "robtarget", "jointtarget"],
         Rule("Type; a string has 80 characters."),
     ]
-    mode: Annotated[
-        Literal["in", "inout"], Rule("`inout`: its value then is a result (not of a target).")
-    ] = "in"
+    mode: Annotated[Literal["in", "inout"], Rule("`inout`: its value then is a result.")] = "in"
 
 
 @dataclass(frozen=True)
@@ -442,6 +440,15 @@ class TrajectoryKeys(Part):
     start_tolerance_linear: Annotated[
         float, Rule("The same for linear axes, mm.", ge=0.001, le=100)
     ] = 5.0
+    pose_tolerance: Annotated[
+        float,
+        Rule(
+            "Distance of a program's pose from what its joints reach on the controller, mm: more "
+            "for a calibrated robot.",
+            ge=0.1,
+            le=20,
+        ),
+    ] = 1.0
     too_fast: Annotated[
         Literal["refuse", "slow_down"],
         Rule("What happens to a segment that an axis cannot follow."),

@@ -115,13 +115,6 @@ def routine_of(
                 (*path, "parameters", number, "type"),
                 help="a robtarget needs the group's `chain`; a jointtarget does not",
             )
-        if parameter.type.endswith("target") and parameter.mode == "inout":
-            report.error(
-                "RG014",
-                f"parameter '{parameter.name}' is a {parameter.type} and no result",
-                (*path, "parameters", number, "mode"),
-                help="results are num, bool and string",
-            )
     if given.returns and len(given.parameters) == _MOST_PARAMETERS:
         report.error(
             "RG014",

@@ -9,7 +9,14 @@ _SHOWN = 8
 """Keys; more than these are another configuration."""
 _OF_A_JOINT = ("lower", "upper", "speed", "acceleration", "offset")
 _IN_DEG = ("start_tolerance",)
-_IN_MM = ("start_tolerance_linear", "approach_speed", "tcp_speed_limit", "position", "centre")
+_IN_MM = (
+    "start_tolerance_linear",
+    "pose_tolerance",
+    "approach_speed",
+    "tcp_speed_limit",
+    "position",
+    "centre",
+)
 _NOT_SET = ("source", "unsure")
 
 

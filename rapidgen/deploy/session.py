@@ -24,6 +24,7 @@ from rapidgen.deploy.transports.registry import Target
 from rapidgen.deploy.transports.transport import Transport, refused
 from rapidgen.diagnostics import DiagnosticError, refusal
 from rapidgen.generate.cell import check_data
+from rapidgen.generate.cell_routines import check_routines
 from rapidgen.generate.context import data_of_another
 from rapidgen.system import CfgText, read_backup, write_cfg
 
@@ -108,11 +109,16 @@ def plan_all(job: FleetJob) -> list[Plan]:
 
 
 def _check_data(wanted: DriverSet, backup: Path) -> None:
-    """Refuse a set that reads data of a user's program that the backup does not have (RG113)."""
+    """Refuse a set that reads data or calls routines of a user's program that the backup does not
+    have (RG113, RG114)."""
     given = wanted.generated.get("configuration")
     config = from_manifest(given) if given is not None else None
-    if config is not None and any(data_of_another(group) for group in config.groups):
-        check_data(config, read_backup(backup, notes=[]))
+    if config is not None and any(
+        data_of_another(group) or group.routines or group.data for group in config.groups
+    ):
+        cell = read_backup(backup, notes=[])
+        check_data(config, cell)
+        check_routines(config, cell)
 
 
 def apply_all(job: FleetJob, plans: Sequence[Plan], say: Say) -> list[TargetOutcome]:

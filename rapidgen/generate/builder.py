@@ -15,6 +15,7 @@ from rapidgen.config.model import GroupConfig, RobotConfig
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.generate import layout
 from rapidgen.generate.cell import Cell, check_data, in_the_way, missing, used_signals
+from rapidgen.generate.cell_routines import check_routines
 from rapidgen.generate.context import group_context, used_constants
 from rapidgen.generate.lint import lint
 from rapidgen.generate.naming import naming
@@ -48,6 +49,7 @@ def build(config: RobotConfig, cell: Cell | None = None) -> Output:
     used = {}
     if cell is not None:
         check_data(config, cell.system)
+        check_routines(config, cell.system)
         used = used_signals(parameters, cell)
         parameters = missing(parameters, cell)
     files = [

@@ -26,6 +26,9 @@ from rapidgen.wire.simple_message import messages, rapid, spec
 from rapidgen.wire.simple_message.instructions import MOST_SIGNALS
 from rapidgen.wire.simple_message.spec import MOST_ARGUMENTS, ReplyCode
 
+# Those of a program's own values, as they are before a program gave any.
+_OWN_TOOL = Tool("ROS_own_tool", load=Load(1.0, (0.0, 0.0, 0.001)))
+_OWN_WORK_OBJECT = WorkObject("ROS_own_wobj")
 # Clients that the state port serves at a time.
 STATE_CLIENTS = 3
 # A multiple of every ring's size within the integers that a num counts exactly, 2^23 [K §2.13].
@@ -38,6 +41,8 @@ _DEFAULT_TCP_SPEED = 5.0
 # configuration are estimates.
 _TURN_SHARE = 0.3
 _MM = 1000.0
+# deg that a pose may be turned away for each mm of its tolerance.
+_TURN_PER_MM = 0.2
 # Axes of a kind have one part of a corner's zone.
 _SUMS = (
     {"name": "turning", "field": "zone_ori", "least": "SMALLEST_TURN"},
@@ -49,6 +54,12 @@ _BELIEF = 10.0
 _BELIEF_MESSAGES = 5
 # Of these the driver writes nothing into the event log.
 _ON_THE_WIRE_ALONE = {spec.Reason.NONE, spec.Reason.SUPERSEDED, spec.Reason.POWER_FAILURE}
+# Of a robtarget on the wire: numbers in m, and without a unit.
+_TARGET_PARTS = (
+    *((f"trans.{axis}", " / 1000") for axis in "xyz"),
+    *((f"rot.q{n}", "") for n in range(1, 5)),
+    *((f"robconf.{name}", "") for name in ("cf1", "cf4", "cf6", "cfx")),
+)
 _FACTORS = (
     {"name": "ROS_DEG", "value": "57.29578", "text": "rad to deg"},
     {"name": "ROS_MM", "value": "1000", "text": "m to mm"},
@@ -100,6 +111,7 @@ def group_context(config: RobotConfig, group: GroupConfig, build_id: str) -> dic
         "zone": config.trajectory.zone,
         "tight": _tight(config, group),
         "min_segment": config.trajectory.min_segment,
+        **_near(config.trajectory.pose_tolerance),
         "approach": config.trajectory.approach_speed,
         "slow_down": config.trajectory.too_fast == "slow_down",
         "commissioning": config.commissioning,
@@ -119,10 +131,7 @@ def group_context(config: RobotConfig, group: GroupConfig, build_id: str) -> dic
         "tool": _tool(group.tool),
         "payload": payload,
         "wobj": _work_object(group.work_object),
-        "tools": [_tool(tool, n) for n, tool in enumerate((group.tool, *group.tools))],
-        "wobjs": [
-            _work_object(wobj, n) for n, wobj in enumerate((group.work_object, *group.work_objects))
-        ],
+        **_frames(group),
         "tload": f" \\TLoad:={payload['name']}" if payload["with_moves"] else "",
         # A clock counts microseconds only on newer controllers [mem].
         "high_res": " \\HighRes" if config.robotware[0] >= 6 else "",
@@ -141,11 +150,35 @@ def group_context(config: RobotConfig, group: GroupConfig, build_id: str) -> dic
         "most_arguments": MOST_ARGUMENTS,
         "most_targets": _most(group, "robtarget"),
         "most_places": _most(group, "jointtarget"),
+        # Some routine leaves a target.
+        "target_results": any(
+            p.inout and p.type.endswith("target") for r in group.routines for p in r.parameters
+        ),
+        "target_parts": _TARGET_PARTS,
+        "target_reply": messages.TARGET.reply(ReplyCode.SUCCESS).length,
         "result_reply": messages.RESULT.reply(ReplyCode.SUCCESS).length,
         "most_marks": MOST_SIGNALS,
         "heartbeat_reply": messages.HEARTBEAT.reply(ReplyCode.SUCCESS).length,
         "signal_reply": messages.SIGNAL.reply(ReplyCode.SUCCESS).length,
     }
+
+
+def _near(tolerance: float) -> dict[str, str]:
+    """How far a pose may be from what its joints reach: mm, and the cosine of half an angle."""
+    angle = math.radians(_TURN_PER_MM * tolerance * _MM)
+    return {"near": literal(tolerance * _MM), "unturned": literal(round(math.cos(angle / 2), 6))}
+
+
+def _frames(group: GroupConfig) -> dict[str, object]:
+    """Tools and work objects by number; those of a program's own values come behind the others."""
+    tools = [_tool(tool, n) for n, tool in enumerate((group.tool, *group.tools))]
+    wobjs = [
+        _work_object(wobj, n) for n, wobj in enumerate((group.work_object, *group.work_objects))
+    ]
+    if group.chain:
+        tools.append(_tool(_OWN_TOOL))
+        wobjs.append(_work_object(_OWN_WORK_OBJECT))
+    return {"tools": tools, "wobjs": wobjs}
 
 
 def _tight(config: RobotConfig, group: GroupConfig) -> bool:

@@ -21,7 +21,7 @@ INDEX_WRAP = 2**23
 
 PING, JOINT_POSITION, JOINT_TRAJ_PT, STATUS, JOINT_FEEDBACK = 1, 10, 11, 13, 15
 HELLO, PROGRESS, POINTS, STOPPED, PAUSE, SPEED, HEARTBEAT, SIGNAL, EVENT = range(1300, 1309)
-PROGRAM, RESULT, DATA = range(1309, 1312)
+PROGRAM, RESULT, DATA, TARGET = range(1309, 1313)
 POINT_BYTES, STATE_BYTES = 68, 60 + 44
 """Bytes of a JOINT_TRAJ_PT, and of what every state client gets: JOINT and STATUS."""
 
@@ -98,6 +98,8 @@ class RawInstruction(IntEnum):
     SET = 7
     CALL = 8
     SETTINGS = 9
+    TOOL = 10
+    WORK_OBJECT = 11
 
 
 class RawModal(IntFlag):
@@ -160,7 +162,7 @@ class RawReason(IntEnum):
     NO_GEOMETRY = 33
     NO_FRAME = 34
     NO_ROUTINE = 35
-    IS_PROGRAM = 36
+    IN_ROUTINE = 36
     NO_DATUM = 37
     STOPPED = 40
     SUPERSEDED = 41
@@ -407,6 +409,23 @@ class RawResultReply(NamedTuple):
     text: str
 
 
+class RawTarget(NamedTuple):
+    """TARGET: what that routine left in a jointtarget (1) or robtarget (0)."""
+
+    joints: int
+    parameter: int
+
+
+class RawTargetReply(NamedTuple):
+    """Reply to TARGET."""
+
+    trajectory: int
+    position: tuple[float, ...]
+    orientation: tuple[float, ...]
+    configuration: tuple[float, ...]
+    joints: tuple[float, ...]
+
+
 class RawAccepted(NamedTuple):
     """Reply to an end frame: the trajectory was taken under this number."""
 
@@ -438,6 +457,7 @@ _Asked: TypeAlias = (
     | RawHeartbeat
     | RawSignal
     | RawResult
+    | RawTarget
     | RawDatum
 )
 _Done: TypeAlias = (
@@ -446,6 +466,7 @@ _Done: TypeAlias = (
     | RawSignalReply
     | RawPointsAccepted
     | RawResultReply
+    | RawTargetReply
     | RawDatumReply
 )
 _Refused: TypeAlias = RawHelloRefusal | RawPointsRefused | RawNotDone | RawRefused | RawFailure
@@ -471,6 +492,8 @@ _LAYOUTS: tuple[tuple[int, int, type[RawContent], str], ...] = (
     (PROGRAM, 2, RawPointsRefused, "i i i i i i"),
     (RESULT, 0, RawResult, "i"),
     (RESULT, 1, RawResultReply, "i i 8f 80s"),
+    (TARGET, 0, RawTarget, "i i"),
+    (TARGET, 1, RawTargetReply, "i 3f 4f 4f 10f"),
     (STOPPED, 0, RawStopped, "i i i 10f"),
     (PAUSE, 0, RawPause, "i"),
     (PAUSE, 2, RawNotDone, "i"),

@@ -104,6 +104,22 @@ class Switches:
     names, as CRobT and CJointT do there in ABB's own module for RobotWare 7 [ABB]. False:
     ERR_NOT_MOVETASK [mem]."""
 
+    modules_told: bool = True
+    """ModExist tells of every module of its task [mem]. False: of those alone that Load brought."""
+
+    data_of_tasks: bool = True
+    """GetDataVal and SetDataVal with \\TaskName reach persistents of another task, as public
+    programs for recovery read robtargets of T_ROB1 [code]. False: ERR_TASKNAME [mem]."""
+
+    search_pattern: Literal["whole", "part"] = "whole"
+    """\\Object of SetDataSearch has to fit a whole name, as ABB's programs for hands with cameras
+    write it (a prefix and `.*`) [ABB], or some part of it [mem]."""
+
+    next_symbol: Literal["level", "below"] = "level"
+    """GetNextSym without \\Recursive stays where SetDataSearch began: in a module, or above all of
+    them, where only predefined data are, as public programs use it that seek camera devices and
+    units so, and \\Recursive for their own data [code]; or it looks into all modules."""
+
     error_reach: Literal["all", "own"] = "all"
     """IError tells a task of everybody's events, as public loggers in tasks of their own expect
     [code], or of those of its own only."""

@@ -10,7 +10,7 @@ from typing import Protocol
 from rapidgen.client.aio import AsyncRobot
 from rapidgen.client.core.state import State
 from rapidgen.client.errors import NotReady, RequestRefused, RobotError
-from rapidgen.client.program import Argument
+from rapidgen.client.program import Argument, Left
 from rapidgen.ros.following import Follower, GoalFeedback, Policy, UnderWay, reason
 from rapidgen.ros.goals import Code, Ending, Goal, Outcome
 from rapidgen.ros.stamps import Stamps
@@ -172,9 +172,7 @@ class RobotLink:
         """Set a signal; the value as it was read then. Raises RobotError."""
         return await self._there().write_signal(name, value)
 
-    async def call(
-        self, routine: str, arguments: Sequence[Argument]
-    ) -> tuple[float | bool | str, ...]:
+    async def call(self, routine: str, arguments: Sequence[Argument]) -> tuple[Left, ...]:
         """Call a routine of the controller's program; what it gave back. Raises RobotError."""
         robot = self._there()
         if self._follower is not None and self._follower.is_busy:

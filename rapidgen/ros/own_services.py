@@ -6,7 +6,7 @@ Its messages are imported here only; `node` creates what `services` gives.
 from collections.abc import Callable, Coroutine, Sequence
 from typing import Any, TypeAlias
 
-from rapidgen.client.program import Argument
+from rapidgen.client.program import Argument, Left, Target
 from rapidgen.ros.keeping import RobotLink
 
 try:  # ros/rapidgen_interfaces, in the user's workspace or not.
@@ -63,13 +63,22 @@ def _argument(value: Message) -> Argument:
     raise ValueError(f"{value.type} is no type of rapidgen_interfaces/Value")
 
 
-def _values(results: Sequence[float | bool | str]) -> list[Message]:
+def _values(results: Sequence[Left]) -> list[Message]:
     told = []
     for result in results:
         if isinstance(result, bool):
             told.append(Value(type=Value.BOOL, boolean=result))
         elif isinstance(result, str):
             told.append(Value(type=Value.STRING, text=result))
+        elif isinstance(result, Target):
+            (x, y, z), (w, a, b, c) = result.pose
+            value = Value(type=Value.ROBTARGET)
+            at, turned = value.pose.position, value.pose.orientation
+            at.x, at.y, at.z = x, y, z
+            turned.w, turned.x, turned.y, turned.z = w, a, b, c
+            told.append(value)
+        elif isinstance(result, tuple):
+            told.append(Value(type=Value.JOINTTARGET, joints=list(result)))
         else:
             told.append(Value(type=Value.NUM, number=float(result)))
     return told

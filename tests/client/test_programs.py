@@ -1,8 +1,10 @@
 """Motion programs against our own driver, on the virtual clock."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
-from driven import BENT, complaints, driven, moved, wiggle
+from driven import BENT, complaints, driven, moved
 
 from rapidgen.axes import frames
 from rapidgen.client import (
@@ -11,8 +13,9 @@ from rapidgen.client import (
     MotionFailed,
     MotionStopped,
     NotSupported,
+    OwnTool,
+    OwnWorkObject,
     Program,
-    RequestRefused,
     Speed,
     Trigger,
     pulse,
@@ -170,19 +173,17 @@ def test_signals_are_set_on_the_way():
         assert not complaints(controller)
 
 
-def test_a_speed_for_a_program_is_refused_instead_of_confirmed_and_not_obeyed():
+def test_a_speed_holds_for_a_program_and_no_longer():
     with cell() as (robot, controller):
         robot.move_to(BENT, speed=1.0)
-        execution = robot.run(Program(speed=0.1).move_linear(moved(robot.pose, z=0.05)))
-        with pytest.raises(RequestRefused) as refused:
-            robot.set_speed(20)
-        assert refused.value.reason is Reason.IS_PROGRAM
-        assert robot.override == 1.0
-        assert execution.result().deviation < 1e-4
-        path = wiggle(robot)
-        trajectory = robot.execute(path)
+        here = robot.pose
+        program = Program(speed=0.1).move_linear(moved(here, z=0.05))
+        quick = robot.run(program).result().seconds
+        execution = robot.run(Program(speed=0.1).move_linear(here))
         robot.set_speed(20)
-        assert trajectory.result().seconds > path.duration
+        assert execution.result().deviation < 1e-4
+        assert execution.result().seconds > 3 * quick
+        assert robot.run(program).result().seconds == pytest.approx(quick, abs=0.15)
         assert not complaints(controller)
 
 
@@ -273,6 +274,59 @@ def test_another_tool_in_another_object():
         assert not complaints(controller)
         with pytest.raises(InvalidProgram, match="no tool"):
             robot.run(Program().use(tool="gripp").move_linear(there))
+
+
+def test_a_tool_and_an_object_by_values():
+    """The same ways as with those of the configuration, which the driver knows by name."""
+    grip = OwnTool(((0.0, 0.0, 0.1), (1, 0, 0, 0)), 1.0, centre=(0.0, 0.0, 0.05))
+    longer = replace(grip, frame=((0.0, 0.0, 0.15), (1, 0, 0, 0)))
+    table = OwnWorkObject(((0.3, 0.0, 0.0), (1, 0, 0, 0)), ((0.0, 0.0, 0.1), (1, 0, 0, 0)))
+    with cell() as (robot, controller):
+        robot.move_to(BENT, speed=1.0)
+        (x, y, z), q = robot.pose
+        tip = frames.transform(((x, y, z), q), (0.0, 0.0, 0.1))
+        there = (tip[0] - 0.3, tip[1] + 0.05, tip[2] - 0.1), q
+        program = Program(speed=0.2, zone="z10").move_linear(moved(robot.pose, z=0.01))
+        program.use(tool=grip, work_object=table).move_linear(there)
+        assert len(program) == 4
+        program.use(tool="grip", work_object="table").move_linear(moved(there, y=0.02))
+        program.use(tool=longer).use(tool=grip).move_linear(there)
+        execution = robot.run(program)
+        assert "does not move" in execution.warnings[0].message
+        assert execution.result().deviation < 1e-4
+        assert np.allclose(robot.pose[0], (x, y + 0.05, z), atol=1e-5)
+        assert not complaints(controller)
+        program = Program().use(tool=longer).move_linear(moved(robot.pose, z=-0.01))
+        robot.run(program.use(tool="")).result()
+        assert len(program) == 2
+
+
+UPRIGHT = ((0.0, 0.0, 0.1), (1.0, 0.0, 0.0, 0.0))
+
+
+@pytest.mark.parametrize(
+    ("own", "told"),
+    [
+        (OwnTool(UPRIGHT, 0.0), "more than nothing"),
+        (OwnTool(UPRIGHT, float("nan")), "more than nothing"),
+        (OwnTool(UPRIGHT, 2001.0), "more than nothing"),
+        (OwnTool(UPRIGHT, 1.0, inertia=(0.0, -1.0, 0.0)), "moments"),
+        (OwnTool(UPRIGHT, 1.0, inertia=(0.0, 1.0)), "moments"),
+        (OwnTool(UPRIGHT, 1.0, centre=(0.0, 101.0, 0.0)), "centre"),
+        (OwnTool(UPRIGHT, 1.0, axes=(1.0, 1.0, 0.0, 0.0)), "quaternion"),
+        (OwnTool((0.0, 0.0, 0.1), 1.0), "is no pose"),
+        (OwnTool(UPRIGHT, "heavy"), "heavy"),
+        (OwnWorkObject(((float("inf"), 0.0, 0.0), UPRIGHT[1])), "finite"),
+        (OwnWorkObject(UPRIGHT, ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0))), "object frame"),
+    ],
+)
+def test_values_of_no_tool_are_told(own, told):
+    key = "tool" if isinstance(own, OwnTool) else "work_object"
+    with cell() as (robot, _):
+        program = Program().use(**{key: own}).move_linear(robot.pose)
+        with pytest.raises(InvalidProgram, match=told) as error:
+            robot.run(program)
+        assert error.value.diagnostics[0].message.startswith("instruction 0")
 
 
 @pytest.mark.parametrize(

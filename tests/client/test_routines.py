@@ -38,6 +38,16 @@ ROUTINES = {
             {"name": "steps", "type": "num", "mode": "inout"},
         ],
     },
+    "routines.taught": {
+        "call": "cell:taught",
+        "parameters": [
+            {"name": "back", "type": "jointtarget"},
+            {"name": "there", "type": "robtarget", "mode": "inout"},
+            {"name": "place", "type": "jointtarget", "mode": "inout"},
+            {"name": "name", "type": "string", "mode": "inout"},
+            {"name": "next", "type": "robtarget", "mode": "inout"},
+        ],
+    },
     "routines.absent": {"call": "nocell:weld"},
     "routines.area": {
         "call": "cell:area",
@@ -84,6 +94,16 @@ CELL_MODULE = b"""MODULE cell
     PROC slowly(num seconds, INOUT num count)
         WaitTime seconds;
         count := count + 1;
+    ENDPROC
+    PROC taught(jointtarget back, INOUT robtarget there, INOUT jointtarget place, INOUT string name,
+        INOUT robtarget next)
+        there.trans.z := there.trans.z + 10;
+        place.robax.rax_2 := back.robax.rax_1 + 30;
+        name := name + "!";
+        next := there;
+        next.robconf := [-1,2,-3,4];
+        next.rot := [0,0,0,1];
+        IF back.robax.rax_1 > 5 next.trans.x := 9E9;
     ENDPROC
     PROC divides()
         VAR num none := 0;
@@ -183,6 +203,40 @@ def test_a_routine_gets_poses_and_joints():
             with pytest.raises(InvalidProgram):
                 robot.call("reach", *given, 1.0)
         assert not complaints(controller)
+
+
+def test_targets_come_back_as_a_routine_leaves_them():
+    with with_routines() as (robot, controller):
+        robot.move_to(BENT, speed=1.0)
+        (x, y, z), q = robot.pose
+        zero = [0.0] * 6
+        there, place, name, following = robot.call(
+            "taught", zero, robot.pose, BENT, "p10", robot.pose
+        )
+        assert np.allclose(np.hstack(there.pose), (x, y, z + 0.01, *q), atol=1e-5)
+        assert place == pytest.approx([BENT[0], np.pi / 6, *BENT[2:]], abs=1e-5)
+        assert (name, following.configuration) == ("p10!", (-1, 2, -3, 4))
+        assert np.allclose(np.hstack(following.pose), (x, y, z + 0.01, 0, 0, 0, 1), atol=1e-5)
+        program = Program(speed=0.2).move_to(there.pose, configuration=there.configuration)
+        robot.run(program).result()
+        assert np.allclose(robot.pose[0], (x, y, z + 0.01), atol=1e-5)
+        # Nobody checks what a routine leaves.
+        *_, far = robot.call("taught", [0.1] * 6, robot.pose, BENT, "", robot.pose)
+        assert far.pose[0][0] == pytest.approx(9e6, rel=1e-6)
+        assert not complaints(controller)
+
+
+def test_external_axes_of_a_target_come_back_by_their_names():
+    routine = {"call": "cell:taught", "parameters": ROUTINES["routines.taught"]["parameters"]}
+    module = ModuleFile("cell", "cell.mod", CELL_MODULE)
+    with driven("irb120_track", overrides={"routines.taught": routine}, modules=[module]) as (
+        robot,
+        _,
+    ):
+        home = [0.0] * len(robot.state.joints)
+        there, place, *_ = robot.call("taught", home, robot.pose, home, "", robot.pose)
+        assert there.external == {"track": pytest.approx(0.0), "positioner": pytest.approx(0.0)}
+        assert place == pytest.approx([0.0, np.pi / 6, *home[2:]], abs=1e-5)
 
 
 def test_a_routine_of_a_module_that_is_not_there_is_refused_at_once():

@@ -263,3 +263,61 @@ def test_data_that_the_program_declares(backup):
     declared = f"  PERS tooldata TGRIPPER := {VALUE};\n  PROC"
     program.write_text(program.read_text().replace("  PROC", declared, 1))
     assert built(backup, overrides=TOOL)[2]
+
+
+CALLED = [
+    "routines.weld={call: 'theirs:weld', parameters: [{name: seam, type: num}, "
+    "{name: good, type: bool, mode: inout}]}"
+]
+COUNTED = ["data.theirs:count={type: num}"]
+
+
+@pytest.mark.parametrize(
+    ("declared", "overrides", "what"),
+    [
+        ("PROC wield(num seam, INOUT bool good) ENDPROC", CALLED, "has no weld"),
+        ("PROC weld(num seam) ENDPROC", CALLED, "not declared so"),
+        ("PROC weld(num seam, bool good) ENDPROC", CALLED, "not declared so"),
+        ("PROC weld(num seam, INOUT num good) ENDPROC", CALLED, "not declared so"),
+        ("PROC weld(PERS num seam, INOUT bool good) ENDPROC", CALLED, "not declared so"),
+        ("PROC weld(num seam{*}, INOUT bool good) ENDPROC", CALLED, "not declared so"),
+        ("FUNC num weld(num seam, INOUT bool good) RETURN 1; ENDFUNC", CALLED, "not declared so"),
+        ("VAR num other;", COUNTED, "declares no count"),
+        ("LOCAL PERS num count := 1;", COUNTED, "not a global PERS"),
+        ("PERS bool count := TRUE;", COUNTED, "not a global PERS"),
+        ("VAR num count := 1;", COUNTED, "not a global PERS"),
+    ],
+)
+def test_routines_and_data_that_their_module_does_not_have(backup, declared, overrides, what):
+    with pytest.raises(DiagnosticError, match=what) as caught:
+        _with(backup, declared, overrides)
+    (fault,) = caught.value.diagnostics
+    assert fault.code == "RG114"
+    assert fault.span.path.endswith("theirs.mod")
+
+
+@pytest.mark.parametrize(
+    ("declared", "overrides"),
+    [
+        ("PROC WELD(num one, VAR bool two \\num more) ENDPROC", CALLED),
+        ("LOCAL PROC weld(INOUT num one, INOUT bool two) ENDPROC", CALLED),
+        ("PERS num Count := 1;", COUNTED),
+        # Their modules may be loaded later, and a name alone is looked for everywhere.
+        ("", ["routines.away={call: 'nobody:away'}", "routines.home={call: home}"]),
+        ("", ["data.nobody:count={type: num}"]),
+    ],
+)
+def test_routines_and_data_that_are_there_or_may_come(backup, declared, overrides):
+    assert _with(backup, declared, overrides)[2]
+
+
+def _with(backup, declared, overrides):
+    program = backup / "RAPID/TASK1/PROGMOD/theirs.mod"
+    lines = declared.replace(") ENDPROC", ")\n  ENDPROC").replace(") RETURN", ")\n  RETURN")
+    text = program.read_text()
+    if lines.startswith(("PROC", "FUNC", "LOCAL PROC")):
+        text = text.replace("ENDMODULE", f"  {lines}\nENDMODULE")
+    else:
+        text = text.replace("  PROC", f"  {lines}\n  PROC", 1)
+    program.write_text(text)
+    return built(backup, overrides=overrides)

@@ -17,9 +17,9 @@ from tests.proving.probing import answers, asked
 PROBE = data_folder("templates") / "ROS_probe.mod"
 TEXT = PROBE.read_text(encoding="ascii")
 TEXT = PROBE.read_text(encoding="ascii")
-# Only a task that moves no robot can be asked this.
-BEHIND = "calc_in_background"
-ASKED = tuple(name for name in asked(TEXT) if name != BEHIND)
+# Only a task that moves no robot can be asked these.
+BEHIND = ("calc_in_background", "data_of_tasks")
+ASKED = tuple(name for name in asked(TEXT) if name not in BEHIND)
 CASES = [(n, value) for n, own in answers_to(Switches()).items() if n in ASKED for value in own]
 
 
@@ -44,20 +44,20 @@ def test_an_answer_is_the_switch(name, value, tmp_path):
 
 
 @pytest.mark.parametrize("value", [True, False])
-def test_what_a_task_without_a_robot_is_asked(value, tmp_path):
-    path, idle = tmp_path / PROBE.name, tmp_path / "idle.mod"
+@pytest.mark.parametrize("name", BEHIND)
+def test_what_a_task_without_a_robot_is_asked(name, value, tmp_path):
+    path = tmp_path / PROBE.name
     path.write_text(TEXT, encoding="ascii")
-    idle.write_text("MODULE idle\nPROC main()\nWaitTime 20;\nENDPROC\nENDMODULE\n")
     lines = []
     with VirtualController.from_files(
-        {"T_ROB1": [idle], "T_BACK": [path]},
+        {"T_ROB1": [path], "T_BACK": [path]},
         robots=load_config("irb120").groups,
-        dialect=Switches(calc_in_background=value),
+        dialect=replace(Switches(), **{name: value}),
         cycle="once",
     ) as controller:
         controller.operator.subscribe(lambda _task, text: lines.append(text))
         controller.run(max_time=60)
-    assert said(BEHIND, value) in lines
+    assert said(name, value) in lines
 
 
 def test_it_asks():

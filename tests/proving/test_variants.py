@@ -39,6 +39,14 @@ ROUTINES = [
     "{name: note, type: string, mode: inout}]}",
     "routines.long={call: 'cell:wait_long'}",
     "routines.absent={call: 'nocell:weld'}",
+    "routines.teach={call: 'cell:teach', parameters: [{name: there, type: robtarget, mode: inout}, "
+    "{name: place, type: jointtarget, mode: inout}, "
+    "{name: back, type: jointtarget, mode: inout}]}",
+]
+OTHER_ROUTINES = [
+    "routines.home={call: 'mine:home', parameters: [{name: there, type: robtarget}, "
+    "{name: note, type: string}, {name: place, type: jointtarget, mode: inout}]}",
+    "routines.away={call: away}",
 ]
 TOOLS = [
     "tools=[{name: grip, frame: {position: [0, 0, 100]}, load: {mass: 1, centre: [0, 0, 50]}}]",
@@ -56,9 +64,17 @@ VARIANTS = {
     "0.5 Hz": (["state.rate=0.5"], "there-and-back hello-in-pieces"),
     "signals": (SIGNALS, "signals hello control-stop"),
     "data": (DATA, "own-data hello control-stop"),
-    "routines": (ROUTINES, "routine-absent routine-results routine-alone program-waits"),
+    "routines": (
+        ROUTINES,
+        "routine-absent routine-missing routine-results routine-targets routine-alone "
+        "program-waits",
+    ),
+    "other routines": (
+        OTHER_ROUTINES,
+        "routine-absent routine-results routine-targets routine-alone",
+    ),
     "signals on the way": (SIGNALS, "program-signals program-sets program-without-signals"),
-    "tools": (TOOLS, "program-tools program-waits"),
+    "tools": (TOOLS, "program-tools program-own-frames program-waits"),
     "some clients": (["network.allowed_clients=[10.0.0.9]"], "strangers single-point"),
     "impatient": (["network.receive_timeout=3"], "stalls half-header"),
     "small ring": (

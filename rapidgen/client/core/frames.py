@@ -4,7 +4,7 @@ Postures are controller axis values in wire order, rad and m; poses are of the T
 frame, m.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from rapidgen.axes import frames
 from rapidgen.axes.frames import Pose
@@ -68,6 +68,16 @@ class GroupFrames:
         tools = tuple((tool.name, _tool(tool)) for tool in (group.tool, *group.tools))
         objects = (group.work_object, *group.work_objects)
         return cls(kinematics, tools, tuple((wobj.name, _object(wobj)) for wobj in objects))
+
+    def owning(self, tool: Pose | None = None, work_object: Pose | None = None) -> "GroupFrames":
+        """The same with a program's own tool or work object behind the others, without a name."""
+        return replace(
+            self,
+            tools=self.tools if tool is None else (*self.tools, ("", tool)),
+            work_objects=self.work_objects
+            if work_object is None
+            else (*self.work_objects, ("", work_object)),
+        )
 
     def frames(self, tool: int = 0, work_object: int = 0) -> Frames | None:
         """Those of a tool and a work object; None where one of them is not known here: declared

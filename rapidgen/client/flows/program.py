@@ -19,15 +19,15 @@ from rapidgen.client.errors import (
     RoutineFailed,
     fault,
 )
-from rapidgen.client.flows.data import Datum
 from rapidgen.client.flows.effects import Flow, Send, Wait
 from rapidgen.client.flows.job import result, taken
 from rapidgen.client.flows.motion import ready, until
 from rapidgen.client.flows.stop import stop
-from rapidgen.client.program import SLOW, Argument, Program, SpeedLike
+from rapidgen.client.program import SLOW, Argument, Left, Program, SpeedLike, Target
 from rapidgen.config.model import OwnRoutine
 from rapidgen.diagnostics import suggest
 from rapidgen.wire.simple_message import encode, messages
+from rapidgen.wire.simple_message.declaration import Content
 from rapidgen.wire.simple_message.spec import Comm, EventType, Port, Reason
 
 LONGEST_JOG = {"revolute": 0.2, "prismatic": 0.1}
@@ -132,7 +132,7 @@ def _go(core: Core, program: Program, timeout: float | None) -> Flow[Result]:
 
 def call(
     core: Core, routine: str, *arguments: Argument, timeout: float | None = None
-) -> Flow[tuple[Datum, ...]]:
+) -> Flow[tuple[Left, ...]]:
     """Call a procedure of the controller's program and wait for its end: what it left in its
     parameters that are `inout`, in their order, and then a function's value.
 
@@ -207,14 +207,18 @@ def _why_it_stopped(core: Core, routine: str, since: float, failed: MotionFailed
         ) from failed
 
 
-def _results(core: Core, own: OwnRoutine, told: messages.ResultReply) -> Flow[tuple[Datum, ...]]:
-    """What a routine left, by the types of its parameters; each text is asked for by itself."""
+def _results(core: Core, own: OwnRoutine, told: messages.ResultReply) -> Flow[tuple[Left, ...]]:
+    """What a routine left, by the types of its parameters; each text is asked for by itself, and
+    each target."""
     left = [(n, p.type) for n, p in enumerate(own.parameters, 1) if p.inout]
     if own.returns:
         left.append((len(own.parameters) + 1, own.returns))
-    found: list[Datum] = []
+    found: list[Left] = []
     for number, kind in left:
-        if kind == "string":
+        if kind.endswith("target"):
+            place = sum(p.type == kind for p in own.parameters[:number])
+            found.append((yield from _target(core, kind == "jointtarget", place)))
+        elif kind == "string":
             found.append((yield from _told(core, number)).text)
         else:
             value = told.values[number - 1]
@@ -222,13 +226,38 @@ def _results(core: Core, own: OwnRoutine, told: messages.ResultReply) -> Flow[tu
     return tuple(found)
 
 
+def _target(core: Core, joints: bool, number: int) -> Flow[Left]:
+    """What a routine left in a jointtarget or robtarget, the `number`th of its type."""
+    asked = messages.TargetRequest(int(joints), number)
+    reply = yield from _ask(core, asked, messages.TARGET.number)
+    if not isinstance(reply, messages.TargetReply):
+        raise core.state_port.late("the controller did not tell what a routine left in a target")
+    group = core.known_group
+    urdf = group.from_wire(reply.joints)
+    if joints:
+        return urdf
+    (x, y, z), (w, a, b, c) = reply.position, reply.orientation
+    cf1, cf4, cf6, cfx = map(int, reply.configuration)
+    outer = {
+        joint.name: value
+        for joint, value in zip(group.joints, urdf, strict=True)
+        if joint.axis.startswith("eax")
+    }
+    return Target(((x, y, z), (w, a, b, c)), (cf1, cf4, cf6, cfx), outer)
+
+
 def _told(core: Core, parameter: int = 0) -> Flow[messages.ResultReply]:
     """What the driver says of the newest call that has ended."""
-    port = core.ports[Port.MOTION]
-    pending = port.request(messages.RESULT.number)
-    asked = encode(messages.ResultRequest(parameter), Comm.REQUEST)
-    yield Send(Port.MOTION, asked, core.timeouts.send)
-    yield Wait(lambda: pending.reply is not None or not port.is_open, core.timeouts.reply)
-    if not isinstance(pending.reply, messages.ResultReply):
+    reply = yield from _ask(core, messages.ResultRequest(parameter), messages.RESULT.number)
+    if not isinstance(reply, messages.ResultReply):
         raise core.state_port.late("the controller did not tell what has come of a routine")
+    return reply
+
+
+def _ask(core: Core, asked: Content, number: int) -> Flow[Content | None]:
+    """The reply to a request on the motion port; None: none came in time."""
+    port = core.ports[Port.MOTION]
+    pending = port.request(number)
+    yield Send(Port.MOTION, encode(asked, Comm.REQUEST), core.timeouts.send)
+    yield Wait(lambda: pending.reply is not None or not port.is_open, core.timeouts.reply)
     return pending.reply

@@ -47,9 +47,25 @@ def _data(bench: Bench) -> None:
         return
     with bench.beside(_with(bench, listed)) as other:
         control = other.control()
+        if not bench.setting.dialect.data_of_tasks:
+            for index in range(len(listed)):
+                told = _asks(control, index)
+                not_done(told, RawReason.NO_DATUM, f"datum {index} of a task that is not reached")
+            return
         for index, datum in enumerate(listed):
             _one(control, index, datum)
         other.stays(0.5, "data were read and written")
+    for missing, datum in enumerate(listed):
+        others = tuple(d for d in listed if d != datum)
+        with bench.beside(_with(bench, others)) as other:
+            control = other.control()
+            not_done(_asks(control, missing), RawReason.NO_DATUM, f"datum {missing} is missing")
+            for index in range(len(listed)):
+                if index != missing:
+                    _says(
+                        _asks(control, index),
+                        messages.RawDatumReply(index, *_FIRST[listed[index].type]),
+                    )
     elsewhere = tuple(replace(d, name=f"other{d.name}") for d in listed)
     with bench.beside(_with(bench, elsewhere)) as other:
         control = other.control()

@@ -5,6 +5,7 @@ import struct
 from collections.abc import Sequence
 from dataclasses import replace
 
+from rapidgen.config.model import OwnRoutine
 from rapidgen.proving import messages
 from rapidgen.proving.batches import millionths
 from rapidgen.proving.behaviour import Theme
@@ -12,8 +13,8 @@ from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import RawLink
 from rapidgen.proving.messages import RawInstruction, RawReason, RawTrajectoryState
 from rapidgen.proving.model import Broken
-from rapidgen.proving.programs import ALL, Programmer, orders
-from rapidgen.proving.suite.control import stop
+from rapidgen.proving.programs import ALL, Programmer, computes, orders, reached
+from rapidgen.proving.suite.control import not_done, stop
 from rapidgen.system.model import ModuleFile, System
 
 case = Theme("own routines", needs="stream")
@@ -29,10 +30,20 @@ _MODULE = b"""MODULE cell
         IF weld_failed = -1 BookErrNo weld_failed;
         IF seam < 0 RAISE weld_failed;
         seam := 2 * seam;
-        good := NOT dry;
+        good := (good = dry);
         note := note + note;
     ERROR
         RAISE;
+    ENDPROC
+
+    PROC teach(INOUT robtarget there, INOUT jointtarget place, INOUT jointtarget back)
+        VAR jointtarget other;
+
+        there.trans.x := there.trans.x + 250;
+        there.robconf := [-1,2,-3,4];
+        other := place;
+        place := back;
+        back := other;
     ENDPROC
 
     PROC wait_long()
@@ -44,8 +55,25 @@ _MODULE = b"""MODULE cell
     ENDPROC
 ENDMODULE
 """
-WELD, LONG, ABSENT = 0, 1, 2
-"""Numbers of the routines that a configuration for these cases has (tests/proving)."""
+WELD, LONG, ABSENT, TEACH = range(4)
+"""Numbers of the routines that a configuration for these cases has (benchmarks/cell.yaml)."""
+_THESE = {
+    "cell:weld": ("num", "bool", "bool", "string"),
+    "cell:wait_long": (),
+    "nocell:weld": (),
+    "cell:teach": ("robtarget", "jointtarget", "jointtarget"),
+}
+
+
+def knows_these(bench: Bench) -> bool:
+    """Whether the configuration's routines are those of the module of these cases."""
+    own = {r.call: tuple(p.type for p in r.parameters) for r in bench.group.routines}
+    return own == _THESE and list(own) == list(_THESE)
+
+
+def _has_these(bench: Bench) -> bool:
+    """Whether it does, and the motion task is told that the module is there."""
+    return knows_these(bench) and bench.setting.dialect.modules_told
 
 
 @case("routine-absent", "a routine of a module that is not there refuses its program")
@@ -56,39 +84,74 @@ def _absent(bench: Bench) -> None:
         told = _calls(client, LONG)
         client.refused(told, RawReason.NO_INSTRUCTION, 0, "a driver without routines")
         return
-    for number in range(3):
-        arguments = _weld(1.0) if number == WELD else ()
-        told = _calls(client, number, arguments)
-        client.refused(told, RawReason.NO_ROUTINE, 0, f"routine {number} is not there")
+    for number, routine in enumerate(bench.group.routines):
+        poses = any(p.type == "robtarget" for p in routine.parameters)
+        if ":" in routine.call and not routine.returns and (computes(bench) or not poses):
+            told = _calls(client, number, _zeros(bench, routine))
+            client.refused(told, RawReason.NO_ROUTINE, 0, f"{routine.call} is not there")
+    if knows_these(bench) and not bench.setting.dialect.modules_told:
+        with bench.beside(_with_module(bench)) as other:
+            told = _calls(Programmer(other), WELD, weld_words(1.0))
+            client.refused(told, RawReason.NO_ROUTINE, 0, "a module of which nobody is told")
+    if not _has_these(bench):
+        return
     with bench.beside(_with_module(bench)) as other:
         client = Programmer(other)
-        for number in (ABSENT, 3, -1):
+        for number in (ABSENT, 4, -1):
             client.refused(_calls(client, number), RawReason.NO_ROUTINE, 0, f"routine {number}")
         for seconds in (-1.0, 2001.0):
             told = _calls(client, LONG, seconds=seconds)
             client.refused(told, RawReason.BAD_VALUE, 0, f"a routine that may take {seconds} s")
-        told = _calls(client, WELD, _weld(1.0, dry=2))
+        told = _calls(client, WELD, weld_words(1.0, dry=2))
         client.refused(told, RawReason.BAD_VALUE, 0, "a bool that is 2")
-        told = _calls(client, WELD, [2143289344, *_weld(1.0)[1:]])
+        told = _calls(client, WELD, [2143289344, *weld_words(1.0)[1:]])
         client.refused(told, RawReason.NOT_FINITE, 0, "a num that is none")
         other.stays(0.5, "no routine was called")
+
+
+@case("routine-missing", "a procedure that its module does not have ends the program in its turn")
+def _missing(bench: Bench) -> None:
+    """With that reason, what was before it is executed, and nothing of another one is called."""
+    if not _has_these(bench):
+        return
+    system = _with_module(bench, ModuleFile("nocell", "nocell.mod", b"MODULE nocell\nENDMODULE\n"))
+    with bench.beside(system) as other:
+        client, watcher = Programmer(other), other.watcher()
+        client.number += 1
+        wait = [RawInstruction.WAIT, *millionths([0.1])]
+        words = [*millionths(other.position), *wait, _CALL, *millionths([ABSENT, 0.0]), *wait]
+        _taken(client.say(words, 3, ALL))
+        other.stays(1, "there is no such procedure")
+        seen = other.progress(watcher)
+        wanted = (RawTrajectoryState.FAILED, RawReason.NO_ROUTINE, 1)
+        if (seen.state, seen.reason, seen.reached) != wanted:
+            raise Broken(f"a procedure is missing, PROGRESS says {seen}")
+        _taken(_calls(client, WELD, weld_words(1.0)))
+        if _ended(other, client, 4).values[0] != 2:
+            raise Broken("a routine behind one that is missing has not run")
 
 
 @case("routine-results", "a routine's parameters and its error come back")
 def _results(bench: Bench) -> None:
     """Numbers, texts, number and name of an error; the program behind it goes on, or ends."""
-    if not bench.group.routines:
+    if not _has_these(bench):
         return
     with bench.beside(_with_module(bench)) as other:
         client, watcher = Programmer(other), other.watcher()
-        for seam, dry in ((1.5, 0), (2.0**100, 1)):
-            _taken(_calls(client, WELD, _weld(seam, dry=dry)))
+        for seam, dry, good in ((1.5, 0, 0), (2.0**100, 1, 1), (-0.0, 0, 1), (1.5, 1, 0)):
+            _taken(_calls(client, WELD, weld_words(seam, dry=dry, good=good)))
             told = _ended(other, client, 4)
-            if (told.error, told.values[:3], told.text) != (0, (2 * seam, dry, 1 - dry), "abab"):
+            same = float(dry == good)
+            if (told.error, told.values[:3], told.text) != (0, (2 * seam, dry, same), "abab"):
                 raise Broken(f"weld({seam}, {dry}) is told as {told}")
             if _asks(client, 1).text or _asks(client, 9).text or _asks(client, -1).text:
                 raise Broken("a parameter that is no string has a text")
-        _taken(_calls(client, WELD, _weld(-1.0)))
+        for text in ("", "x" * 40, "12345"):
+            _taken(_calls(client, WELD, weld_words(1.0, text=text)))
+            told = _ended(other, client, 4)
+            if (told.values[0], told.text) != (2.0, 2 * text):
+                raise Broken(f"a text is to come back twice: {told}")
+        _taken(_calls(client, WELD, weld_words(-1.0)))
         told = _ended(other, client, 0)
         if told.error == 0 or told.text != "weld_failed":
             raise Broken(f"weld has raised weld_failed, RESULT says {told}")
@@ -96,14 +159,14 @@ def _results(bench: Bench) -> None:
         seen = other.progress(watcher)
         if (seen.state, seen.reason) != (RawTrajectoryState.FAILED, RawReason.ROUTINE):
             raise Broken(f"a routine has raised an error, PROGRESS says {seen}")
-        if other.controller.task(other.group.task)["cell:calls"] != 3:
-            raise Broken("weld was not called three times")
+        if other.controller.task(other.group.task)["cell:calls"] != 8:
+            raise Broken("weld was not called eight times")
 
 
 @case("routine-alone", "nothing else begins while a routine runs", needs="control")
 def _alone(bench: Bench) -> None:
     """Not by its own client, nor by another one; STOP and the time-out end it, UNDO runs."""
-    if not bench.group.routines:
+    if not _has_these(bench):
         return
     with bench.beside(_with_module(bench)) as other:
         client, watcher = Programmer(other), other.watcher()
@@ -112,6 +175,8 @@ def _alone(bench: Bench) -> None:
         other.run(0.5)
         told = _calls(client, LONG)
         client.refused(told, RawReason.MOVING, -1, "a program into a routine")
+        told = other.control().ask(messages.RawSpeed(50.0))
+        not_done(told, RawReason.IN_ROUTINE, "SPEED of a routine")
         points = other.wave(4)
         client.link.send(other.download(points))
         newer = RawLink(other, other.group.ports.motion)
@@ -142,14 +207,68 @@ def _alone(bench: Bench) -> None:
         other.wait_until_at(program[-1].joints, 60)
 
 
-def _weld(seam: float, *, dry: int = 0, text: str = "ab") -> list[int]:
+@case("routine-targets", "targets that a routine leaves come back")
+def _targets(bench: Bench) -> None:
+    """Each with its own number, in m and rad; where there is none, none is told."""
+    if not _has_these(bench) or not computes(bench):
+        return
+    with bench.beside(_with_module(bench)) as other:
+        client = Programmer(other)
+        first, second = (order.joints for order in orders(other, 3, random.Random(29))[1:])
+        (x, y, z), turn = reached(other, first)
+        words = millionths([x, y, z, *turn, *first, *first, *second])
+        _taken(_calls(client, TEACH, words))
+        _ended(other, client, 0)
+        told = _asks_target(client, 0, 1)
+        _near("robtarget", (*told.position, *told.orientation), (x + 0.25, y, z, *turn))
+        _near("configuration", told.configuration, (-1, 2, -3, 4))
+        for number, joints in ((1, second), (2, first)):
+            told = _asks_target(client, 1, number)
+            _near(f"jointtarget {number}", told.joints[: len(joints)], joints)
+            if any(told.joints[len(joints) :]) or any(told.position) or any(told.orientation):
+                raise Broken(f"TARGET of a jointtarget is answered by {told}")
+        for kind, number in ((0, 0), (0, 2), (1, 0), (1, 3), (2, 1), (-1, 1), (1, -1)):
+            asked = messages.RawTarget(kind, number)
+            if not isinstance(client.link.ask(asked), messages.RawFailure):
+                raise Broken(f"a routine has no target {asked}")
+
+
+def _asks_target(client: Programmer, joints: int, parameter: int) -> messages.RawTargetReply:
+    told = client.link.ask(messages.RawTarget(joints, parameter))
+    if not isinstance(told, messages.RawTargetReply):
+        raise Broken(f"TARGET is answered by {told}")
+    return told
+
+
+def _near(what: str, told: Sequence[float], wanted: Sequence[float]) -> None:
+    """Broken unless numbers are those that were sent, as far as the wire tells them."""
+    if not all(abs(a - b) < 1e-5 for a, b in zip(told, wanted, strict=True)):
+        raise Broken(f"the {what} has come back as {told}, not {wanted}")
+
+
+def _zeros(bench: Bench, routine: OwnRoutine) -> list[int]:
+    """Words of arguments that any routine takes: nothing, and where the robot is."""
+    here = bench.position
+    values: dict[str, list[float]] = {
+        "num": [0.0],
+        "bool": [0.0],
+        "string": [0.0],
+        "jointtarget": list(here),
+    }
+    if any(p.type == "robtarget" for p in routine.parameters):
+        (x, y, z), turn = reached(bench, here)
+        values["robtarget"] = [x, y, z, *turn, *here]
+    return [w for p in routine.parameters for w in millionths(values[p.type])]
+
+
+def weld_words(seam: float, *, dry: int = 0, good: int = 0, text: str = "ab") -> list[int]:
     """Words of weld's arguments: a num as float32, two bools, a text."""
     number = struct.unpack("<i", struct.pack("<f", seam))[0]
-    letters = text.encode().ljust(4, b"\0")
+    letters = text.encode() + bytes(-len(text) % 4)
     return [
         number,
-        *millionths([float(dry), 0.0, float(len(text))]),
-        int.from_bytes(letters, "little"),
+        *millionths([float(dry), float(good), float(len(text))]),
+        *struct.unpack(f"<{len(letters) // 4}i", letters),
     ]
 
 
@@ -186,10 +305,12 @@ def _ended(bench: Bench, client: Programmer, parameter: int) -> messages.RawResu
     raise Broken("RESULT does not tell the newest call")
 
 
-def _with_module(bench: Bench) -> System:
+def _with_module(bench: Bench, *more: ModuleFile) -> System:
     module = ModuleFile("cell", "cell.mod", _MODULE)
     tasks = tuple(
-        replace(task, modules=(*task.modules, module)) if task.name == bench.group.task else task
+        replace(task, modules=(*task.modules, module, *more))
+        if task.name == bench.group.task
+        else task
         for task in bench.system.tasks
     )
     return replace(bench.system, tasks=tasks)

@@ -1,13 +1,11 @@
-"""What a program does beside moving: signals on the way, other tools and objects, SPEED."""
+"""What a program does beside moving: signals on the way and standing, settings."""
 
 import math
 import random
 from collections.abc import Sequence
 from dataclasses import replace
 
-from rapidgen.axes import frames
-from rapidgen.axes.frames import Pose
-from rapidgen.config.model import ExposedSignal, Placement
+from rapidgen.config.model import ExposedSignal
 from rapidgen.motion.moves import Singularities
 from rapidgen.proving import messages
 from rapidgen.proving.batches import millionths
@@ -23,7 +21,6 @@ from rapidgen.proving.programs import (
     orders,
     reached,
 )
-from rapidgen.proving.suite.control import not_done
 from rapidgen.proving.suite.programs import corners_made
 from rapidgen.proving.track import Position
 
@@ -53,12 +50,25 @@ def _signals(bench: Bench) -> None:
         return
     there = replace(last, kind=MOVES[0], pose=reached(bench, last.joints), speed=0.1)
     back = replace(there, joints=first.joints, pose=reached(bench, first.joints))
-    for kind in (*MOVES, RawInstruction.MOVE_ABSJ):
+    middle = [(a + b) / 2 for a, b in zip(first.joints, last.joints, strict=True)]
+    (x, y, z), turned = reached(bench, tuple(middle))
+    for kind in (*MOVES, RawInstruction.MOVE_ABSJ, RawInstruction.MOVE_C):
         for number in written:
             for go, from_there in ((there, first), (back, there)):
-                own = replace(go, kind=kind, pose=go.pose if kind in MOVES else None)
+                own = replace(
+                    go,
+                    kind=kind,
+                    pose=None if kind is RawInstruction.MOVE_ABSJ else go.pose,
+                    via=((x, y, z + 0.01), turned) if kind is RawInstruction.MOVE_C else None,
+                )
                 _one_way(bench, client, own, from_there.joints, number)
-    _eight(bench, client, there, written[0])
+    way = ((x, y, z + 0.01), turned)
+    for kind in (*MOVES, RawInstruction.MOVE_C):
+        client.takes("a program", [replace(first, kind=RawInstruction.MOVE_ABSJ, pose=None)])
+        bench.wait_until_at(first.joints, 60)
+        bench.run(0.5)
+        via = way if kind is RawInstruction.MOVE_C else None
+        _eight(bench, client, replace(there, kind=kind, via=via), written[0])
     _wrong_marks(bench, client, replace(back, kind=MOVES[0]), written[0])
 
 
@@ -105,14 +115,16 @@ def _eight(bench: Bench, client: Programmer, order: RawOrder, number: int) -> No
     marks = tuple((float(number), float((n + 1) % 2), START, 0.001 + 0.002 * n) for n in range(8))
     start = bench.position
     back = replace(order, joints=start, pose=reached(bench, start))
-    client.takes("eight signals", [replace(o, marks=marks) for o in (order, back) * 2])
+    # Of circles one message holds three.
+    moves = (order, back) * (1 if order.via is not None else 2)
+    client.takes("eight signals", [replace(o, marks=marks) for o in moves])
     watcher = bench.watcher()
     for _ in range(600):
         if bench.progress(watcher).state == RawTrajectoryState.DONE:
             break
     signal.changed.remove(note)
-    if seen != [1, 0] * 16:
-        raise Broken(f"{signal.name} was to change 32 times on four moves, and was {seen}")
+    if seen != [1, 0] * 4 * len(moves):
+        raise Broken(f"{signal.name} was to change 8 times on each move, and was {seen}")
 
 
 def _wrong_marks(bench: Bench, client: Programmer, order: RawOrder, number: int) -> None:
@@ -138,6 +150,9 @@ def _wrong_marks(bench: Bench, client: Programmer, order: RawOrder, number: int)
     for marks, reason in wrong:
         told = client.send([replace(order, marks=tuple(marks))])
         client.refused(told, reason, 0, f"signals {marks}")
+    far = ((n, 1.0, START, 10.0), (n, 1.0, END, 0.0))
+    told = client.send([replace(order, marks=far), replace(order, speed=0.0)])
+    client.refused(told, RawReason.BAD_SPEED, 1, f"signals {far} are right")
     words = [*millionths(bench.position), 2048 + RawInstruction.WAIT]
     client.number += 1
     told = client.say([*words, *millionths([1.0, n, 1.0, START, 0.01, 0.5])], 1, ALL)
@@ -227,6 +242,13 @@ def _one_without(bench: Bench, index: int, signal: ExposedSignal) -> None:
         bench.stays(1, "the signal is not there")
         _no_signal(bench.progress(watcher), signal)
     for number, other in enumerate(bench.config.signals):
+        if number != index and other.kind[0] != "A":
+            now = float(bench.controller.signals[other.name])
+            _accepted(_sends(client, WAIT_SIGNAL, [float(number), now, 0.5]))
+            bench.run(0.5)
+            seen = bench.progress(watcher)
+            if seen.state != RawTrajectoryState.DONE:
+                raise Broken(f"{signal.name} is not there; a wait for {other.name} ends so: {seen}")
         if number != index and other.access == "write":
             _accepted(_sends(client, SET, [float(number), 1.0]))
             bench.run(0.5)
@@ -280,75 +302,6 @@ def _sends(
 def _accepted(told: messages.RawContent) -> None:
     if not isinstance(told, messages.RawPointsAccepted):
         raise Broken(f"a right program is answered by {told}")
-
-
-@case("program-tools", "a program moves other tools in other work objects")
-def _tools(bench: Bench) -> None:
-    """Each of the configuration's: a pose of another tool is refused, the right one is reached,
-    with a stop point before the first move of it."""
-    client = Programmer(bench)
-    first, *more = orders(bench, 6, random.Random(24))
-    client.takes("a program", [first])
-    bench.wait_until_at(first.joints, 60)
-    tools = (bench.group.tool, *bench.group.tools)
-    objects = (bench.group.work_object, *bench.group.work_objects)
-    told = client.send([replace(first, frames=(len(tools), 0))])
-    client.refused(told, RawReason.NO_FRAME, 0, "a tool too many")
-    told = client.send([replace(first, frames=(0, len(objects)))])
-    client.refused(told, RawReason.NO_FRAME, 0, "a work object too many")
-    if not computes(bench) or (len(tools), len(objects)) == (1, 1):
-        return
-    for tool in range(len(tools)):
-        for wobj in range(len(objects)):
-            frame = tools[tool].frame, objects[wobj].user_frame
-            own = [
-                replace(o, pose=_seen(bench, o.joints, *frame), kind=MOVES[0], frames=(tool, wobj))
-                for o in more[:3]
-            ]
-            if (tool, wobj) != (0, 0):
-                other = replace(own[0], frames=(0, 0))
-                client.refused(
-                    client.send([other]), RawReason.POSE_MISMATCH, 0, f"tool {tool}, object {wobj}"
-                )
-            start, since = bench.position, bench.now
-            client.takes(f"tool {tool} in work object {wobj}", [*more[3:4], *own])
-            bench.wait_until_at(own[-1].joints, 60)
-            joints = [start, more[3].joints, *(o.joints for o in own)]
-            bench.followed(joints, since=since, corner=0.1)
-
-
-def _seen(bench: Bench, joints: Position, tool: Placement, wobj: Placement) -> Pose:
-    """The pose of joints, in m, with another tool in another work object."""
-    geometry = bench.motion_group.kinematics
-    assert geometry is not None
-    flange = geometry.forward(joints)
-    tip = frames.compose(flange, (tool.position, tool.orientation))
-    pose = frames.compose(frames.invert((wobj.position, wobj.orientation)), tip)
-    (x, y, z), q = pose
-    return (round(x, 6), round(y, 6), round(z, 6)), (
-        round(q[0], 6),
-        round(q[1], 6),
-        round(q[2], 6),
-        round(q[3], 6),
-    )
-
-
-@case("program-speed", "SPEED is refused while a program is under way", needs="control")
-def _speed(bench: Bench) -> None:
-    """It would be confirmed and not obeyed; behind the program a trajectory takes it again."""
-    control, client = bench.control(), Programmer(bench)
-    program = orders(bench, 4, random.Random(25))
-    client.takes("a program", program)
-    bench.wait_until_moving()
-    for percent in (50.0, 100.0):
-        told = control.ask(messages.RawSpeed(percent))
-        not_done(told, RawReason.IS_PROGRAM, "SPEED during a program")
-    bench.wait_until_at(program[-1].joints, 60)
-    bench.run(0.5)
-    not_done(control.ask(messages.RawSpeed(50.0)), RawReason.IDLE, "SPEED behind a program")
-    bench.sets_off(client.link, bench.wave(10), 0.3)
-    if not isinstance(control.ask(messages.RawSpeed(50.0)), messages.RawAcknowledged):
-        raise Broken("a trajectory behind a program does not take SPEED")
 
 
 @case("program-settings", "singularities and configurations are allowed on request alone")

@@ -86,6 +86,12 @@ def _refused(bench: Bench) -> None:
             wanted = (RawReason.JOINT_LIMIT, 3, n + 1)
             if told[-3:] != wanted:
                 raise Broken(f"joint {n + 1} at {value}: the reply is {told}")
+        for value in (own.lower + small_unit(own), own.upper - small_unit(own)):
+            inside = replace(right[3], joints=changed(right[3].joints, n, value), pose=None)
+            # What is behind it is wrong.
+            behind = replace(right[3], speed=0.0)
+            told = client.send([*right[:3], replace(inside, kind=MOVE_ABSJ), behind])
+            client.refused(told, RawReason.BAD_SPEED, 4, f"joint {n + 1} at {value}")
     wrong: list[tuple[RawOrder, RawReason]] = [
         (replace(right[3], speed=0.0), RawReason.BAD_SPEED),
         (replace(right[3], speed=-1.0), RawReason.BAD_SPEED),
@@ -96,7 +102,8 @@ def _refused(bench: Bench) -> None:
     for order in right:
         if order.pose is not None:
             (x, y, z), q = order.pose
-            away = replace(order, pose=((x, y, z + 0.002), q))
+            far = 1.1 * bench.config.trajectory.pose_tolerance
+            away = replace(order, pose=((x, y, z + far), q))
             turned = replace(order, pose=((x, y, z), (q[1], q[0], q[3], q[2])))
             wrong += [(away, RawReason.POSE_MISMATCH), (turned, RawReason.POSE_MISMATCH)]
             wrong.append((replace(order, pose=((x, y, z), (0.0,) * 4)), RawReason.BAD_VALUE))
@@ -305,7 +312,7 @@ def _waits(bench: Bench) -> None:
         ([1024 + MOVE_ABSJ, *millionths([99.0, 0.0])], RawReason.NO_FRAME),
         ([1024 + MOVE_ABSJ, *millionths([0.0, 0.5])], RawReason.NO_FRAME),
         ([int(RawInstruction.SET), *millionths([99.0, 0.0])], None),
-        ([10, 0], RawReason.NO_INSTRUCTION),
+        ([12, 0], RawReason.NO_INSTRUCTION),
     ):
         client.number += 1
         start = millionths(bench.position)

@@ -13,8 +13,9 @@ from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.instructions import at_call
 from rapidgen.proving.link import RawLink
-from rapidgen.proving.messages import RawComm, RawReason
+from rapidgen.proving.messages import RawComm, RawInstruction, RawReason
 from rapidgen.proving.model import Broken
+from rapidgen.proving.programs import Programmer, RawOrder
 from rapidgen.proving.stream import BEGIN, END, Streamer
 from rapidgen.proving.suite.control import done, not_done
 from rapidgen.proving.suite.motion_task import begins, soon, unit_of
@@ -52,25 +53,33 @@ def _slow(bench: Bench) -> float:
     return soon(bench) + bench.setting.latest_interrupt
 
 
-def _paces(bench: Bench, since: float) -> list[tuple[float, float, float]]:
+def _paces(bench: Bench, since: float, rate: float) -> list[tuple[float, float, float]]:
     """From when to when the axis was how fast, in shares of its speed."""
     track = [(when, seen[0]) for when, seen in bench.track if when >= since]
     return [
-        (when, then, abs(b - a) / (then - when) / _RATE)
+        (when, then, abs(b - a) / (then - when) / rate)
         for (when, a), (then, b) in pairwise(track)
         if then > when
     ]
 
 
-def _as_asked(bench: Bench, since: float, percent: float, seconds: float, stops: int = 2) -> None:
+def _as_asked(
+    bench: Bench,
+    since: float,
+    percent: float,
+    seconds: float,
+    stops: int = 2,
+    rate: float | None = None,
+) -> None:
     """Broken where the axis was faster than asked since then, or much slower for long.
 
-    `seconds`: what a move takes at the speed before. `stops`: how often it comes to rest.
+    `seconds`: what a move takes at the speed before. `stops`: how often it comes to rest. `rate`:
+    of the axis in moves without a time of their own.
     """
-    asked, paces = percent / 100, _paces(bench, since)
+    asked, paces = percent / 100, _paces(bench, since, _RATE if rate is None else rate)
     lag = bench.setting.motion.servo_lag
     ordered = 2 * seconds + bench.setting.motion.planning_lead + _slow(bench) + lag
-    acts = seconds > _LONG and bench.setting.motion.refresh_timed
+    acts = rate is not None or (seconds > _LONG and bench.setting.motion.refresh_timed)
     # Each move that was ordered may begin as fast as it was ordered, until a timer comes.
     most = _TICK + _slow(bench) + _RAMPS + lag if acts else ordered
     last = since + (ordered / asked if acts else ordered) + most
@@ -271,3 +280,53 @@ def _at_the_start(bench: Bench) -> None:
     bench.wait_until_at(points[2][0], 10 * unit)
     if bench.now - begun < 3.0 * unit:
         raise Broken(f"{2 * unit:.2f} s of motion at half the speed took {bench.now - begun:.2f} s")
+
+
+@case("program-speed", "a program is never faster than asked, nor slowed down twice")
+def _program(bench: Bench) -> None:
+    """Slower and faster within a move and between two, and at full speed in the next program."""
+    control, client = bench.control(), Programmer(bench)
+    step, count = _RATE * 0.6, 6
+    program = _moves(bench, count, step)
+    since = bench.now
+    client.takes("a program", program)
+    bench.wait_until_at(program[-1].joints, 60)
+    rates = sorted(pace for *_, pace in _paces(bench, since, 1.0))
+    rate = max(rates[-len(rates) // 4 :])
+    seconds = step / rate
+    for percents in ((50.0,), (60.0, 20.0), (20.0, 60.0)):
+        program, begun = _moves(bench, count, step), bench.position
+        client.takes("a program", program)
+        bench.wait_until_moving()
+        bench.run(seconds * (0.5 if percents[-1] > 50 else 1.5))
+        before = 1.0
+        for percent in percents:
+            since = bench.now
+            done(control.ask(messages.RawSpeed(percent)), f"SPEED {percent:g} of a program")
+            if percent == percents[-1]:
+                bench.wait_until_at(program[-1].joints, 10 + 8 * count * seconds)
+                stops = 2 if percent < 100 * before else 2 + math.ceil(2 * seconds / before)
+                _as_asked(bench, since, percent, seconds / before, stops, rate)
+            else:
+                bench.run(0.3)
+            before = percent / 100
+        bench.followed([begun, *(order.joints for order in program)], since=since)
+        bench.wait_until_standing()
+    program, since = _moves(bench, count, step), bench.now
+    client.takes("a program", program)
+    bench.wait_until_at(program[-1].joints, 60)
+    _as_asked(bench, since, 100, seconds, rate=rate)
+
+
+def _moves(bench: Bench, count: int, step: float) -> list[RawOrder]:
+    """Moves on a straight way of the first axis, each in about 0.6 s, the last a stop point."""
+    here, joint = bench.position, bench.group.joints[0]
+    step = inward(joint, here[0], step) - here[0]
+    places = [changed(here, 0, here[0] + n * step) for n in range(count + 1)]
+    speed = 0.1
+    if bench.motion_group.kinematics is not None:
+        speed = max(0.02, math.dist(bench.tcp(places[0]), bench.tcp(places[1])) / 0.6)
+    return [
+        RawOrder(RawInstruction.MOVE_ABSJ, place, None, speed=speed, zone=zone)
+        for place, zone in zip(places[1:], [*[0.002] * (count - 1), None], strict=True)
+    ]

@@ -106,8 +106,9 @@ def erase_module(task: Task, module: str) -> None:
 
 @builtin("ModExist", cost="string")
 def mod_exist(task: Task, module: str) -> bool:
-    """Whether the task has a module of that name."""
-    return module.lower() in task.program.modules
+    """Whether the task has a module of that name, or has loaded one."""
+    known = task.program.modules.get(module.lower())
+    return known is not None and (task.controller.dialect.modules_told or known.origin is not None)
 
 
 @builtin("ModTime", cost="string")

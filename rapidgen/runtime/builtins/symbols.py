@@ -6,7 +6,7 @@ Keyence's CV-X modules [code] look for tool0 and wobj0 so.
 """
 
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 from rapidgen.rapid.builtins import signatures
 from rapidgen.rapid.syntax import nodes as n
@@ -63,6 +63,8 @@ def _reached(
     [mem], anything else is ERR_SYM_ACCESS."""
     owner = task_named(task, reference, task_name)
     data, found = _data_ref(owner, block.module if block is not None else None, name)
+    if owner is not task and not task.controller.dialect.data_of_tasks:
+        raise RapidError("ERR_TASKNAME", owner.name)
     if owner is not task and data.storage != "cell":
         raise RapidError("ERR_SYM_ACCESS", f"{name} is no PERS of {owner.name}")
     return data, found
@@ -133,21 +135,28 @@ def set_data_val(
 # -- searches -----------------------------------------------------------------------------------
 
 
+def _fitting(task: RapidTask, pattern: str) -> Callable[[str], object]:
+    """Whether a name fits a regular expression: whole, or by some part of it."""
+    try:
+        compiled = re.compile(pattern, re.IGNORECASE)
+    except re.error as error:
+        raise RapidError("ERR_ARGVALERR", f"'{pattern}' is no pattern") from error
+    part = task.controller.dialect.search_pattern == "part"
+    return compiled.search if part else compiled.fullmatch
+
+
 def _declared(
     task: RapidTask, type_: str, module: str, pattern: str
 ) -> Iterator[tuple[LoadedModule, n.DataDeclaration, Data]]:
     """Module data of a type (all for an empty one) whose names fit a regular expression."""
-    try:
-        fits = re.compile(pattern, re.IGNORECASE)
-    except re.error as error:
-        raise RapidError("ERR_ARGVALERR", f"'{pattern}' is no pattern") from error
+    fits = _fitting(task, pattern)
     for loaded in tuple(task.program.modules.values()):
         if module and loaded.name.lower() != module.lower():
             continue
         for key, declaration in tuple(loaded.declarations.items()):
             if type_ and declaration.type.lower() != type_.lower():
                 continue
-            if pattern and fits.fullmatch(declaration.name) is None:
+            if pattern and not fits(declaration.name):
                 continue
             data = task.program.find_data(loaded, key)
             if data is not None:
@@ -156,12 +165,13 @@ def _declared(
 
 def _predefined(task: Task, type_: str, pattern: str, kinds: set[str]) -> Iterator[Data]:
     """Predefined data of a type (all for an empty one) that nothing in the program hides."""
+    fits = _fitting(task, pattern)
     for key, known in signatures.predefined().items():
         if type_ and known.type.lower() != type_.lower():
             continue
         if (kinds and known.kind not in kinds) or key in task.program.names.globals:
             continue
-        if pattern and re.fullmatch(pattern, known.name, re.IGNORECASE) is None:
+        if pattern and not fits(known.name):
             continue
         data = task.program.find_data(None, key)
         if data is not None:
@@ -196,19 +206,19 @@ def set_data_search(
     ]
     if not (in_task or in_module or local):
         found += [(None, data) for data in _predefined(task, type_, pattern or "", kinds)]
-    task.found = iter(found)
+    task.found, task.searched_module = iter(found), bool(in_module) and not in_task
 
 
 @builtin("GetNextSym", cost="string")
-def get_next_sym(task: Task, name: Ref, block: DataPosition, _recursive: bool | None) -> bool:
-    """The next find of the search; FALSE when there is none left."""
-    following = next(task.found, None)
-    if following is None:
-        return False
-    module, data = following
-    name.set(data.name)
-    block.module = module
-    return True
+def get_next_sym(task: Task, name: Ref, block: DataPosition, recursive: bool | None) -> bool:
+    """The next find of the search, on its level or below it; FALSE when there is none left."""
+    below = recursive or task.searched_module or task.controller.dialect.next_symbol == "below"
+    for module, data in task.found:
+        if below or module is None:
+            name.set(data.name)
+            block.module = module
+            return True
+    return False
 
 
 @builtin("SetAllDataVal", cost="string")

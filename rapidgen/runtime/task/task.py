@@ -76,6 +76,8 @@ class Task(Process):
         """What it waits for, in words; None: it does not wait, or for time alone."""
         self.found: Iterator[tuple[LoadedModule | None, Data]] = iter(())
         """What SetDataSearch has found and GetNextSym has not given yet."""
+        self.searched_module = False
+        """It began in a module, not above all of them."""
         self.cyclic = CyclicBools()
         self._order: BaseException | None = None
         self._holds = 0

@@ -91,7 +91,8 @@ points, with the same rules for BEGIN, END, `first`, checksum, room and order. B
   and it is refused whole. It may have as many instructions as the ring holds. Otherwise the robot
   moves as soon as the first batch is accepted, and what is executed is a prefix.
 - A move to a pose says the joints at its end, too: the driver asks the controller what pose they
-  reach, and refuses a pose more than 1 mm or 0.2 degrees away (POSE_MISMATCH). So their limits are
+  reach, and refuses a pose more than 1 mm or 0.2 degrees away (POSE_MISMATCH;
+  `pose_tolerance` of the configuration may say more). So their limits are
   checked, and the configuration is theirs by the controller's own word.
 - Without a next instruction the robot stops at the end of the last one that came (STARVED).
 

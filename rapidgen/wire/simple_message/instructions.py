@@ -29,6 +29,10 @@ OPERANDS: dict[Instruction, str] = {
     "word, a robtarget as position, orientation, joints, a jointtarget as joints",
     Instruction.SETTINGS: "bits, which hold until the program ends or says otherwise: 1 SingArea "
     "with Wrist, 2 ConfL with Off",
+    Instruction.TOOL: "values of the program's own tool: position and orientation of its frame, "
+    "centre of mass and orientation of the axes of inertia, mass in kg, moments ix, iy, iz (kg m2)",
+    Instruction.WORK_OBJECT: "values of the program's own work object: position and orientation "
+    "of its user frame, of its object frame",
 }
 """Of each instruction the operands: position x, y, z in m, orientation w, x, y, z, a word each of
 the group's joints in rad or m."""
@@ -36,7 +40,8 @@ MODALS: dict[Modal, str] = {
     Modal.SPEED: "speeds of the TCP m/s, its orientation rad/s, external axes m/s and rad/s",
     Modal.ZONE: "1 stop point, 0 not; radii of the TCP, its orientation, external axes, m; of "
     "orientation rad, of linear m and of rotary external axes rad",
-    Modal.FRAMES: "numbers of tool and work object; 0 the group's own, 1 the first other one",
+    Modal.FRAMES: "numbers of tool and work object; 0 the group's own, 1 the first other one, the "
+    "one behind the last that of TOOL or WORK_OBJECT",
     Modal.SIGNALS: "how many, 1 to 8; of each its number, its value, where it is set (0 m from the "
     "beginning, 1 m before the end, 2 s before the end) and that distance",
 }

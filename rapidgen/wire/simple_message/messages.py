@@ -498,6 +498,39 @@ DATA = MessageType(
     replies=(Reply(ReplyCode.SUCCESS, DataReply), _NOT_DONE),
 )
 
+
+class TargetRequest(NamedTuple):
+    """What did the newest call that has ended leave in a parameter that is a target?"""
+
+    joints: Annotated[int, int32("1 of a jointtarget, 0 of a robtarget")]
+    parameter: Annotated[int, int32("which one of this type, from 1")]
+
+
+class TargetReply(NamedTuple):
+    """Reply to TARGET: the target as the routine left it, nothing of it is checked."""
+
+    trajectory: Annotated[int, int32("whose call it was")]
+    position: Annotated[tuple[float, ...], float32("m", "of a robtarget", 3)]
+    orientation: Annotated[tuple[float, ...], float32("1", "w, x, y, z of a robtarget", 4)]
+    configuration: Annotated[
+        tuple[float, ...], float32("1", "cf1, cf4, cf6, cfx of a robtarget", 4)
+    ]
+    joints: Annotated[
+        tuple[float, ...],
+        float32("rad, m", "of a jointtarget; of a robtarget the external axes", MAX_JOINTS),
+    ]
+
+
+TARGET = MessageType(
+    "TARGET",
+    1312,
+    TargetRequest,
+    _CLIENT,
+    (Port.MOTION,),
+    since=3,
+    replies=(Reply(ReplyCode.SUCCESS, TargetReply), Reply(ReplyCode.FAILURE, Failure)),
+)
+
 MESSAGES = tuple(row for row in tuple(globals().values()) if isinstance(row, MessageType))
 """All of them, by number."""
 

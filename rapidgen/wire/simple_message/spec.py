@@ -140,6 +140,8 @@ class Instruction(IntEnum):
     SET = 7
     CALL = 8
     SETTINGS = 9
+    TOOL = 10
+    WORK_OBJECT = 11
 
 
 class Modal(IntFlag):
@@ -238,7 +240,7 @@ class Reason(IntEnum):
     NO_GEOMETRY = 33, "the controller does not tell what pose the joints reach"
     NO_FRAME = 34, "the driver does not have this tool or work object"
     NO_ROUTINE = 35, "there is no such routine, or not with these parameters"
-    IS_PROGRAM = 36, "a program is under way: its instructions have speeds of their own"
+    IN_ROUTINE = 36, "a routine is under way: its moves have speeds of their own"
     NO_DATUM = 37, "the robot's program does not have this datum, or not of this type"
     STOPPED = 40, "stopped on request"
     SUPERSEDED = 41, "a newer trajectory took its place"

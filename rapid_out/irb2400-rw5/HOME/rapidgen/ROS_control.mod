@@ -9,7 +9,7 @@ MODULE ROS_control
     ! heartbeat this task asks the supervisor, by an interrupt: only one task stops the robot, and
     ! starts it again. Only if that does not answer this task stops it. It may hang in a send.
 
-    CONST string ROS_BUILD_CONTROL := "7e3c71a9d4ea";
+    CONST string ROS_BUILD_CONTROL := "7495a2bd6ba3";
 
     LOCAL CONST num PORT := 11001;
     ! s between two looks at what the robot does, and for new clients.
@@ -255,9 +255,6 @@ MODULE ROS_control
             report client, ROS_REASON_BAD_VALUE;
         ELSEIF NOT ROS_active() THEN
             report client, ROS_REASON_IDLE;
-        ELSEIF ROS_program = ROS_session THEN
-            ! Moves that are ordered would not obey, and a speed that is confirmed has to hold.
-            report client, ROS_REASON_IS_PROGRAM;
         ELSE
             ROS_speed_wanted := percent;
             ROS_speed_of := ROS_session;

@@ -8,14 +8,17 @@ MODULE ROS_execution
     ! In the motion task. All was checked before it came into the ring; ROS_motion takes it out there, and
     ! leaves an instruction that is under way when the robot was stopped.
 
-    CONST string ROS_BUILD_EXECUTION := "7e3c71a9d4ea";
+    CONST string ROS_BUILD_EXECUTION := "7495a2bd6ba3";
 
     ! The instruction at hand, and why it could not be carried out, 0: it could.
     VAR ROS_order ROS_ordered;
     VAR num ROS_order_fault := 0;
     LOCAL VAR zonedata zone;
+    LOCAL VAR speeddata speed;
     ! What is other than usual on lines.
     LOCAL VAR num ways := 0;
+    TASK PERS tooldata ROS_own_tool := [TRUE,[[0,0,0],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];
+    TASK PERS wobjdata ROS_own_wobj := [FALSE,TRUE,"",[[0,0,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];
 
     ! What holds at the beginning of each program: the path is the one that was checked, or none.
     PROC ROS_prepare_program()
@@ -48,22 +51,36 @@ MODULE ROS_execution
         ROS_ordered := ROS_orders{place};
     ENDPROC
 
-    ! TRUE if the robot stops at the end of the instruction at hand; `next` is the number of the one
-    ! behind it. Without one it does, before one that does not move, and before another tool.
+    ! TRUE if the robot stands at the end of the instruction at hand; `next` is the number of the one
+    ! behind it. Without one it does, where one of the two does not move, and before another tool.
     FUNC bool ROS_order_stops(num next)
         VAR num place;
 
-        IF ROS_ordered.zone.finep OR next = ROS_head RETURN TRUE;
+        IF ROS_ordered.kind > ROS_DO_MOVE_C OR ROS_ordered.zone.finep OR next = ROS_head RETURN TRUE;
         place := next MOD ROS_RING_SIZE + 1;
         IF ROS_orders{place}.kind > ROS_DO_MOVE_C RETURN TRUE;
         RETURN ROS_orders{place}.tool <> ROS_ordered.tool OR ROS_orders{place}.wobj <> ROS_ordered.wobj;
     ENDFUNC
 
-    PROC ROS_execute(bool stops)
+    ! What is left of the move at hand: a stop where it ends, without its signals.
+    PROC ROS_end_way()
+        IF ROS_ordered.kind = ROS_DO_MOVE_C ROS_ordered.kind := ROS_DO_MOVE_L;
+        ROS_ordered.marks := 0;
+    ENDPROC
+
+    PROC ROS_execute(bool stops, num percent)
         ROS_order_fault := ROS_REASON_NONE;
         TEST ROS_ordered.kind
         CASE ROS_DO_SETTINGS:
             set_ways ROS_ordered.value;
+            RETURN;
+        CASE ROS_DO_TOOL:
+            ! The robot stands: no move is under way with what it was.
+            ROS_own_tool := [TRUE,[ROS_ordered.target.trans,ROS_ordered.target.rot],ROS_ordered.load];
+            RETURN;
+        CASE ROS_DO_WORK_OBJECT:
+            ROS_own_wobj := [FALSE,TRUE,"",[ROS_ordered.target.trans,ROS_ordered.target.rot],
+                [ROS_ordered.via.trans,ROS_ordered.via.rot]];
             RETURN;
         CASE ROS_DO_WAIT:
             WaitTime ROS_ordered.seconds;
@@ -71,9 +88,16 @@ MODULE ROS_execution
         ENDTEST
         zone := ROS_ordered.zone;
         IF stops zone := fine;
+        speed := ROS_ordered.speed;
+        speed.v_tcp := speed.v_tcp * percent / 100;
+        speed.v_ori := speed.v_ori * percent / 100;
+        speed.v_leax := speed.v_leax * percent / 100;
+        speed.v_reax := speed.v_reax * percent / 100;
         TEST ROS_ordered.tool
         CASE 0:
             move_with torch;
+        CASE 1:
+            move_with ROS_own_tool;
         ENDTEST
     ERROR
         RAISE;
@@ -83,6 +107,8 @@ MODULE ROS_execution
         TEST ROS_ordered.wobj
         CASE 0:
             move tool, table;
+        CASE 1:
+            move tool, ROS_own_wobj;
         ENDTEST
     ERROR
         RAISE;
@@ -91,13 +117,13 @@ MODULE ROS_execution
     LOCAL PROC move(PERS tooldata tool, PERS wobjdata wobj)
         TEST ROS_ordered.kind
         CASE ROS_DO_MOVE_ABSJ:
-            MoveAbsJ ROS_ordered.joints \NoEOffs, ROS_ordered.speed, zone, tool \WObj:=wobj;
+            MoveAbsJ ROS_ordered.joints \NoEOffs, speed, zone, tool \WObj:=wobj;
         CASE ROS_DO_MOVE_J:
-            MoveJ ROS_ordered.target, ROS_ordered.speed, zone, tool \WObj:=wobj;
+            MoveJ ROS_ordered.target, speed, zone, tool \WObj:=wobj;
         CASE ROS_DO_MOVE_L:
-            MoveL ROS_ordered.target, ROS_ordered.speed, zone, tool \WObj:=wobj;
+            MoveL ROS_ordered.target, speed, zone, tool \WObj:=wobj;
         CASE ROS_DO_MOVE_C:
-            MoveC ROS_ordered.via, ROS_ordered.target, ROS_ordered.speed, zone, tool \WObj:=wobj;
+            MoveC ROS_ordered.via, ROS_ordered.target, speed, zone, tool \WObj:=wobj;
         ENDTEST
     ERROR
         RAISE;

@@ -39,7 +39,7 @@ MODULE symbols
         SetDataVal "list{3}", 5;
         TPWrite ValToStr(list{3});
         SetDataSearch "num" \Object:="my_.*" \PersSym \VarSym;
-        WHILE GetNextSym(name, block) DO
+        WHILE GetNextSym(name, block \Recursive) DO
             IF names <> "" names := names + " ";
             names := names + name;
         ENDWHILE
@@ -48,7 +48,7 @@ MODULE symbols
         SetDataVal "my_c", 2;
         GetDataVal "my_a", s;
         SetDataSearch "num" \Object:="hidden" \LocalSym;
-        IF GetNextSym(name, block) THEN
+        IF GetNextSym(name, block \Recursive) THEN
             GetDataVal name \Block:=block, n;
             TPWrite name + " " + ValToStr(n);
         ENDIF

@@ -9,7 +9,7 @@ MODULE ROS_control
     ! heartbeat this task asks the supervisor, by an interrupt: only one task stops the robot, and
     ! starts it again. Only if that does not answer this task stops it. It may hang in a send.
 
-    CONST string ROS_BUILD_CONTROL := "a79f808325b7";
+    CONST string ROS_BUILD_CONTROL := "c77e4c52459c";
 
     LOCAL CONST num PORT := 11001;
     ! s between two looks at what the robot does, and for new clients.
@@ -268,9 +268,6 @@ MODULE ROS_control
             report client, ROS_REASON_BAD_VALUE;
         ELSEIF NOT ROS_active() THEN
             report client, ROS_REASON_IDLE;
-        ELSEIF ROS_program_1 = ROS_session_1 THEN
-            ! Moves that are ordered would not obey, and a speed that is confirmed has to hold.
-            report client, ROS_REASON_IS_PROGRAM;
         ELSE
             ROS_speed_wanted_1 := percent;
             ROS_speed_of_1 := ROS_session_1;

@@ -9,7 +9,7 @@ MODULE ROS_motion
     ! check was made before a point was put in. A point whose successor is there is passed
     ! through its zone; without one it is a stop point, so the planner never runs dry in a corner.
 
-    CONST string ROS_BUILD_MOTION := "a79f808325b7";
+    CONST string ROS_BUILD_MOTION := "c77e4c52459c";
 
     ! With \T in the move the speed is only formal.
     LOCAL CONST speeddata SPEED := [5000,500,5000,1000];
@@ -247,6 +247,13 @@ MODULE ROS_motion
         VAR num arrived;
         VAR bool stops;
 
+        IF share < 100 THEN
+            ! As for points: the move that was slowed down ends before another is ordered.
+            ROS_end_way;
+            carry_out TRUE;
+            IF fault = ROS_REASON_NONE AND ROS_abort_1 = ROS_abort_done_1 ROS_reached_1 := ROS_planned_1;
+            RETURN;
+        ENDIF
         ROS_fetch_order ROS_tail_1 MOD ROS_RING_SIZE + 1;
         next := ROS_next(ROS_tail_1);
         IF ROS_ordered.session <> ROS_session_1 OR ROS_ordered.session = ROS_dead_1 THEN
@@ -279,10 +286,22 @@ MODULE ROS_motion
 
     ! As `move`: the trap leaves it.
     LOCAL PROC carry_out(bool stops)
+        ! The speed that is wanted now is this one's; a move behind which the robot goes on is slowed down by
+        ! SpeedRefresh, too.
+        IDisable;
+        taken := pace;
+        IF share >= 100 latest := 0;
+        IF ROS_ordered.kind <= ROS_DO_MOVE_C AND taken > latest latest := taken;
+        IF pace < latest set_speed;
+        IEnable;
         in_move := TRUE;
-        IF ROS_abort_1 = ROS_abort_done_1 ROS_execute stops;
+        IF ROS_abort_1 = ROS_abort_done_1 ROS_execute stops, taken;
         in_move := FALSE;
         fault := ROS_order_fault;
+        IF stops THEN
+            share := 100;
+            latest := 0;
+        ENDIF
     ERROR
         in_move := FALSE;
         fault := ROS_REASON_MOTION_ERROR;

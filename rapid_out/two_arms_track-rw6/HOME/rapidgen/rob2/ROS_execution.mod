@@ -8,14 +8,17 @@ MODULE ROS_execution
     ! In the motion task. All was checked before it came into the ring; ROS_motion takes it out there, and
     ! leaves an instruction that is under way when the robot was stopped.
 
-    CONST string ROS_BUILD_EXECUTION := "a79f808325b7";
+    CONST string ROS_BUILD_EXECUTION := "c77e4c52459c";
 
     ! The instruction at hand, and why it could not be carried out, 0: it could.
     VAR ROS_order ROS_ordered;
     VAR num ROS_order_fault := 0;
     LOCAL VAR zonedata zone;
+    LOCAL VAR speeddata speed;
     ! What is other than usual on lines.
     LOCAL VAR num ways := 0;
+    TASK PERS tooldata ROS_own_tool := [TRUE,[[0,0,0],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];
+    TASK PERS wobjdata ROS_own_wobj := [FALSE,TRUE,"",[[0,0,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];
     ! Signals on its way, and triggers for four moves: those of the moves before may be under way.
     LOCAL VAR ROS_mark mark{8};
     LOCAL VAR triggdata trigger{4, 8};
@@ -65,22 +68,36 @@ MODULE ROS_execution
         ENDFOR
     ENDPROC
 
-    ! TRUE if the robot stops at the end of the instruction at hand; `next` is the number of the one
-    ! behind it. Without one it does, before one that does not move, and before another tool.
+    ! TRUE if the robot stands at the end of the instruction at hand; `next` is the number of the one
+    ! behind it. Without one it does, where one of the two does not move, and before another tool.
     FUNC bool ROS_order_stops(num next)
         VAR num place;
 
-        IF ROS_ordered.zone.finep OR next = ROS_head_2 RETURN TRUE;
+        IF ROS_ordered.kind > ROS_DO_MOVE_C OR ROS_ordered.zone.finep OR next = ROS_head_2 RETURN TRUE;
         place := next MOD ROS_RING_SIZE + 1;
         IF ROS_orders_2{place}.kind > ROS_DO_MOVE_C RETURN TRUE;
         RETURN ROS_orders_2{place}.tool <> ROS_ordered.tool OR ROS_orders_2{place}.wobj <> ROS_ordered.wobj;
     ENDFUNC
 
-    PROC ROS_execute(bool stops)
+    ! What is left of the move at hand: a stop where it ends, without its signals.
+    PROC ROS_end_way()
+        IF ROS_ordered.kind = ROS_DO_MOVE_C ROS_ordered.kind := ROS_DO_MOVE_L;
+        ROS_ordered.marks := 0;
+    ENDPROC
+
+    PROC ROS_execute(bool stops, num percent)
         ROS_order_fault := ROS_REASON_NONE;
         TEST ROS_ordered.kind
         CASE ROS_DO_SETTINGS:
             set_ways ROS_ordered.value;
+            RETURN;
+        CASE ROS_DO_TOOL:
+            ! The robot stands: no move is under way with what it was.
+            ROS_own_tool := [TRUE,[ROS_ordered.target.trans,ROS_ordered.target.rot],ROS_ordered.load];
+            RETURN;
+        CASE ROS_DO_WORK_OBJECT:
+            ROS_own_wobj := [FALSE,TRUE,"",[ROS_ordered.target.trans,ROS_ordered.target.rot],
+                [ROS_ordered.via.trans,ROS_ordered.via.rot]];
             RETURN;
         CASE ROS_DO_WAIT:
             WaitTime ROS_ordered.seconds;
@@ -94,11 +111,18 @@ MODULE ROS_execution
         ENDTEST
         zone := ROS_ordered.zone;
         IF stops zone := fine;
+        speed := ROS_ordered.speed;
+        speed.v_tcp := speed.v_tcp * percent / 100;
+        speed.v_ori := speed.v_ori * percent / 100;
+        speed.v_leax := speed.v_leax * percent / 100;
+        speed.v_reax := speed.v_reax * percent / 100;
         IF ROS_ordered.marks > 0 set_triggers;
         IF ROS_order_fault <> ROS_REASON_NONE RETURN;
         TEST ROS_ordered.tool
         CASE 0:
             move_with tool0;
+        CASE 1:
+            move_with ROS_own_tool;
         ENDTEST
     ERROR
         RAISE;
@@ -108,6 +132,8 @@ MODULE ROS_execution
         TEST ROS_ordered.wobj
         CASE 0:
             move tool, wobj0;
+        CASE 1:
+            move tool, ROS_own_wobj;
         ENDTEST
     ERROR
         RAISE;
@@ -120,13 +146,13 @@ MODULE ROS_execution
         ENDIF
         TEST ROS_ordered.kind
         CASE ROS_DO_MOVE_ABSJ:
-            MoveAbsJ ROS_ordered.joints \NoEOffs, ROS_ordered.speed, zone, tool \WObj:=wobj;
+            MoveAbsJ ROS_ordered.joints \NoEOffs, speed, zone, tool \WObj:=wobj;
         CASE ROS_DO_MOVE_J:
-            MoveJ ROS_ordered.target, ROS_ordered.speed, zone, tool \WObj:=wobj;
+            MoveJ ROS_ordered.target, speed, zone, tool \WObj:=wobj;
         CASE ROS_DO_MOVE_L:
-            MoveL ROS_ordered.target, ROS_ordered.speed, zone, tool \WObj:=wobj;
+            MoveL ROS_ordered.target, speed, zone, tool \WObj:=wobj;
         CASE ROS_DO_MOVE_C:
-            MoveC ROS_ordered.via, ROS_ordered.target, ROS_ordered.speed, zone, tool \WObj:=wobj;
+            MoveC ROS_ordered.via, ROS_ordered.target, speed, zone, tool \WObj:=wobj;
         ENDTEST
     ERROR
         RAISE;
@@ -136,15 +162,15 @@ MODULE ROS_execution
     LOCAL PROC move_and_set(PERS tooldata tool, PERS wobjdata wobj)
         TEST ROS_ordered.kind
         CASE ROS_DO_MOVE_J:
-            TriggJ ROS_ordered.target, ROS_ordered.speed, trigger{set, 1} \T2:=trigger{set, 2}
+            TriggJ ROS_ordered.target, speed, trigger{set, 1} \T2:=trigger{set, 2}
                 \T3:=trigger{set, 3} \T4:=trigger{set, 4} \T5:=trigger{set, 5} \T6:=trigger{set, 6}
                 \T7:=trigger{set, 7} \T8:=trigger{set, 8}, zone, tool \WObj:=wobj;
         CASE ROS_DO_MOVE_L:
-            TriggL ROS_ordered.target, ROS_ordered.speed, trigger{set, 1} \T2:=trigger{set, 2}
+            TriggL ROS_ordered.target, speed, trigger{set, 1} \T2:=trigger{set, 2}
                 \T3:=trigger{set, 3} \T4:=trigger{set, 4} \T5:=trigger{set, 5} \T6:=trigger{set, 6}
                 \T7:=trigger{set, 7} \T8:=trigger{set, 8}, zone, tool \WObj:=wobj;
         CASE ROS_DO_MOVE_C:
-            TriggC ROS_ordered.via, ROS_ordered.target, ROS_ordered.speed, trigger{set, 1} \T2:=trigger{set, 2}
+            TriggC ROS_ordered.via, ROS_ordered.target, speed, trigger{set, 1} \T2:=trigger{set, 2}
                 \T3:=trigger{set, 3} \T4:=trigger{set, 4} \T5:=trigger{set, 5} \T6:=trigger{set, 6}
                 \T7:=trigger{set, 7} \T8:=trigger{set, 8}, zone, tool \WObj:=wobj;
         ENDTEST

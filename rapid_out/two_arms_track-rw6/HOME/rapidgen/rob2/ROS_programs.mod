@@ -10,7 +10,7 @@ MODULE ROS_programs
     ! pose. So the limits are those of the joints, the configuration is the one that the controller
     ! gives, and a client whose robot is another one is refused before anything moves.
 
-    CONST string ROS_BUILD_PROGRAMS := "a79f808325b7";
+    CONST string ROS_BUILD_PROGRAMS := "c77e4c52459c";
 
     ! mm/s and deg/s of a speed, mm and deg of a zone, at most.
     LOCAL CONST num TCP_SPEED := 5000;
@@ -23,15 +23,23 @@ MODULE ROS_programs
     ! s of a wait, at most.
     LOCAL CONST num LONGEST := 2000;
     ! A pose is reached when it is no farther away than this (mm), and no more turned than this cosine of
-    ! half an angle: 0.2 degrees.
+    ! half an angle: 0.2 degrees for each mm.
     LOCAL CONST num NEAR := 1;
     LOCAL CONST num UNTURNED := 0.999998;
+    ! mm, kg and kg m2 of a tool or work object whose values the client sends, at most.
+    LOCAL CONST num FARTHEST := 100000;
+    LOCAL CONST num HEAVIEST := 2000;
+    LOCAL CONST num MOST_INERTIA := 2000;
+    TASK PERS tooldata ROS_own_tool := [TRUE,[[0,0,0],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];
+    TASK PERS wobjdata ROS_own_wobj := [FALSE,TRUE,"",[[0,0,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];
 
     ! The instruction at hand, and what of it was ever given.
     LOCAL VAR ROS_order order;
     LOCAL VAR ROS_mark mark{8};
     LOCAL VAR bool has_speed := FALSE;
     LOCAL VAR bool has_zone := FALSE;
+    LOCAL VAR bool has_own_tool := FALSE;
+    LOCAL VAR bool has_own_wobj := FALSE;
     ! Where the robot has to stand when the program begins.
     LOCAL VAR jointtarget start;
     ! Of the batch at hand: the byte that is read next, the one behind its words, its checksum, and the
@@ -44,6 +52,8 @@ MODULE ROS_programs
     PROC ROS_begin_program()
         has_speed := FALSE;
         has_zone := FALSE;
+        has_own_tool := FALSE;
+        has_own_wobj := FALSE;
         order.tool := 0;
         order.wobj := 0;
     ENDPROC
@@ -159,6 +169,10 @@ MODULE ROS_programs
             order.value := plain(data);
             IF NOT (0 <= order.value AND order.value <= 3 AND order.value = Trunc(order.value))
                 ROS_object ROS_REASON_BAD_VALUE;
+        CASE ROS_DO_TOOL:
+            take_tool data;
+        CASE ROS_DO_WORK_OBJECT:
+            take_wobj data;
         CASE ROS_DO_MOVE_J, ROS_DO_MOVE_L:
             take_pose data, order.target;
             take_joints data;
@@ -237,9 +251,53 @@ MODULE ROS_programs
     LOCAL PROC take_frames(VAR rawbytes data)
         order.tool := plain(data);
         order.wobj := plain(data);
-        IF NOT (0 <= order.tool AND order.tool < 1 AND order.tool = Trunc(order.tool)
-            AND 0 <= order.wobj AND order.wobj < 1 AND order.wobj = Trunc(order.wobj))
+        IF NOT (0 <= order.tool AND order.tool < 2 AND order.tool = Trunc(order.tool)
+            AND 0 <= order.wobj AND order.wobj < 2 AND order.wobj = Trunc(order.wobj))
             ROS_object ROS_REASON_NO_FRAME;
+        IF (order.tool = 1 AND (NOT has_own_tool)) OR (order.wobj = 1 AND (NOT has_own_wobj))
+            ROS_object ROS_REASON_NO_FRAME;
+    ERROR
+        RAISE;
+    ENDPROC
+
+    ! The values of a tool: poses behind this are its own, here as in the motion task.
+    LOCAL PROC take_tool(VAR rawbytes data)
+        take_frame data, order.target;
+        ! Where it is heavy, and how the axes of inertia lie.
+        take_frame data, order.via;
+        order.load.cog := order.via.trans;
+        order.load.aom := order.via.rot;
+        order.load.mass := plain(data);
+        order.load.ix := plain(data);
+        order.load.iy := plain(data);
+        order.load.iz := plain(data);
+        IF NOT (0 < order.load.mass AND order.load.mass <= HEAVIEST AND is_inertia(order.load.ix)
+            AND is_inertia(order.load.iy) AND is_inertia(order.load.iz)) ROS_object ROS_REASON_BAD_VALUE;
+        IF ROS_fault <> ROS_REASON_NONE RETURN;
+        ROS_own_tool := [TRUE,[order.target.trans,order.target.rot],order.load];
+        has_own_tool := TRUE;
+    ERROR
+        RAISE;
+    ENDPROC
+
+    LOCAL FUNC bool is_inertia(num value)
+        RETURN 0 <= value AND value <= MOST_INERTIA;
+    ENDFUNC
+
+    ! The same of a work object: its user frame and its object frame.
+    LOCAL PROC take_wobj(VAR rawbytes data)
+        take_frame data, order.target;
+        take_frame data, order.via;
+        IF ROS_fault <> ROS_REASON_NONE RETURN;
+        ROS_own_wobj := [FALSE,TRUE,"",[order.target.trans,order.target.rot],[order.via.trans,order.via.rot]];
+        has_own_wobj := TRUE;
+    ERROR
+        RAISE;
+    ENDPROC
+
+    LOCAL PROC take_frame(VAR rawbytes data, INOUT robtarget target)
+        take_pose data, target;
+        IF NOT (VectMagn(target.trans) <= FARTHEST) ROS_object ROS_REASON_BAD_VALUE;
     ERROR
         RAISE;
     ENDPROC
@@ -368,6 +426,8 @@ MODULE ROS_programs
     ! The pose that the joints reach.
     LOCAL FUNC robtarget pose_with(PERS tooldata tool)
         TEST order.wobj
+        CASE 1:
+            RETURN CalcRobT(order.joints, tool \WObj:=ROS_own_wobj);
         DEFAULT:
             RETURN CalcRobT(order.joints, tool \WObj:=wobj0);
         ENDTEST
@@ -377,6 +437,8 @@ MODULE ROS_programs
 
     LOCAL FUNC robtarget pose_of_joints()
         TEST order.tool
+        CASE 1:
+            RETURN pose_with(ROS_own_tool);
         DEFAULT:
             RETURN pose_with(tool0);
         ENDTEST

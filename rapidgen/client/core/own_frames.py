@@ -1,0 +1,43 @@
+"""Tools and work objects by values: what a program may say of its own, and its words."""
+
+from math import isfinite, sqrt
+
+from rapidgen.axes import frames
+from rapidgen.axes.frames import Pose
+from rapidgen.client.program import OwnTool, OwnWorkObject, pose_of
+
+_UNIT = 1e-3
+"""A quaternion's length may be off by so much."""
+_FARTHEST, _HEAVIEST, _INERTIA = 100.0, 2000.0, 2000.0
+"""m, kg, kg m2 that the driver takes, at most."""
+
+
+def own_tool(tool: OwnTool) -> tuple[tuple[float, ...], Pose]:
+    """The words of a TOOL, and where the TCP is in the flange's frame. Raises ValueError, and
+    InvalidProgram for what is no pose."""
+    frame, load = _frame(tool.frame, "the tool's frame"), (tool.centre, tool.axes)
+    centre = _frame(load, "the tool's centre and axes")
+    moments = tuple(map(float, tool.inertia))
+    mass = float(tool.mass)
+    if not 0 < mass <= _HEAVIEST:
+        raise ValueError(f"a tool weighs 0 to {_HEAVIEST:g} kg, and more than nothing")
+    if len(moments) != 3 or not all(0 <= moment <= _INERTIA for moment in moments):
+        raise ValueError(f"three moments of inertia are 0 to {_INERTIA:g} kg m2")
+    return (*frame[0], *frame[1], *centre[0], *centre[1], mass, *moments), frame
+
+
+def own_work_object(wobj: OwnWorkObject) -> tuple[tuple[float, ...], Pose]:
+    """The words of a WORK_OBJECT, and where it is in the world. Raises as `own_tool`."""
+    user = _frame(wobj.user_frame, "the user frame")
+    place = _frame(wobj.object_frame, "the object frame")
+    return (*user[0], *user[1], *place[0], *place[1]), frames.compose(user, place)
+
+
+def _frame(given: Pose, what: str) -> Pose:
+    place, turn = pose_of(given)
+    size = sqrt(sum(value * value for value in turn))
+    if not all(map(isfinite, (*place, size))) or sqrt(sum(v * v for v in place)) > _FARTHEST:
+        raise ValueError(f"{what} is at {place}: finite numbers, m, within {_FARTHEST:g} m")
+    if abs(size - 1) > _UNIT:
+        raise ValueError(f"{what} has a quaternion of length {size:.4g}: (w, x, y, z) of length 1")
+    return place, frames.normalise(turn)

@@ -1,0 +1,81 @@
+"""The way through a program: where the robot is at an instruction, and what is known there."""
+
+from math import isfinite, sqrt
+
+from rapidgen.axes import frames
+from rapidgen.axes.frames import Pose
+from rapidgen.axes.kinematics import Posture
+from rapidgen.axes.limits import LimitFault, outside
+from rapidgen.client.core.frames import Frames
+from rapidgen.client.core.group import Group
+from rapidgen.diagnostics import Diagnostic, Severity, error
+
+_UNIT = 1e-3
+"""A quaternion's length may be off by so much."""
+
+
+class Walk:
+    """The way through a program: where the robot is, and what was found."""
+
+    def __init__(self, group: Group, start: Posture) -> None:
+        self.group = group
+        self.here = start
+        self.index = 0
+        self.singular = self.any_posture = False
+        """Whether singularities and other configurations are allowed."""
+        self.chosen = (0, 0)
+        """Numbers of the tool and of the work object."""
+        self.geometry = group.geometry
+        """With what the program's own tool and work object are, once it has said so."""
+        self.own: tuple[Pose | None, Pose | None] = (None, None)
+        self.found: list[Diagnostic] = []
+        self.arguments: list[float | bool | str | tuple[float, ...]] = []
+        """Of the routine that is called, as they go onto the wire."""
+
+    def say(
+        self, code: str, message: str, mend: str = "", *, severity: Severity = Severity.ERROR
+    ) -> None:
+        """A finding about the instruction at hand."""
+        place = f"instruction {self.index}: "
+        self.found.append(error(code, None, place + message, mend, severity=severity))
+
+    @property
+    def frames(self) -> Frames | None:
+        """The robot's geometry with tool and work object; told where it is missing."""
+        geometry = self.geometry
+        found = geometry.frames(*self.chosen) if geometry is not None else None
+        if found is None:
+            self.say(
+                "RG671",
+                "the joints of this pose are not known",
+                "connect with a configuration that has the robot's chain, its tool and its work "
+                "object",
+            )
+        return found
+
+
+def operands(pose: Pose, posture: Posture) -> tuple[float, ...]:
+    return (*pose[0], *pose[1], *posture)
+
+
+def unit(walk: Walk, pose: Pose | None) -> Pose | None:
+    """A pose with a quaternion of length 1."""
+    if pose is None or not all(isfinite(value) for part in pose for value in part):
+        walk.say("RG670", f"{pose} is no pose", "finite numbers")
+        return None
+    size = sqrt(sum(value * value for value in pose[1]))
+    if abs(size - 1) > _UNIT:
+        walk.say(
+            "RG670",
+            f"the quaternion {pose[1]} has the length {size:.4g}",
+            "unit quaternions, the scalar first (w, x, y, z)",
+        )
+        return None
+    return pose[0], frames.normalise(pose[1])
+
+
+def within(walk: Walk, posture: Posture) -> bool:
+    faults: list[LimitFault] = outside(walk.group.joints, posture)
+    for fault in faults[:1]:
+        walk.say("RG614", str(fault))
+    return not faults

@@ -1,0 +1,115 @@
+"""Routines and data of the configuration in the program of a cell: what is called has to be there.
+
+Late binding finds a procedure when it is called, and RAPID can ask for data by name, not for
+routines: in a backup it is seen before.
+"""
+
+from collections.abc import Iterator
+
+from rapidgen.config.model import GroupConfig, OwnDatum, OwnParameter, OwnRoutine, RobotConfig
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, Span, error, suggest
+from rapidgen.rapid import parse
+from rapidgen.rapid.syntax.nodes import DataDeclaration, Module, Parameter, RoutineDeclaration
+from rapidgen.system import System
+
+
+def check_routines(config: RobotConfig, cell: System) -> None:
+    """Refuse routines and data that a module of the cell, which is there, does not have, or has
+    with other parameters and types.
+
+    A module that is not there may be loaded later: the driver refuses what needs it. Raises
+    DiagnosticError RG114.
+    """
+    faults = [fault for group in config.groups for fault in _faults(group, cell)]
+    if faults:
+        raise DiagnosticError(faults)
+
+
+def _faults(group: GroupConfig, cell: System) -> Iterator[Diagnostic]:
+    motion = [t for t in cell.tasks if t.name.casefold() == group.task.casefold()]
+    modules = {
+        module.name.casefold(): parse(module.data, path=module.path)
+        for task in motion
+        for module in task.modules
+    }
+    for routine in group.routines:
+        module = modules.get(routine.call.partition(":")[0].casefold())
+        if ":" in routine.call and module is not None:
+            yield from _of_routine(routine, module)
+    for datum in group.data:
+        module = modules.get(datum.name.partition(":")[0].casefold())
+        if module is not None:
+            yield from _of_datum(datum, module)
+
+
+def _of_routine(routine: OwnRoutine, module: Module) -> Iterator[Diagnostic]:
+    wanted = routine.call.partition(":")[2]
+    names = [declared.name for declared in module.routines]
+    found = [r for r in module.routines if r.name.casefold() == wanted.casefold()]
+    if not found:
+        yield _fault(
+            module.source.span(0, 0),
+            f"routine '{routine.name}': module {module.name} has no {wanted}",
+            suggest(wanted, names) or f"it has: {', '.join(names) or 'none'}",
+        )
+        return
+    (declared,) = found[:1]
+    needed = [p for p in declared.parameters if not p.optional]
+    kind = "FUNC" if routine.returns else "PROC"
+    fits = len(needed) == len(routine.parameters) and all(
+        _takes(own, theirs) for own, theirs in zip(routine.parameters, needed, strict=False)
+    )
+    if declared.kind != kind or (declared.type or "").casefold() != routine.returns or not fits:
+        yield _fault(
+            module.source.span(declared.name_token, declared.name_token),
+            f"routine '{routine.name}' is called as {kind} {wanted}"
+            f"({', '.join(map(_shown, routine.parameters))}), and is not declared so",
+            f"it is {_declared(declared)}: `parameters:` of the configuration have to be its own",
+        )
+
+
+def _takes(own: OwnParameter, theirs: Parameter) -> bool:
+    """Whether a parameter takes what the driver gives, a variable; a result is none of IN."""
+    modes = ("INOUT", "VAR") if own.inout else ("", "INOUT", "VAR")
+    return (theirs.type.casefold(), theirs.dimensions) == (own.type, 0) and theirs.mode in modes
+
+
+def _shown(own: OwnParameter) -> str:
+    return f"{'INOUT ' * own.inout}{own.type} {own.name}"
+
+
+def _declared(routine: RoutineDeclaration) -> str:
+    parameters = ", ".join(
+        " ".join(filter(None, (p.mode, p.type, p.name))) + "{*}" * bool(p.dimensions)
+        for p in routine.parameters
+        if not p.optional
+    )
+    return " ".join(filter(None, (routine.kind, routine.type, f"{routine.name}({parameters})")))
+
+
+def _of_datum(datum: OwnDatum, module: Module) -> Iterator[Diagnostic]:
+    name = datum.name.partition(":")[2]
+    found = [
+        d
+        for d in module.declarations
+        if isinstance(d, DataDeclaration) and d.name.casefold() == name.casefold()
+    ]
+    if not found:
+        yield _fault(
+            module.source.span(0, 0),
+            f"datum '{datum.name}': module {module.name} declares no {name}",
+            f"`PERS {datum.type} {name} := ...;`",
+        )
+    elif any(
+        d.scope == "LOCAL" or d.kind != "PERS" or d.type.casefold() != datum.type or d.dimensions
+        for d in found
+    ):
+        yield _fault(
+            module.source.span(found[0].name_token, found[0].name_token),
+            f"datum '{datum.name}' is not a global PERS of the type {datum.type}",
+            f"`PERS {datum.type} {name} := ...;`",
+        )
+
+
+def _fault(at: Span, message: str, mend: str) -> Diagnostic:
+    return error("RG114", at, message, mend)
