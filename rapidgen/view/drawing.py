@@ -55,7 +55,7 @@ def described(group: GroupConfig) -> Drawing:
     base = SubElement(robot, "link", name=BASE)
     radii = _radii(group.chain)
     if not group.chain:
-        solids.foot(base, radii[0], frames.ORIGIN)
+        solids.foot(base, radii[0], ORIGIN)
     passive: dict[str, tuple[tuple[int, float], ...]] = {}
     flange = _branch(robot, base, group, group.chain, radii, "link_", passive)
     solids.plate(flange, radii[-1] * 1.1)
