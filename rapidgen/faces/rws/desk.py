@@ -42,6 +42,7 @@ class Desk:
             generation, lambda: cabinet.controller.scheduler, partial(watched, office)
         )
         office.end_session = self.sessions.end
+        office.sessions = self.sessions.all
         self._users = login.users
         self._strict = strict
         self._key = secrets.randbelow(10**9) * 10**6
@@ -49,6 +50,8 @@ class Desk:
         self._connections: dict[str, Session] = {}
         """Sessions by the cookie of the TCP connection."""
         cabinet.on_restart.append(self._restarted)
+        cabinet.on_boot.append(self._booted)
+        self._booted()
 
     @property
     def is_one(self) -> bool:
@@ -65,6 +68,10 @@ class Desk:
             if session is not None and session.user != user:
                 return None
         return session
+
+    def _booted(self) -> None:
+        """Dialogs of programs can be answered from now on."""
+        self.office.controller.operator.attach()
 
     def _restarted(self) -> None:
         self.groups.end_all()
@@ -150,7 +157,7 @@ class Desk:
         if syntax is None and not (files and got.method in ("GET", "PUT")):
             raise Denied(406, "E_INVALIDARG", "cannot generate response for given accept header")
         self._check_type(got, files)
-        found = find(self.generation, got.method, path, query.get("action", ""))
+        found = find(self.generation, got.method, path, query)
         if found.handler is None:
             if found.allowed:
                 raise Denied(405, "E_INVALIDARG", f"{got.method} {path}")

@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from rapidgen.controller.cabinet import Cabinet
 from rapidgen.controller.controller import VirtualController
@@ -15,6 +16,9 @@ from rapidgen.machine.files import DiskFault
 from rapidgen.wire.rws.bodies import Generation
 from rapidgen.wire.rws.codes import CODES, OK
 from rapidgen.wire.rws.grants import GRANTS
+
+if TYPE_CHECKING:
+    from rapidgen.faces.rws.handlers.queues import ClientQueue
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,6 +40,8 @@ class Office:
     """Subscriptions."""
     end_session: Callable[[Session], None]
     """A user logs out."""
+    sessions: Callable[[], tuple[Session, ...]]
+    """Who is logged in."""
 
     def __init__(
         self, cabinet: Cabinet, generation: Generation, login: Accounts, *, strict: bool
@@ -47,6 +53,18 @@ class Office:
         self.masters = self._new_masters()
         self.progress: dict[str, int] = {}
         """Result codes of jobs by number."""
+        self.dialogs: dict[int, str] = {}
+        """Answers to dialogs by number, until they are complete."""
+        self.queues: dict[str, ClientQueue] = {}
+        """Message queues of clients, by name in lower case."""
+        self.chosen: dict[str, dict[str, str]] = {}
+        """What clients have chosen for jogging, by mechanical unit: tool, wobj, ..."""
+        self.led: set[str] = set()
+        """Units that are led by hand."""
+        self.program_names: dict[str, str] = {}
+        """Names of program files that were loaded, by task."""
+        self.mode_lock = ""
+        """`Temporary`, `Permanent`, or nothing: whether the operating mode is locked by a pin."""
 
     @property
     def controller(self) -> VirtualController:
@@ -60,7 +78,8 @@ class Office:
     def restarted(self) -> None:
         """Nothing is held and nothing is under way any more."""
         self.masters = self._new_masters()
-        self.progress.clear()
+        for state in (self.progress, self.dialogs, self.queues, self.chosen, self.led):
+            state.clear()
 
     def started(self, refused: str) -> Served:
         """The answer to a job that has come to its end already: refused by a code's name, or not.

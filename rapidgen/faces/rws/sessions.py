@@ -45,6 +45,11 @@ class Sessions:
     def __len__(self) -> int:
         return len(self._sessions)
 
+    def all(self) -> tuple[Session, ...]:
+        """All of them, in the order in which they began."""
+        self._expire()
+        return tuple(self._sessions.values())
+
     def is_too_fast(self) -> bool:
         """Count a request; whether it is one too many in this second."""
         if not self._strict:

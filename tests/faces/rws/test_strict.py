@@ -215,9 +215,16 @@ def test_robotware_6_takes_mastership_for_a_program_pointer_by_itself(one):
 
 
 @pytest.mark.parametrize(
-    "name", ["total-payload-name", "jog-mode", "coord-system", "is-integrated-unit", "axes-total"]
-)
-def test_a_mechanical_unit_tells_what_public_clients_want(one, name):
-    """[code: abb_librws]: static and dynamic information are none without."""
-    (item,) = one.get("/rw/motionsystem/mechunits/ROB_1?resource=dynamic")
+    ("part", "name"),
+    [
+        ("dynamic", "total-payload-name"), ("dynamic", "jog-mode"), ("dynamic", "coord-system"),
+        ("static", "is-integrated-unit"), ("static", "axes-total"), ("static", "task-name"),
+        ("static;tool", "tool-name"),
+    ],
+)  # fmt: skip
+def test_a_mechanical_unit_tells_what_public_clients_want(one, part, name):
+    """[code: abb_librws]: static and dynamic information are none without. Parts add up [RWS
+    manual]."""
+    (item,) = one.get(f"/rw/motionsystem/mechunits/ROB_1?resource={part}")
     assert item.text(name)
+    assert ("jog-mode" in item.fields) == (part == "dynamic")

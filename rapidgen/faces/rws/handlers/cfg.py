@@ -86,6 +86,14 @@ def _value(attribute: Attribute) -> str:
     return " ".join(map(str, attribute.values)) if attribute.values else "true"
 
 
+@serves(ops.CFG_ATTRIBUTES)
+def get_attributes(office: "Office", asked: RwsRequest) -> Served:
+    """Attributes that instances of a type have."""
+    names = dict.fromkeys(a.name for i in _instances(office, asked) for a in i.attributes)
+    found = (Item("cfg-dt-attribute", name, {"name": name, "mandatory": "false"}) for name in names)
+    return show(*found, collection=True)
+
+
 # -- single instances ----------------------------------------------------------------------------
 
 
