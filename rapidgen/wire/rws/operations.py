@@ -124,6 +124,7 @@ OPMODE = _same("GET /rw/panel/opmode")
 SET_OPMODE = RwsOperation("POST /rw/panel/opmode?action=setopmode", "POST /rw/panel/opmode")
 SPEED = _same("GET /rw/panel/speedratio")
 SET_SPEED = _same("POST /rw/panel/speedratio?action=setspeedratio")
+SET_SPEED_PLAIN = RwsOperation("-", "POST /rw/panel/speedratio")
 COLLISION = _same("GET /rw/panel/coldetstate")
 PANEL = _same("GET /rw/panel")
 ACKNOWLEDGE = RwsOperation(

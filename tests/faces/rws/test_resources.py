@@ -346,3 +346,31 @@ def test_the_log_is_saved_and_cleared(caller):
     assert b"a title of its own" in caller.send("GET", f"/fileservice/{volume}/log.txt").body
     assert act(caller, "/rw/elog", "clearall") == 204
     assert not list(log)
+
+
+def test_options_and_mechanics_are_in_the_cfg_of_every_controller(caller):
+    """[code: abb_librws]: names and attributes that it reads, and that nobody may change."""
+
+    def first(path):
+        item = caller.get(f"/rw/cfg/{path}/instances")[0]
+        return {one.title.lower(): one.text("value") for one in item.within}
+
+    assert [i.title for i in caller.get("/rw/cfg")] == ["EIO", "MMC", "MOC", "PROC", "SIO", "SYS"]
+    assert first("sys/present_options")["desc"] == "PC Interface"
+    assert first("sys/mechanical_unit_group") == {"name": "rob1", "robot": "ROB_1"}
+    assert first("moc/mechanical_unit")["use_robot"] == "ROB_1"
+    assert float(first("moc/arm")["upper_joint_bound"]) > 1
+    assert first("MOC/JOINT")["use_arm"] == "rob1_1"
+    assert caller.get("/rw/cfg/MMC") == ()
+    edit(caller)
+    form = {"upper_joint_bound": "9" if caller.is_one else "[9,1]"}
+    path = "/rw/cfg/MOC/ARM/instances/rob1_1"
+    assert caller.post(f"{path}?action=set" if caller.is_one else path, form) == 403
+    assert float(first("moc/arm")["upper_joint_bound"]) < 9
+
+
+def test_the_mode_has_its_lock_behind_it(two):
+    """rws2 takes the first of several [code: rws2, run on a GoFa]."""
+    mode, lock = two.get("/rw/panel/opmode")
+    assert (mode.text("opmode"), lock.kind) == ("AUTO", "pnl-opmode-lockstate-li")
+    assert two.get("/rw/panel/opmode/lock-state")[0].text("lockstate") == "Unlocked"

@@ -59,8 +59,10 @@ def set_ctrl_state(office: "Office", asked: RwsRequest) -> None:
 
 @serves(ops.OPMODE)
 def get_opmode(office: "Office", asked: RwsRequest) -> Served:
-    """The operating mode."""
-    return show(Item("pnl-opmode", "opmode", {"opmode": opmode(office.controller)}))
+    """The operating mode; in RWS 2.0 with a link to its lock behind it [code: rws2, GoFa]."""
+    mode = Item("pnl-opmode", "opmode", {"opmode": opmode(office.controller)})
+    lock = Item("pnl-opmode-lockstate-li", "lock-state", {}, {"self": "lock-state"})
+    return show(mode, *(() if asked.is_one else (lock,)))
 
 
 @serves(ops.SET_OPMODE)
@@ -91,6 +93,12 @@ def set_speed(office: "Office", asked: RwsRequest) -> None:
     for group in office.controller.motion.groups.values():
         group.override = int(text) / 100
     office.controller.operation.changed.notify()
+
+
+@serves(ops.SET_SPEED_PLAIN)
+def set_speed_plainly(office: "Office", asked: RwsRequest) -> None:
+    """RWS 2.0 keeps `?action=` for the speed; without it is 400 [VC 7.21]."""
+    raise Denied(400, "E_INVALIDARG", "action=setspeedratio is wanted")
 
 
 @serves(ops.COLLISION)

@@ -3,6 +3,7 @@
 from typing import TYPE_CHECKING
 
 from rapidgen.faces.rws.asking import Denied, RwsRequest, Served, show
+from rapidgen.faces.rws.built_in import OPTIONS
 from rapidgen.faces.rws.routing import serves
 from rapidgen.machine.calendar import date_time
 from rapidgen.wire.rws import operations as ops
@@ -60,7 +61,7 @@ def get_system(office: "Office", asked: RwsRequest) -> Served:
 
 
 def _options(kind: str) -> list[Item]:
-    return [Item(kind, str(i), {"option": "616-1 PC Interface"}) for i in (1,)]
+    return [Item(kind, str(i), {"option": option}) for i, option in enumerate(OPTIONS, 1)]
 
 
 @serves(ops.OPTIONS)
