@@ -1,7 +1,7 @@
 """The face without a network: a request in, an answer out, on the controller's thread.
 
 Strict is what controllers are: versions in media types (406, 415), verbs in their place (405),
-20 requests a second, 70 sessions, mastership.
+20 requests a second of RWS 1.0, 70 sessions, mastership.
 """
 
 import secrets
@@ -37,7 +37,8 @@ class Desk:
     ) -> None:
         self.office = office = Office(cabinet, generation, login, strict=strict)
         self.generation = generation
-        self.sessions = Sessions(lambda: cabinet.now, strict=strict)
+        # The ceiling is that of RWS 1.0 [RWS manual].
+        self.sessions = Sessions(lambda: cabinet.now, limited=strict and self.is_one)
         self.groups = office.groups = Groups(
             generation, lambda: cabinet.controller.scheduler, partial(watched, office)
         )
@@ -154,10 +155,11 @@ class Desk:
         syntax: Syntax | None,
     ) -> Served:
         files = path.startswith("/fileservice")
-        if syntax is None and not (files and got.method in ("GET", "PUT")):
+        if syntax is None and not (files and got.method in ("GET", "HEAD", "PUT")):
             raise Denied(406, "E_INVALIDARG", "cannot generate response for given accept header")
         self._check_type(got, files)
-        found = find(self.generation, got.method, path, query)
+        method = "GET" if got.method == "HEAD" else got.method
+        found = find(self.generation, method, path, query)
         if found.handler is None:
             if found.allowed:
                 raise Denied(405, "E_INVALIDARG", f"{got.method} {path}")
@@ -179,7 +181,7 @@ class Desk:
 
     def _check_type(self, got: Received, files: bool) -> None:
         """406 for a request without the type that RWS 2.0 wants, 415 for a file of another."""
-        if got.method in ("GET", "OPTIONS") or not self._strict:
+        if got.method in ("GET", "HEAD", "OPTIONS") or not self._strict:
             return
         sent = plain(got.headers.get("content-type", ""))
         if self.generation is Generation.ONE:
