@@ -194,7 +194,6 @@ ACTIVATION_RECORD = RwsOperation(
     "GET /rw/rapid/tasks/{task}/activation-record",
 )
 ROUTINES = _same("GET /rw/rapid/tasks/{task}/serviceroutine")
-ALIAS_IO = _same("GET /rw/rapid/aliasio")
 MODULE_COUNT = RwsOperation("-", "GET /rw/rapid/tasks/{task}/modules/{module}/changecount")
 TEXT_RANGE = RwsOperation("-", "GET /rw/rapid/tasks/{task}/modules/{module}/text/range")
 TEXT_SEARCH = RwsOperation("-", "GET /rw/rapid/tasks/{task}/modules/{module}/text/search")
@@ -218,6 +217,7 @@ SAVE_PROGRAM = RwsOperation(
     "POST /rw/rapid/tasks/{task}/program?action=save",
     "POST /rw/rapid/tasks/{task}/program/save",
 )
+COUNTER = RwsOperation("GET /rw/rapid/tasks/{task}/execution", "-")
 POINTER_TO_CURSOR = RwsOperation(
     "POST /rw/rapid/tasks/{task}/pcp?action=set-pp-cursor",
     "POST /rw/rapid/tasks/{task}/pcp/cursor",

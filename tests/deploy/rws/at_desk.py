@@ -29,11 +29,11 @@ CERTIFICATE = b"certificate"
 
 
 class Line:
-    """Where a client's requests go. `cut(number)` says how one is cut: "before" or "after" it was
-    done; None: not at all."""
+    """Where a client's requests go. `cut(number, got)` says how one is cut: "before" or "after" it
+    was done; None: not at all."""
 
     def __init__(
-        self, cabinet, generation, *, strict=True, on_thread=False, cut=lambda number: None
+        self, cabinet, generation, *, strict=True, on_thread=False, cut=lambda number, got: None
     ):
         self.cabinet, self.generation = cabinet, generation
         accounts = Accounts({"Default User": PASSWORD})
@@ -46,7 +46,7 @@ class Line:
             raise _lost()
         self.count += 1
         self.log.append((got.method, got.target))
-        if how := self.cut(self.count):
+        if how := self.cut(self.count, got):
             self.dead = True
             if how == "after":
                 self.handle(got)

@@ -41,6 +41,16 @@ def get_pointer(office: "Office", asked: RwsRequest) -> Served:
     return show(Item("pcp-info", "progpointer", told), Item("pcp-info", "motionpointer", told))
 
 
+@serves(ops.COUNTER)
+def get_counter(office: "Office", asked: RwsRequest) -> Served:
+    """The program pointer once more, as the manual of RWS 1.0 has it for a task's execution."""
+    place = place_of(find_task(office, asked.names["task"], asked))
+    row, column = (place.span.line, place.span.column) if place else (0, 0)
+    told = {"module": place.module if place else "", "routine": place.routine if place else ""}
+    told |= {"startline": str(row), "startcol": str(column)}
+    return show(Item("rap-pcp", "pcp", {**told, "endline": str(row), "endcol": str(column)}))
+
+
 def _movable(office: "Office", asked: RwsRequest) -> Task:
     office.masters.need(asked, "rapid")
     task = find_task(office, asked.names["task"], asked)
