@@ -3,11 +3,11 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from rapidgen.controller.cabinet import Cabinet
 from rapidgen.controller.controller import VirtualController
 from rapidgen.faces.rws.asking import Denied, Served
+from rapidgen.faces.rws.client_queues import ClientQueue
 from rapidgen.faces.rws.mastership import Masters
 from rapidgen.faces.rws.rmmp import ManualPrivilege
 from rapidgen.faces.rws.sessions import Session
@@ -16,9 +16,6 @@ from rapidgen.machine.files import DiskFault
 from rapidgen.wire.rws.bodies import Generation
 from rapidgen.wire.rws.codes import CODES, OK
 from rapidgen.wire.rws.grants import GRANTS
-
-if TYPE_CHECKING:
-    from rapidgen.faces.rws.handlers.queues import ClientQueue
 
 
 @dataclass(frozen=True, slots=True)

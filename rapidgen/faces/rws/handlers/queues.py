@@ -4,16 +4,15 @@ A message to a task is `type;value` [doc: PC SDK, RAPID message queue], as one f
 between clients it is any text of at most 444 bytes.
 """
 
-from collections import deque
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from rapidgen.faces.rws.asking import Denied, RwsRequest, Served, show
+from rapidgen.faces.rws.client_queues import KINDS, ClientQueue, ClientText
 from rapidgen.faces.rws.routing import serves
 from rapidgen.runtime.compiler.predefined import find_type
 from rapidgen.runtime.errors import RapidError
-from rapidgen.runtime.queues import Message, Queue
-from rapidgen.runtime.text import NotALiteral, literal_text, parse_value
+from rapidgen.runtime.queues import Message
+from rapidgen.runtime.text import NotALiteral, parse_value
 from rapidgen.system.model import QueueSpec
 from rapidgen.wire.rws import operations as ops
 from rapidgen.wire.rws.bodies import Item
@@ -23,41 +22,7 @@ if TYPE_CHECKING:
 
 LARGEST = 444
 """Bytes of a message [RWS manual]."""
-_KINDS = ("IPC_SEND", "IPC_PACKAGE")
 _OF_A_TASK = "rmq_"
-
-
-@dataclass(frozen=True, slots=True)
-class _Text:
-    """What a client has sent to another one."""
-
-    sender: str
-    data: str
-    command: str
-    user: str
-    kind: str
-
-
-@dataclass(slots=True, eq=False)
-class ClientQueue:
-    """A queue that a client has made; tasks put their answers into `queue`."""
-
-    name: str
-    queue: Queue
-    texts: deque[_Text] = field(default_factory=deque)
-
-    def __len__(self) -> int:
-        return len(self.texts) + len(self.queue.messages)
-
-    def take(self) -> _Text | None:
-        """The first message, taken out; None: there is none."""
-        if self.texts:
-            return self.texts.popleft()
-        if not self.queue.messages:
-            return None
-        message = self.queue.messages.popleft()
-        data = f"{message.type.name};{literal_text(message.value, message.type)}"
-        return _Text(message.sender, data, "0", f"{message.user:g}", _KINDS[1])
 
 
 def find(office: "Office", name: str) -> ClientQueue:
@@ -150,8 +115,8 @@ def send(office: "Office", asked: RwsRequest) -> None:
     queue = find(office, name)
     if len(queue) >= queue.queue.spec.max_messages:
         raise Denied(400, "E_QUEUEFULL", name)
-    kind = _KINDS[asked.form.get("dipc-msgtype", "1") != "0"]
-    queue.texts.append(_Text(sender, data, command, user, kind))
+    kind = KINDS[asked.form.get("dipc-msgtype", "1") != "0"]
+    queue.texts.append(ClientText(sender, data, command, user, kind))
     queue.queue.changed.notify()
 
 
