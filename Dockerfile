@@ -3,7 +3,7 @@ FROM python:3.13-slim AS build
 WORKDIR /src
 COPY . .
 RUN python -m venv /opt/rapidgen \
-    && /opt/rapidgen/bin/pip install --no-cache-dir --disable-pip-version-check .
+    && /opt/rapidgen/bin/pip install --no-cache-dir --disable-pip-version-check '.[recording,web]'
 
 FROM python:3.13-slim
 RUN useradd --create-home --uid 1000 robot

@@ -15,10 +15,7 @@ demo: $(if $(wildcard $(STAMP)),$(STAMP),$(RUNS))
 	@$(BIN)/rapidgen demo
 
 $(RUNS): pyproject.toml
-	@echo "setup    an environment in $(VENV) with what rapidgen needs: once, half a minute"
-	@(while sleep 4; do echo "         $$SECONDS s"; done) & beat=$$!; trap "kill $$beat" EXIT; \
-		(test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)) && \
-		$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-compile --editable '.[plot]'
+	@PYTHON="$(PYTHON)" .ci/environment $(VENV) --editable '.[plot]'
 	@touch $@
 
 test: lint types contract wheel driver-hours site release-lint unit
@@ -32,7 +29,7 @@ $(PAGE): $(STAMP) $(shell find rapidgen/view/page -path '*/node_modules' -prune 
 $(STAMP): pyproject.toml
 	test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --upgrade "pip>=25.1"
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --group dev --editable .
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --group dev --editable '.[all]'
 	test ! -e .git || $(BIN)/pre-commit install || echo "no hook of pre-commit is installed: git has refused"
 	touch $@
 
@@ -63,7 +60,7 @@ wheel: $(STAMP) $(PAGE) $(WHEEL)/env/.made
 	$(BIN)/python -m build --wheel --no-isolation --outdir $(WHEEL)/dist . >$(WHEEL)/build.log 2>&1 || (cat $(WHEEL)/build.log; false)
 	$(WHEEL)/env/bin/python -m pip install --quiet --disable-pip-version-check --force-reinstall --no-deps $(WHEEL)/dist/*.whl
 	cd $(WHEEL) && time env/bin/rapidgen demo --output demo
-	cd $(WHEEL) && env/bin/python -c 'from rapidgen.view.server import ASSETS; assert (ASSETS / "page.js").is_file(), ASSETS'
+	cd $(WHEEL) && env/bin/python -c 'from rapidgen.view.plotting import ASSETS; assert (ASSETS / "page.js").is_file(), ASSETS'
 
 $(WHEEL)/env/.made: pyproject.toml $(STAMP) $(PAGE)
 	rm -rf $(WHEEL)/env $(WHEEL)/dist && mkdir -p $(WHEEL)

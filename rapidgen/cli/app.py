@@ -10,13 +10,14 @@ import os
 import signal
 import sys
 from collections.abc import Callable, Sequence
+from functools import wraps
 from importlib import import_module
 from typing import Annotated
 
 import typer
 from typer.exceptions import TyperException
 
-from rapidgen import __version__
+from rapidgen import __version__, _extras
 from rapidgen.cli.loudness import set_up
 from rapidgen.cli.terminal import use_colour
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, as_data, error, render
@@ -36,7 +37,7 @@ VERBS = {
     "test": "Prove the driver for this robot: every behaviour, stops and faults in many schedules.",
     "probe": "Write a module that asks a controller what is only assumed about it.",
     "move": "Move a robot to joints, to a pose, or along a file.",
-    "jog": "Move joints a little from where they are: at most 11.4 deg or 100 mm.",
+    "jog": "Move joints or the tool a little from where they are: at most 11.4 deg or 100 mm.",
     "pose": "Show where the tool is in the work object, and the joints; as `move` takes them.",
     "stop": "Stop the robot: every motion group, or one.",
     "monitor": "Watch a robot: joints against limits, mode, rate, jitter, last event.",
@@ -107,8 +108,11 @@ def main(words: list[str]) -> int:
     except TyperException as fault:
         _show((_usage(fault),), as_json)
         return 2
-    except (KeyboardInterrupt, typer.Abort):
-        sys.stderr.write("\nstopped\n")
+    except (_GivenUp, KeyboardInterrupt, typer.Abort):
+        if as_json:
+            _show((_given_up(),), as_json)
+        else:
+            sys.stderr.write("\nstopped\n")
         return 130
     except BrokenPipeError:
         return _unheard()
@@ -117,6 +121,12 @@ def main(words: list[str]) -> int:
         if isinstance(left.__context__, BrokenPipeError):
             return _unheard()
         raise
+    except ModuleNotFoundError as fault:
+        lacking = _extras.missing(fault)
+        if lacking is None:
+            raise
+        _show((lacking,), as_json)
+        return 2
     except OSError as fault:
         if fault.filename is None and fault.errno not in _MACHINE | {errno.ENOENT}:
             raise
@@ -148,8 +158,23 @@ def _app(words: list[str]) -> typer.Typer:
     app.callback()(_root)
     for verb, sentence in VERBS.items():
         whole = completing or verb == wanted
-        app.command(verb)(function(verb) if whole else _named(sentence))
+        app.command(verb)(_interruptible(function(verb)) if whole else _named(sentence))
     return app
+
+
+class _GivenUp(Exception):
+    """Ctrl-C in a verb; typer would turn it into an exit code without a word."""
+
+
+def _interruptible(verb: Callable[..., object]) -> Callable[..., object]:
+    @wraps(verb)
+    def carried_out(*arguments: object, **options: object) -> object:
+        try:
+            return verb(*arguments, **options)
+        except KeyboardInterrupt as given_up:
+            raise _GivenUp from given_up
+
+    return carried_out
 
 
 def function(verb: str) -> Callable[..., object]:
@@ -209,6 +234,10 @@ def _refused(fault: OSError, as_json: bool) -> int:
     text = f"{message}: {fault.strerror}"
     _show((error("RG903", None, text, mend),), as_json)
     return 2 if fault.errno in _BAD_PATH else 1
+
+
+def _given_up() -> Diagnostic:
+    return error("RG906", None, "stopped by Ctrl-C, or by a no", "the same command begins anew")
 
 
 def _empty_argument() -> Diagnostic:

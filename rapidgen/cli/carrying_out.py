@@ -48,6 +48,9 @@ def carry_out(job: "FleetJob", plans: "Sequence[Plan]", *, as_json: bool = False
     else:
         typer.echo(table(outcomes), nl=False)
     if giving_up:
+        if as_json:
+            # What became of each has been told: a second object would be none.
+            return 130
         raise KeyboardInterrupt
     failures = [o.error for o in outcomes if o.error is not None]
     if failures and as_json:

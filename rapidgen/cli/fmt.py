@@ -72,11 +72,15 @@ def _files(paths: list[Path]) -> list[Path]:
     found: list[Path] = []
     for path in paths:
         if path.is_dir():
-            found += sorted(
+            inside = sorted(
                 file
                 for file in path.rglob("*")
                 if file.suffix.lower() in _SUFFIXES and file.is_file()
             )
+            if not inside:
+                mend = f"RAPID files end in {', '.join(sorted(_SUFFIXES))}"
+                raise refusal("RG904", None, f"no RAPID file is in {path}", mend)
+            found += inside
         elif path.exists():
             found.append(path)
         else:

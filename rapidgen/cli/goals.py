@@ -2,7 +2,7 @@
 
 import math
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -84,22 +84,9 @@ def read_joints(
     """
     parts = text.split(",")
     names = list(group.names)
-    named = [_NAMED.fullmatch(part) for part in parts]
-    if all(named):
-        found = list(here)
-        seen = set()
-        for hit in named:
-            assert hit is not None
-            name = hit[1]
-            if name not in names:
-                mend = suggest(name, names) or f"its joints are: {', '.join(names)}"
-                raise typer.BadParameter(f"there is no joint '{name}': {mend}", param_hint=option)
-            if name in seen:
-                raise typer.BadParameter(f"'{name}' is there twice", param_hint=option)
-            seen.add(name)
-            found[names.index(name)] = _number(hit[2], option)
-            found[names.index(name)] /= units.joint(group.joints[names.index(name)].kind)[1]
-        return tuple(found)
+    if all(_NAMED.fullmatch(part) for part in parts):
+        kinds = {joint.name: joint.kind for joint in group.joints}
+        return read_named(text, units, kinds, here, option)
     if len(parts) != len(names):
         raise typer.BadParameter(
             f"{len(parts)} values for {len(names)} joints: give all of them ({','.join(names)}), "
@@ -110,6 +97,30 @@ def read_joints(
         _number(part, option) / units.joint(joint.kind)[1]
         for part, joint in zip(parts, group.joints, strict=True)
     )
+
+
+def read_named(
+    text: str, units: Units, kinds: Mapping[str, str], here: Sequence[float], option: str
+) -> tuple[float, ...]:
+    """NAME=VALUE of some of `kinds`, the others where they are (`here`); rad, m.
+
+    Raises typer.BadParameter.
+    """
+    found = dict(zip(kinds, here, strict=True))
+    seen = set()
+    for part in text.split(","):
+        hit = _NAMED.fullmatch(part)
+        if hit is None:
+            raise typer.BadParameter(f"'{part}' is not NAME=VALUE", param_hint=option)
+        name = hit[1]
+        if name not in kinds:
+            mend = suggest(name, list(kinds)) or f"its joints are: {', '.join(kinds)}"
+            raise typer.BadParameter(f"there is no joint '{name}': {mend}", param_hint=option)
+        if name in seen:
+            raise typer.BadParameter(f"'{name}' is there twice", param_hint=option)
+        seen.add(name)
+        found[name] = _number(hit[2], option) / units.joint(kinds[name])[1]
+    return tuple(found.values())
 
 
 def read_pose(text: str, units: Units, here: "Pose", option: str = "--pose") -> "Pose":

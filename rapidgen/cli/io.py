@@ -93,8 +93,16 @@ def _over_web_services(
 
 def _over_driver(config: str, name: str, value: float | None, to: str, group: str) -> list[_Read]:
     from rapidgen.client import NotReady, Robot
-    from rapidgen.config import load_config
+    from rapidgen.config import load_config, shipped_names
+    from rapidgen.diagnostics import refusal
 
+    if not config.endswith((".yaml", ".yml")) and config not in shipped_names():
+        raise refusal(
+            "RG607",
+            None,
+            f"'{config}' is no configuration and no shipped name",
+            f"for the signals of a controller: rws://{config}",
+        )
     kinds = {signal.name: signal.kind for signal in load_config(config).signals}
     names = [name] if name else list(kinds)
     if not names:

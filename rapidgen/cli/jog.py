@@ -1,4 +1,4 @@
-"""`rapidgen jog`: joints a little from where they are."""
+"""`rapidgen jog`: joints, or the tool, a little from where they are."""
 
 import math
 from typing import TYPE_CHECKING, Annotated
@@ -6,11 +6,12 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from rapidgen.cli import options
-from rapidgen.cli.goals import Units, figure, named_text, read_joints
+from rapidgen.cli.goals import Units, figure, named_text, read_named
 
 if TYPE_CHECKING:
     from rapidgen.client import Robot
 
+_PLACE = "JOINT=STEP"
 _SLOW = 0.05
 """m/s of the tool where nobody says more."""
 
@@ -18,7 +19,11 @@ _SLOW = 0.05
 def jog(
     config: options.Config,
     by: Annotated[
-        list[str], typer.Argument(help="How far: joint_1=5 joint_3=-2.", metavar="JOINT=STEP...")
+        list[str],
+        typer.Argument(
+            help="How far: joint_1=5 joint_3=-2, or z=20 x=-5 in the work object.",
+            metavar="JOINT=STEP...",
+        ),
     ],
     to: options.RobotAddress = "",
     group: options.Group = "",
@@ -30,12 +35,14 @@ def jog(
     rad: options.InRad = False,
     as_json: options.AsJson = False,
 ) -> int:
-    """Move joints a little from where they are: at most 11.4 deg or 100 mm. Ctrl-C stops.
+    """Move joints or the tool a little from where they are: at most 11.4 deg or 100 mm.
 
-    The controller stops the robot when it does not hear of this command for 0.2 s. Needs the
+    Ctrl-C stops. x, y and z move the tool on a line in the work object, without turning it. The
+    controller stops the robot when it does not hear of this command for 0.2 s. Needs the
     driver's control port.
 
     rapidgen jog cell.yaml joint_1=5 joint_3=-2 --to sim
+    rapidgen jog cell.yaml z=20 --to sim
     """
     from rapidgen.cli.moving import confirm_at, permitted, told_of_a_cut
     from rapidgen.client import Robot
@@ -61,24 +68,30 @@ def jog(
 
 
 def _steps(robot: "Robot", units: Units, by: list[str]) -> dict[str, float]:
-    """Steps in rad and m by joint. Raises typer.BadParameter."""
-    from rapidgen.client.flows.program import LONGEST_JOG
+    """Steps in rad and m by joint or direction. Raises typer.BadParameter."""
+    from rapidgen.client.flows.program import DIRECTIONS, LONGEST_JOG
 
     group = robot.group
     if not all("=" in step for step in by):
-        raise typer.BadParameter("write JOINT=STEP, such as joint_1=5", param_hint="JOINT=STEP")
-    nothing = [0.0] * len(group.names)
-    found = read_joints(",".join(by), units, group, nothing, "JOINT=STEP")
+        raise typer.BadParameter(
+            "write JOINT=STEP, such as joint_1=5, or x=5, y=5, z=5", param_hint=_PLACE
+        )
+    kinds = {joint.name: joint.kind for joint in group.joints}
+    names = [step.partition("=")[0].strip() for step in by]
+    if not set(names) & set(kinds) and set(names) <= set(DIRECTIONS):
+        kinds = {name: "prismatic" for name in DIRECTIONS}
+    nothing = [0.0] * len(kinds)
+    found = read_named(",".join(by), units, kinds, nothing, _PLACE)
     steps = {}
-    for joint, step in zip(group.joints, found, strict=True):
-        most = LONGEST_JOG[joint.kind]
+    for name, step in zip(kinds, found, strict=True):
+        most = LONGEST_JOG[kinds[name]]
         if abs(step) > most:
-            unit, factor, _ = units.joint(joint.kind)
+            unit, factor, _ = units.joint(kinds[name])
             raise typer.BadParameter(
-                f"{joint.name} by {figure(step, factor)} {unit} is too far: at most "
-                f"{figure(most, factor)} {unit} at a time; `rapidgen move --joints` goes farther",
-                param_hint="JOINT=STEP",
+                f"{name} by {figure(step, factor)} {unit} is too far: at most "
+                f"{figure(most, factor)} {unit} at a time; `rapidgen move` goes farther",
+                param_hint=_PLACE,
             )
         if step:
-            steps[joint.name] = step
+            steps[name] = step
     return steps

@@ -19,6 +19,7 @@ def robots(
     from rapidgen.config.catalogue import shipped_models, variant_named, variant_text
     from rapidgen.config.library import variants
     from rapidgen.config.variant_model import lacks, model_name, names
+    from rapidgen.diagnostics import refusal
 
     if words and words[0] == "show":
         for variant in variant_named(" ".join(words[1:])):
@@ -41,9 +42,12 @@ def robots(
             missing = lacks(variant)
             name = "-" if missing else model_name(variant)
             lines.append(f"{name:<{width}}  ABB {variant.name}" + _shown(missing))
-    for line in lines:
-        if all(word in line.casefold() for word in wanted):
-            typer.echo(line)
+    shown = [line for line in lines if all(word in line.casefold() for word in wanted)]
+    if not shown:
+        said = f"no robot has {' and '.join(words or ())} in its line"
+        raise refusal("RG009", None, said, "`rapidgen robots --all` lists all that are known")
+    for line in shown:
+        typer.echo(line)
 
 
 def _shown(missing: list[str]) -> str:

@@ -53,14 +53,14 @@ def view(
     `--take`: a program that moves the robot loses it, and stops. A recording shows everything as it
     was at any moment; one that was cut off is shown up to there.
     """
-    from rapidgen.view.recording.reader import RecordingFile
-    from rapidgen.view.recording.viewing import RecordingSubject
-
     with ExitStack() as stack:
         if not _is_recording(target):
             if csv is not None:
                 raise typer.BadParameter("--csv is of a recording")
             return _serve(_robots(stack, target, to, group, take, reconnect), host, port)
+        from rapidgen.view.recording.reader import RecordingFile
+        from rapidgen.view.recording.viewing import RecordingSubject
+
         recording = stack.enter_context(RecordingFile(Path(target)))
         if csv is None:
             return _serve(RecordingSubject(recording), host, port)

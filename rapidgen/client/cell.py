@@ -12,7 +12,7 @@ from rapidgen.client.core.job import Job
 from rapidgen.client.core.motion import Result
 from rapidgen.client.core.robot import Core
 from rapidgen.client.core.state import State
-from rapidgen.client.errors import InvalidTrajectory, RobotError
+from rapidgen.client.errors import InvalidTarget, InvalidTrajectory, RobotError
 from rapidgen.client.flows.download import Sending
 from rapidgen.client.flows.effects import Flow
 from rapidgen.client.flows.motion import ready
@@ -60,6 +60,13 @@ class Cell:
     """Robots by name. All points go to all robots first, then all end frames."""
 
     def __init__(self, robots: Mapping[str, Robot]) -> None:
+        if not isinstance(robots, Mapping):
+            raise InvalidTarget.because(
+                "RG607",
+                f"a cell is made of robots by name, not of {type(robots).__name__}",
+                'such as Cell({"left": Robot(...), "right": Robot(...)})',
+                exit_code=2,
+            )
         self.robots = dict(robots)
 
     def __enter__(self) -> Self:

@@ -198,8 +198,7 @@ class Program:
         """To joints, rad and m, all axes together (MoveAbsJ; with `triggers` TriggJ to the pose
         that they have)."""
         self._hold(speed, zone)
-        goal = tuple(map(float, joints))
-        return self._add(Instruction.MOVE_ABSJ, joints=goal, triggers=tuple(triggers))
+        return self._add(Instruction.MOVE_ABSJ, joints=_joints_of(joints), triggers=tuple(triggers))
 
     def move_to(
         self,
@@ -335,6 +334,19 @@ def zone_of(zone: ZoneLike) -> Zone:
             exit_code=2,
         )
     return ZONES[zone]
+
+
+def _joints_of(joints: Sequence[float]) -> tuple[float, ...]:
+    """Joints as plain numbers. Raises InvalidProgram for something that has none."""
+    try:
+        return tuple(map(float, joints))
+    except (TypeError, ValueError) as error:
+        raise InvalidProgram.because(
+            "RG670",
+            f"{joints!r} are no joints",
+            "joints are numbers in rad and m, one for each, such as [0, 0.1, 0, 0, 0.5, 0]",
+            exit_code=2,
+        ) from error
 
 
 def pose_of(pose: Pose) -> Pose:

@@ -22,8 +22,12 @@ def resolve(
     for at `address`, else on this machine. Any other text is an address itself. `sim` as an address
     is the simulator that runs. Raises InvalidTarget.
     """
+    if not isinstance(address, str | Address | None):
+        raise _no_text(address, "address", "HOST, HOST:MOTION,STATE, or `sim`")
     if isinstance(target, RobotConfig):
         config = target
+    elif not isinstance(target, str | PathLike):
+        raise _no_text(target, "target", "a configuration's path, a shipped name, or an address")
     else:
         text = str(target)
         if not (text.endswith(_SUFFIXES) or text in shipped_names()):
@@ -47,6 +51,11 @@ def resolve(
     if address == SIMULATOR:
         return find_simulator(config.name, chosen.name), Group.of(config, chosen)
     return parse_address(address or LOOPBACK, chosen.ports), Group.of(config, chosen)
+
+
+def _no_text(given: object, what: str, mend: str) -> InvalidTarget:
+    said = f"the {what} is a text, not {type(given).__name__}"
+    return InvalidTarget.because("RG607", said, mend, exit_code=2)
 
 
 def _by_name(text: str) -> Address:

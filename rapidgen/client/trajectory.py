@@ -76,6 +76,11 @@ class Trajectory:
             raise InvalidTrajectory.because(
                 "RG611", f"{positions.shape[1]} columns for {len(names)} joint names", exit_code=2
             )
+        twice = sorted({name for name in names if list(names).count(name) > 1})
+        if twice:
+            raise InvalidTrajectory.because(
+                "RG611", f"joint names are there twice: {', '.join(twice)}", exit_code=2
+            )
         times.flags.writeable = positions.flags.writeable = False
         told = {"times": times, "positions": positions, "names": tuple(names)}
         for name, value in {**told, "path": path, "lines": tuple(lines)}.items():

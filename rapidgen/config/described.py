@@ -172,8 +172,8 @@ def _group(cell: Cell, arm: Arm, arms: Sequence[Arm], number: int, answers: Answ
         head.append("# No known variant has these axes: check every line against the data sheet.")
         if not cell.is_claimed:
             head.append("# Nothing in the description says that it is a robot of ABB.")
-    seven = "eax_a" in arm.axes
-    free = [axis for axis in _EXTERNAL if not (seven and axis == "eax_a")]
+    taken = {*answers.joints.values(), *(("eax_a",) if "eax_a" in arm.axes else ())}
+    free = [axis for axis in _EXTERNAL if axis not in taken]
     mapped = [(joint, axis) for joint, axis in zip(arm.joints, arm.axes, strict=True)]
     mapped += [(joint, "") for joint in arm.under]
     if number == 0:

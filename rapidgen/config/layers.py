@@ -173,7 +173,7 @@ def override_tree(overrides: Overrides) -> tuple[MappingNode, tuple[tuple[str, b
         pairs = []
         for text in overrides:
             name, equals, given = text.partition("=")
-            if equals:
+            if equals and given.strip():
                 pairs.append((name, given, True))
             else:
                 found.append(_bad_override(text))

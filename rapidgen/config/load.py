@@ -1,5 +1,6 @@
 """`load_config`: a file or a shipped name becomes a checked, frozen model, or all its faults."""
 
+import logging
 import math
 from collections.abc import Sequence
 from dataclasses import replace
@@ -16,6 +17,8 @@ from rapidgen.config.model import ChainLink, RobotConfig
 from rapidgen.config.open_lines import take_open
 from rapidgen.config.validate import validate
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, suggest
+
+_LOG = logging.getLogger("rapidgen.config")
 
 
 def load_config(
@@ -55,6 +58,7 @@ def load_config(
     found = tuple(in_order(report.found))
     if config is None:
         raise DiagnosticError(few(found))
+    _LOG.info("%s: %s, read from %d files", path_or_name, config.name, len(assembly.inputs))
     return replace(config, inputs=tuple(assembly.inputs), diagnostics=tuple(few(found)))
 
 

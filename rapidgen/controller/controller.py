@@ -1,5 +1,6 @@
 """The virtual controller: one scheduler, tasks, I/O, motion, files, network and event log."""
 
+import logging
 import threading
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from os import PathLike
@@ -43,6 +44,8 @@ from rapidgen.runtime.robot_data import RobotData
 from rapidgen.runtime.task.statements import Statements
 from rapidgen.runtime.task.task import Task
 from rapidgen.system.model import System
+
+_LOG = logging.getLogger("rapidgen.controller")
 
 _T = TypeVar("_T")
 _NS = 1_000_000_000
@@ -190,6 +193,8 @@ class VirtualController:
         )
         signals.connect()
         self.operation.power_up()
+        loaded = sum(len(spec.modules) for spec in system.tasks)
+        _LOG.info("%s: %d tasks, %d modules loaded", system.name, len(system.tasks), loaded)
         self.answered = settle(self, surroundings)
         if faults is not None:
             schedule_faults(faults, self)
@@ -256,6 +261,8 @@ class VirtualController:
         `robot` is a shipped name or a configuration (default irb120), `cell` the file that
         describes what stands around it, or "guess", `start` where the robot stands (deg, mm).
         """
+        if isinstance(files, str | Path):
+            raise TypeError(f"files are a list, or a mapping of tasks to lists: [{str(files)!r}]")
         tasks = files if isinstance(files, Mapping) else {"T_ROB1": files}
         wishes = Wishes(tasks, robot=robot, entry=entry, cell=cell, start=start)
         return cls.boot(load_target((), wishes), **options)

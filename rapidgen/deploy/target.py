@@ -35,7 +35,8 @@ def parse_target(url: str) -> Target:
     """
     scheme, colon, rest = url.partition("://")
     if not colon:
-        raise _bad(url, "there is no scheme", "for a folder on this machine: dir://" + url)
+        mend = f"for a controller: rws://{url} or ftp://{url}; for a folder here: dir://{url}"
+        raise _bad(url, "there is no scheme", mend)
     if scheme in SCHEMES and not SCHEMES[scheme].port:
         folder = Path(os.path.abspath(os.path.expanduser(unquote(rest) or ".")))
         return Target(scheme, "", 0, str(folder))

@@ -1,5 +1,6 @@
 """The small steps of one run: verified writing, switching by what the server can, deleting."""
 
+import logging
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from typing import Literal
@@ -7,6 +8,8 @@ from typing import Literal
 from rapidgen.deploy.driverset import STATE
 from rapidgen.deploy.plan import Plan
 from rapidgen.deploy.transports.transport import Transport, TransportFault, parent, read_or_none
+
+_LOG = logging.getLogger("rapidgen.deploy")
 
 Rename = Literal["replace", "move", "none"]
 """rename() replaces an existing file; or only takes a free name; or does not work."""
@@ -49,6 +52,7 @@ def write(work: Work, path: str, data: bytes) -> None:
     for _ in range(2):
         work.transport.write(path, data)
         if read_or_none(work.transport, path) == data:
+            _LOG.info("%s: wrote %s, %d bytes", work.plan.target, path, len(data))
             return
     raise differs(path)
 
@@ -61,12 +65,14 @@ def swap(work: Work, where: str, suffix: str, data: bytes, *, exists: bool) -> N
     if work.mode == "move" and exists:
         delete(work, where)
     work.transport.rename(where + suffix, where)
+    _LOG.info("%s: switched %s", work.plan.target, where)
 
 
 def delete(work: Work, path: str) -> None:
     """Delete a file that may be gone already."""
     try:
         work.transport.delete(path)
+        _LOG.info("%s: deleted %s", work.plan.target, path)
     except TransportFault as fault:
         if fault.kind != "missing":
             raise

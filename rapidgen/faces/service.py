@@ -1,10 +1,13 @@
 """What both faces share: the handle that the caller keeps, and the loopback rule."""
 
 import ipaddress
+import logging
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from rapidgen.diagnostics import DiagnosticError, refusal
+
+_LOG = logging.getLogger("rapidgen.faces")
 
 
 @dataclass(frozen=True, slots=True)
@@ -17,6 +20,9 @@ class Service:
     password: str = field(repr=False)
     host_key: str
     _stop: Callable[[], None] = field(repr=False)
+
+    def __post_init__(self) -> None:
+        _LOG.info("%s:%d is served to %s", self.host, self.port, self.user)
 
     def close(self) -> None:
         """Close the port and every connection; a second call does nothing."""

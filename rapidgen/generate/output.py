@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+import logging
 import os
 import shutil
 import tempfile
@@ -10,6 +11,8 @@ from pathlib import Path
 
 from rapidgen._json import Json, Members, items
 from rapidgen.diagnostics import DiagnosticError, refusal
+
+_LOG = logging.getLogger("rapidgen.generate")
 
 MANIFEST = "manifest.json"
 MAX_COMPARED = 16 * 1024 * 1024
@@ -114,6 +117,7 @@ def write(output: Output, folder: Path) -> None:
         if folder.exists():
             os.rename(folder, scratch / "old")
         os.rename(fresh, folder)
+        _LOG.info("%s: %d files, build %s", folder, len(output.files), output.build_id)
     except OSError as fault:
         if not folder.exists() and (scratch / "old").exists():
             os.rename(scratch / "old", folder)

@@ -1,5 +1,6 @@
 """The whole suite for one robot: every case under every setting, and schedules, as a campaign."""
 
+import logging
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -28,6 +29,8 @@ from rapidgen.proving.smaller import smaller
 from rapidgen.proving.suite import CASES
 from rapidgen.proving.workers import Local, Workers, each, in_a_fork
 from rapidgen.system.model import System
+
+_LOG = logging.getLogger("rapidgen.proving")
 
 EXPLAINED = 20
 """Cases of which the smallest pair is looked for; of a driver that breaks more they tell enough."""
@@ -107,6 +110,7 @@ def prove(
     report = Proof(config.name, driver.system.build_id)
     report.rows = {"as asked": tuple(assuming)} if assuming else rows(strength)
     attempts = _attempts(config, report.rows, only) if cases or only else []
+    _LOG.info("%s: %d attempts, %d settings", config.name, len(attempts), len(report.rows))
     with (
         Results(results, f"{identity()} {report.build_id}", resume=resume) as kept,
         hire(driver) if hire else Local(driver, jobs) as workers,

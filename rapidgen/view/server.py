@@ -4,6 +4,7 @@ Files are those that were there when it began, by name: no path of a request rea
 """
 
 import asyncio
+import logging
 import struct
 from collections.abc import Awaitable, Callable
 from dataclasses import dataclass, field
@@ -18,6 +19,8 @@ from rapidgen.faces.web_thread import WebThread
 from rapidgen.view.aspect import Viewed
 from rapidgen.view.doorkeeper import HEADERS, Doorkeeper
 from rapidgen.view.hub import Hub, Parcel
+
+_LOG = logging.getLogger("rapidgen.view")
 
 ASSETS = Path(__file__).resolve().parent / "assets"
 _TYPES: Final = {
@@ -203,6 +206,7 @@ class _Server:
             self._thread.soon(partial(viewer.send, _frame(self.hub.ask(text).data)))
 
         self._viewers[viewer] = socket
+        _LOG.info("a page looks: %d now", len(self._viewers))
         self._watched.post(join)
         try:
             async for message in socket:
@@ -210,6 +214,7 @@ class _Server:
                     self._watched.post(partial(ask, message.data))
         finally:
             del self._viewers[viewer]
+            _LOG.info("a page has gone: %d now", len(self._viewers))
         return socket
 
     def _begin(self, viewer: _Viewer, whole: Parcel) -> None:

@@ -114,6 +114,17 @@ def test_jog(cell, capsys):
     assert positions(sim) == pytest.approx(wanted, abs=1e-5)
 
 
+def test_jog_of_the_tool(cell, capsys):
+    path, _ = cell
+    at_home(cell, capsys)
+    before = json.loads(told(capsys, "pose", path, "--to", "sim", "--json").out)
+    told(capsys, "jog", path, "z=20", "x=-5", "--speed", "200", "--to", "sim")
+    after = json.loads(told(capsys, "pose", path, "--to", "sim", "--json").out)
+    moved = [b - a for a, b in zip(before["position"], after["position"], strict=True)]
+    assert moved == pytest.approx([-0.005, 0, 0.02], abs=1e-4)
+    assert after["orientation"] == pytest.approx(before["orientation"], abs=1e-4)
+
+
 def test_signals_of_a_driver_are_read_and_set(cell, capsys):
     path, _ = cell
     assert told(capsys, "io", path, "gripper", "1", "--to", "sim").out == "gripper  DO  1\n"
@@ -145,6 +156,10 @@ def test_signals_of_a_driver_are_read_and_set(cell, capsys):
         (["jog", "joint_1"], 2, "write JOINT=STEP"),
         (["jog", "joint_1=20"], 2, "at most 11.46 deg at a time"),
         (["jog", "joint_9=1"], 2, "there is no joint 'joint_9'"),
+        (["jog", "z=150"], 2, "z by 150.00 mm is too far: at most 100.00 mm"),
+        (["jog", "z=1", "joint_1=1"], 2, "there is no joint 'z'"),
+        (["jog", "z=1", "z=2"], 2, "'z' is there twice"),
+        (["jog", "up=1"], 2, "there is no joint 'up'"),
         (["jog", "joint_1=1", "--speed", "-1"], 2, "must be above 0"),
         (["io", "gripper", "on"], 2, "'on' is no value of a signal"),
         (["io", "gipper"], 1, "did you mean 'gripper'?"),

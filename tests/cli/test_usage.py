@@ -3,12 +3,17 @@
 import inspect
 import json
 import logging
+import re
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
+from rapidgen.cli import loudness
 from rapidgen.cli.app import VERBS, function, main
+
+ROOMS = ["client", "config", "controller", "deploy", "faces", "generate", "proving", "view"]
 
 
 def rapidgen(*words, **options):
@@ -86,6 +91,43 @@ def test_an_error_is_json_where_json_was_asked_for(words, code, exit_code, capsy
     shown = capsys.readouterr()
     assert [found["code"] for found in json.loads(shown.out)["errors"]] == [code]
     assert shown.err == ""
+
+
+def test_what_is_given_up_is_told_in_json(monkeypatch, capsys):
+    def given_up(*_, **__):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("rapidgen.client.target.resolve", given_up)
+    assert main(["pose", "irb120", "--joints", "0,0,0,0,0,0", "--json"]) == 130
+    shown = capsys.readouterr()
+    assert [found["code"] for found in json.loads(shown.out)["errors"]] == ["RG906"]
+    assert shown.err == ""
+    assert main(["pose", "irb120", "--joints", "0,0,0,0,0,0"]) == 130
+    assert capsys.readouterr().err == "\nstopped\n"
+
+
+@pytest.mark.parametrize("room", ROOMS)
+def test_each_room_that_does_something_has_a_logger(room):
+    """One, by the room's name."""
+    files = (Path(loudness.__file__).parents[1] / room).rglob("*.py")
+    named = {
+        name
+        for file in files
+        for name in re.findall(r'getLogger\("(rapidgen[^"]*)', file.read_text("utf-8"))
+    }
+    assert named - {"rapidgen"} == {f"rapidgen.{room}"}
+
+
+def test_what_is_done_is_said(tmp_path, capsys):
+    assert main(["-v", "build", "irb120", "-o", str(tmp_path / "out")]) == 0
+    said = capsys.readouterr().err
+    assert "rapidgen.config: irb120: " in said
+    assert "rapidgen.generate: " in said
+    (tmp_path / "disk").mkdir()
+    assert main(["-v", "deploy", "irb120", "--to", f"dir://{tmp_path}/disk", "--yes"]) == 0
+    said = capsys.readouterr().err
+    assert f"rapidgen.deploy: dir://{tmp_path}/disk: logged in" in said
+    assert re.search(r"rapidgen.deploy: .*wrote .*ROS_motion", said)
 
 
 @pytest.mark.parametrize(

@@ -309,7 +309,13 @@ def test_a_jog_is_small_and_stands_soon_after_a_lost_client():
         robot.jog(joint_1=0.1, joint_5=-0.05)
         assert robot.state.joints[0] == pytest.approx(0.1, abs=1e-4)
         assert robot.state.joints[4] == pytest.approx(-0.05, abs=1e-4)
-        for wrong in ({"joint_1": 0.3}, {"joint_9": 0.1}, {"joint_1": float("nan")}):
+        for wrong in (
+            {"joint_1": 0.3},
+            {"joint_9": 0.1},
+            {"joint_1": float("nan")},
+            {"z": 0.2},
+            {"joint_1": "5"},
+        ):
             with pytest.raises(InvalidProgram):
                 robot.jog(**wrong)
         jogging = robot.later.jog(joint_1=-0.2, speed=0.02)

@@ -57,6 +57,14 @@ CELLS = {
 }
 
 
+def test_a_positioner_has_an_axis_that_no_answer_has_taken(tmp_path):
+    text = with_parts(carried(drawn("irb2400"), "rail"), TABLE)
+    cell = made(tmp_path, text, joint=["rail=eax_b"], coupling=1)
+    assert axes(cell.groups[0]) == {"rail": "eax_b", "tilt": "eax_a"}
+    cell = made(tmp_path, text, track=["rail=eax_a"], coupling=1)
+    assert axes(cell.groups[0]) == {"rail": "eax_a", "tilt": "eax_b"}
+
+
 @pytest.mark.parametrize("case", CELLS)
 def test_a_cell_is_built_and_moves(tmp_path, case):
     text, external = CELLS[case]

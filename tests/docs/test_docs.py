@@ -3,16 +3,19 @@
 Fenced blocks: `console` (lines starting with `$ `, run in order in one scratch folder for each
 document, where blocks that have a file's name behind their kind lie as files; a command ending in
 ` &` is waited for until it says `ready`), `python` (all blocks of a document are one program). `sh`
-blocks set a machine up, `text` blocks are output: not run, but the commands and options that stand
-anywhere as code exist.
-A comment `# exit N` behind a command states its exit code.
+blocks set a machine up, `text` blocks are output: not run, and no command of rapidgen is in them.
+A comment `# exit N` behind a command states its exit code. 192.168.125.1 is a controller
+(at_address.py), and what is asked there is answered with yes, as at a terminal.
 """
 
+import json
 import os
+import pty
 import re
 import shlex
 import subprocess
 import sys
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 
 import pytest
@@ -21,6 +24,7 @@ import typer
 
 from rapidgen.cli.app import VERBS, _app
 from rapidgen.controller.faults import read_plan
+from tests.docs import at_address
 
 ROOT = Path(__file__).resolve().parents[2]
 # codes.md is made of the pages of `explain`, which have tests of their own.
@@ -28,6 +32,21 @@ PAGES = [
     ROOT / "README.md",
     *(p for p in sorted((ROOT / "docs").glob("*/*.md")) if p.name != "codes.md"),
 ]
+# Descriptions of robots that the reader of a page has: the shipped one, and what it says otherwise.
+LENT = {
+    "robots.md": {
+        "my_robot.urdf": ("irb120", {}),
+        "my_robot.xacro": (
+            "irb120",
+            {
+                '<robot name="irb120">': '<robot name="irb120" '
+                'xmlns:xacro="http://ros.org/wiki/xacro"><xacro:arg name="prefix" default=""/>',
+                '="joint_': '="$(arg prefix)joint_',
+            },
+        ),
+        "cell.urdf": ("irb120_track", {'joint name="track"': 'joint name="rail"'}),
+    }
+}
 FENCE = re.compile(r"^```(\w+)[^\n]*\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
 
@@ -53,43 +72,82 @@ def environment(tmp_path):
         "NO_COLOR": "1",
         # Simulators of this page alone are found by `--to sim`.
         "XDG_RUNTIME_DIR": str(tmp_path),
+        "XDG_STATE_HOME": str(tmp_path),
     }
 
 
 @pytest.mark.parametrize("path", [p for p in PAGES if blocks(p, "console")], ids=lambda p: p.name)
 def test_commands(path, tmp_path, environment):
-    servers = []
     for name, text in files(path):
         (tmp_path / name).write_text(text, encoding="utf-8")
+    for name, (source, changes) in LENT.get(path.name, {}).items():
+        text = (ROOT / "robots" / "urdf" / f"{source}.urdf").read_text("utf-8")
+        for old, new in changes.items():
+            assert old in text
+            text = text.replace(old, new)
+        (tmp_path / name).write_text(text, encoding="utf-8")
+    lines = re.sub(r"\\\n", "", "".join(blocks(path, "console"))).splitlines()
+    with ExitStack() as stack:
+        stands, own_password = {}, ""
+        if any(at_address.WRITTEN in line for line in lines):
+            stands = stack.enter_context(at_address.standing(path.name, tmp_path))
+        for line in lines:
+            if not line.startswith("$ "):
+                continue
+            command, _, wanted = line[2:].partition("# exit ")
+            for text, there in stands.items():
+                command = command.replace(text, there)
+            words = shlex.split(command, comments=True)
+            assert words[0] in ("rapidgen", "cat", "ls", "pytest"), line
+            if words[-1] == "&":
+                ready = stack.enter_context(served(words[:-1], tmp_path, environment))
+                if "sftp" in ready:
+                    own_password = ready["sftp"]["password"]
+                    (tmp_path / "known").write_text(ready["sftp"]["host_key"] + "\n")
+                    stands["127.0.0.1:40022"] = f"127.0.0.1:{ready['sftp']['port']}"
+                continue
+            run, password = unasked, own_password
+            if at_address.WRITTEN in line:
+                run, password = agreed, at_address.PASSWORD
+            own = {**environment, "RAPIDGEN_PASSWORD": password}
+            code, said = run(words, cwd=tmp_path, env=own)
+            assert code == int(wanted or 0), (line, said)
+
+
+@contextmanager
+def served(words, folder, environment):
+    """A command that goes on, from what it says when it is ready."""
+    server = subprocess.Popen(words, stdout=subprocess.PIPE, text=True, cwd=folder, env=environment)
     try:
-        for block in blocks(path, "console"):
-            for line in re.sub(r"\\\n", "", block).splitlines():
-                if not line.startswith("$ "):
-                    continue
-                command, _, wanted = line[2:].partition("# exit ")
-                words = shlex.split(command, comments=True)
-                assert words[0] in ("rapidgen", "cat", "ls", "pytest"), line
-                if words[-1] == "&":
-                    server = subprocess.Popen(
-                        words[:-1], stdout=subprocess.PIPE, text=True, cwd=tmp_path, env=environment
-                    )
-                    servers.append(server)
-                    assert server.stdout.readline().startswith("ready "), line
-                    continue
-                done = subprocess.run(
-                    words,
-                    capture_output=True,
-                    text=True,
-                    cwd=tmp_path,
-                    env=environment,
-                    timeout=200,
-                )
-                assert done.returncode == int(wanted or 0), (line, done.stdout, done.stderr)
+        word, _, told = server.stdout.readline().partition(" ")
+        assert word == "ready", words
+        yield json.loads(told)
     finally:
-        for server in servers:
-            server.terminate()
-            server.wait(60)
-            server.stdout.close()
+        server.terminate()
+        server.wait(60)
+        server.stdout.close()
+
+
+def unasked(words, **where):
+    """Exit code and output of a command beside which nobody is."""
+    done = subprocess.run(
+        words, capture_output=True, text=True, stdin=subprocess.DEVNULL, timeout=200, **where
+    )
+    return done.returncode, done.stdout + done.stderr
+
+
+def agreed(words, **where):
+    """The same at a terminal where somebody says yes to everything."""
+    ours, theirs = pty.openpty()
+    os.write(ours, b"y\n" * 8)
+    process = subprocess.Popen(words, stdin=theirs, stdout=theirs, stderr=theirs, **where)
+    os.close(theirs)
+    said = b""
+    with open(ours, "rb", buffering=0) as terminal, suppress(OSError):
+        # The other end is closed: an error on Linux.
+        while block := terminal.read(4096):
+            said += block
+    return process.wait(200), said.decode()
 
 
 @pytest.mark.parametrize("path", [p for p in PAGES if blocks(p, "python")], ids=lambda p: p.name)
@@ -106,6 +164,18 @@ def test_python(path, tmp_path, environment):
         timeout=200,
     )
     assert done.returncode == 0, done.stderr
+
+
+@pytest.mark.parametrize("path", PAGES, ids=lambda p: p.name)
+def test_no_command_stands_where_it_is_not_run(path):
+    """But as the form of one: with capitals or brackets for what a reader puts in."""
+    for kind, text in FENCE.findall(path.read_text(encoding="utf-8")):
+        if kind != "console":
+            for line in text.splitlines():
+                assert not re.match(r"(\$ )?rapidgen ", line), (path.name, line)
+    rest = re.sub(FENCE, "", path.read_text(encoding="utf-8"))
+    for line in re.findall(r"^    (rapidgen .*)$", rest, re.MULTILINE):
+        assert re.search(r"\[|\b[A-Z]{3,}\b", line), (path.name, line)
 
 
 def mentioned(text):

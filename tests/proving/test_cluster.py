@@ -164,5 +164,5 @@ def test_without_the_extra_it_is_named(monkeypatch, capsys):
     monkeypatch.delitem(sys.modules, "rapidgen.proving.cluster")
     assert main(["test", "irb120", "--quick", "--cluster", "tcp://127.0.0.1:1"]) == 2
     error = capsys.readouterr().err
-    assert "RG808" in error
+    assert "RG905" in error
     assert "rapidgen[cluster]" in error

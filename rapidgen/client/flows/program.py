@@ -1,9 +1,12 @@
 """A motion program: checked, sent, taken."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+
+import numpy as np
 
 from rapidgen.axes.frames import Pose
 from rapidgen.client.core.checks import Way
+from rapidgen.client.core.group import Group
 from rapidgen.client.core.job import Job
 from rapidgen.client.core.motion import Result
 from rapidgen.client.core.robot import Core
@@ -29,6 +32,8 @@ from rapidgen.wire.simple_message.spec import Comm, EventType, Port, Reason
 
 LONGEST_JOG = {"revolute": 0.2, "prismatic": 0.1}
 """rad and m of one jog."""
+DIRECTIONS = ("x", "y", "z")
+"""Of the work object."""
 _DEAD_MAN = 0.2
 """s without a word of the client after which a jogged robot is stopped."""
 _LOOK = 0.01
@@ -69,9 +74,11 @@ def move_linear(
 
 
 def jog(core: Core, /, *, speed: SpeedLike = SLOW, **by: float) -> Flow[Result]:
-    """Move joints, by name, a little (at most 0.2 rad or 0.1 m), and wait for the end.
+    """Move joints, by name, or the tool along x, y, z of the work object, a little (at most 0.2 rad
+    or 0.1 m), and wait for the end.
 
-    While it moves the controller stops the robot when it does not hear of this client for 0.2 s.
+    The tool goes on a line and is not turned; joints and directions do not go together. While it
+    moves the controller stops the robot when it does not hear of this client for 0.2 s.
     Raises NotSupported without a control connection, otherwise as `run`.
     """
     yield from ready(core)
@@ -81,23 +88,41 @@ def jog(core: Core, /, *, speed: SpeedLike = SLOW, **by: float) -> Flow[Result]:
         )
     state, group = core.state_port.state, core.known_group
     assert state is not None
-    target = dict(zip(group.names, state.joints, strict=True))
-    for name, step in by.items():
-        most = LONGEST_JOG.get(
-            group.joints[group.names.index(name)].kind if name in target else "", 0.0
-        )
-        if not abs(step) <= most:
-            raise InvalidProgram.because(
-                "RG670",
-                f"'{name}' cannot be jogged by {step}",
-                suggest(name, group.names) or "by at most 0.2 rad or 0.1 m, by the joint's name",
-            )
-        target[name] += step
+    _check_steps(group, by)
+    if by and not set(by) & set(group.names):
+        place, turn = group.poses.pose(group.map.to_controller(state.joints))
+        x, y, z = (at + by.get(name, 0.0) for at, name in zip(place, DIRECTIONS, strict=True))
+        moved = move_linear(core, ((x, y, z), turn), speed=speed)
+    else:
+        pairs = zip(group.names, state.joints, strict=True)
+        moved = move_to(core, [at + by.get(name, 0.0) for name, at in pairs], speed=speed)
     patience, core.heartbeat.timeout = core.heartbeat.timeout, _DEAD_MAN
     try:
-        return (yield from move_to(core, list(target.values()), speed=speed))
+        return (yield from moved)
     finally:
         core.heartbeat.timeout = patience
+
+
+def _check_steps(group: Group, by: Mapping[str, float]) -> None:
+    """Raises InvalidProgram (RG670) for a step too far, or of nothing."""
+    kinds = {name: "prismatic" for name in DIRECTIONS}
+    kinds |= {joint.name: joint.kind for joint in group.joints}
+    for name, step in by.items():
+        most = LONGEST_JOG.get(kinds.get(name, ""), 0.0)
+        if not isinstance(step, int | float | np.number) or not abs(step) <= most:
+            raise InvalidProgram.because(
+                "RG670",
+                f"'{name}' cannot be jogged by {step!r}",
+                suggest(name, list(kinds))
+                or "by at most 0.2 rad or 0.1 m, by the joint's name or by x, y, z",
+            )
+    turned = [name for name in by if name in group.names]
+    if turned and len(turned) < len(by):
+        raise InvalidProgram.because(
+            "RG670",
+            f"joints and directions do not go together: {', '.join(by)}",
+            "jog twice: once joints, once x, y, z",
+        )
 
 
 def _go(core: Core, program: Program, timeout: float | None) -> Flow[Result]:

@@ -1,7 +1,26 @@
-"""Robot Web Services: `Controller` and `AsyncController`."""
+"""Robot Web Services: `Controller` and `AsyncController` (extra `rapidgen[web]`)."""
 
-from rapidgen.client.rws.aio import AsyncController
+from typing import TYPE_CHECKING
+
+from rapidgen import _extras
 from rapidgen.client.rws.errors import RwsError
-from rapidgen.client.rws.sync import Controller
+
+if TYPE_CHECKING:
+    from rapidgen.client.rws.aio import AsyncController
+    from rapidgen.client.rws.sync import Controller
 
 __all__ = ["AsyncController", "Controller", "RwsError"]
+
+
+def __getattr__(name: str) -> object:
+    # Who deploys over FTP, or talks to a driver alone, should not pay for HTTP and websockets.
+    with _extras.named():
+        if name == "Controller":
+            from rapidgen.client.rws.sync import Controller
+
+            return Controller
+        if name == "AsyncController":
+            from rapidgen.client.rws.aio import AsyncController
+
+            return AsyncController
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

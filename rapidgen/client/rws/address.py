@@ -34,6 +34,8 @@ class RwsAddress:
 
 def parse_address(text: str) -> RwsAddress:
     """An address from what a user writes. Raises DiagnosticError RG657."""
+    if not isinstance(text, str):
+        raise _bad(repr(text))
     whole = text if "://" in text else f"rws://{text}"
     try:
         parts = urlsplit(whole.replace(" ", "%20"))

@@ -10,9 +10,10 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from datetime import datetime, timezone
+from typing import TYPE_CHECKING
 
 from rapidgen.client.errors import NotReady, NotSupported, RobotError
-from rapidgen.client.rws import Controller, RwsError
+from rapidgen.client.rws import RwsError
 from rapidgen.deploy.live.memory import forget_saved, rearrange
 from rapidgen.deploy.live.plan import LivePlan
 from rapidgen.deploy.live.proof import ReadBack, prove, way_back
@@ -23,6 +24,9 @@ from rapidgen.deploy.work import Work, go_on
 from rapidgen.diagnostics import DiagnosticError, error
 from rapidgen.system import CfgText, write_cfg
 from rapidgen.wire.rws.bodies import Generation
+
+if TYPE_CHECKING:
+    from rapidgen.client.rws import Controller
 
 _LOOK = 1.0
 """s between two looks whether a person has done it."""
@@ -48,7 +52,7 @@ class LiveOptions:
 class Live:
     """One run over web services."""
 
-    services: Controller
+    services: "Controller"
     work: Work
     live: LivePlan
     options: LiveOptions

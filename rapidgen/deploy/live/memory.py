@@ -5,13 +5,17 @@ A controller loads and unloads only while nothing is executed: background tasks,
 
 from contextlib import suppress
 from pathlib import PurePosixPath
+from typing import TYPE_CHECKING
 
-from rapidgen.client.rws import Controller, RwsError
+from rapidgen.client.rws import RwsError
 from rapidgen.deploy.driverset import STATE
 from rapidgen.deploy.live.plan import InMemory, LivePlan, has_main
 from rapidgen.deploy.live.view import LiveView
 from rapidgen.deploy.transports.transport import Transport, TransportFault
 from rapidgen.deploy.work import Work, delete, delete_folder, write
+
+if TYPE_CHECKING:
+    from rapidgen.client.rws import Controller
 
 UNLOADED = "unloaded"
 """Folder of the state folder: a folder for each task, with the modules that were unloaded."""
@@ -30,7 +34,7 @@ def saved(transport: Transport, home: str, view: LiveView) -> tuple[InMemory, ..
     return tuple(found)
 
 
-def save(services: Controller, work: Work, module: InMemory) -> None:
+def save(services: "Controller", work: Work, module: InMemory) -> None:
     """Its text with the present values of its persistents, into the state folder; read back.
 
     Raises RobotError, TransportFault.
@@ -43,7 +47,7 @@ def save(services: Controller, work: Work, module: InMemory) -> None:
     write(work, path, data)
 
 
-def rearrange(services: Controller, work: Work, live: LivePlan) -> None:
+def rearrange(services: "Controller", work: Work, live: LivePlan) -> None:
     """Take out what goes, bring in what comes; every background task stands afterwards.
 
     Raises RobotError, TransportFault; DiagnosticError RG543 when a module is not where it should.
@@ -64,7 +68,7 @@ def rearrange(services: Controller, work: Work, live: LivePlan) -> None:
             services.load_module(module.task, f"HOME/{module.path}", replace=True)
 
 
-def _leave(services: Controller, live: LivePlan) -> None:
+def _leave(services: "Controller", live: LivePlan) -> None:
     """Program pointers of tasks whose modules go to their main: what a stopped program stands in
     cannot be unloaded [code: a RobotWare 6 client]. Other tasks keep theirs."""
     for module in (*live.clash, *live.unload, *live.replace):

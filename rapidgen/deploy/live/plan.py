@@ -3,9 +3,10 @@
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 from rapidgen._json import Json, Members
-from rapidgen.client.rws import Controller, RwsError
+from rapidgen.client.rws import RwsError
 from rapidgen.deploy.cfg import (
     CfgChange,
     instance_from,
@@ -21,6 +22,9 @@ from rapidgen.system import CfgText, Instance, Section, write_cfg
 from rapidgen.wire.rws import operations as ops
 from rapidgen.wire.rws.bodies import Generation
 from rapidgen.wire.rws.grants import missing
+
+if TYPE_CHECKING:
+    from rapidgen.client.rws import Controller
 
 _GRANTED = ", or Grant when it asks whether rapidgen may write"
 _OR_GRANT = {Generation.ONE: _GRANTED, Generation.TWO: _GRANTED}
@@ -203,7 +207,7 @@ def make_live_plan(
 
 
 def find_clashes(
-    services: Controller,
+    services: "Controller",
     view: LiveView,
     wanted: DriverSet | None,
     old: Mapping[str, tuple[str, ...]],
@@ -392,7 +396,7 @@ def _module_name(data: bytes) -> str:
     return found[1].decode("latin-1") if found else ""
 
 
-def has_main(services: Controller, task: str, module: str) -> bool:
+def has_main(services: "Controller", task: str, module: str) -> bool:
     """Whether a module in a task declares a main. Raises RobotError."""
     try:
         text = services.module_text(task, module)

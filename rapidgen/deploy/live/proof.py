@@ -3,14 +3,17 @@
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from rapidgen._json import members, whole
-from rapidgen.client.rws import Controller
 from rapidgen.client.rws.model import LogEvent
 from rapidgen.deploy.live.plan import LivePlan
 from rapidgen.deploy.live.view import build_in
 from rapidgen.deploy.plan import Plan
 from rapidgen.diagnostics import DiagnosticError, error
+
+if TYPE_CHECKING:
+    from rapidgen.client.rws import Controller
 
 Hello = Callable[[str, int], str | None]
 """BUILD_ID of what serves a state port; None where something else answers. OSError: nobody."""
@@ -30,7 +33,7 @@ class ReadBack:
 
 
 def prove(
-    services: Controller,
+    services: "Controller",
     plan: Plan,
     live: LivePlan,
     last: int | None,
@@ -77,7 +80,7 @@ def way_back(plan: Plan) -> str:
     return "`rapidgen rollback`" if plan.had is not None else "`rapidgen uninstall`"
 
 
-def _driver(services: Controller, plan: Plan, live: LivePlan, there: dict[str, str]) -> list[str]:
+def _driver(services: "Controller", plan: Plan, live: LivePlan, there: dict[str, str]) -> list[str]:
     """What is wrong with the tasks."""
     if plan.wanted is None:
         gone = [c.key.partition(" ")[2] for c in plan.cfg if c.action == "remove"]
@@ -97,7 +100,7 @@ def _driver(services: Controller, plan: Plan, live: LivePlan, there: dict[str, s
     return faults
 
 
-def _events(services: Controller, last: int) -> tuple[LogEvent, ...]:
+def _events(services: "Controller", last: int) -> tuple[LogEvent, ...]:
     """Errors since the restart; where numbers began anew, all that there are."""
     newest = max((event.number for event in services.log(count=1)), default=0)
     events = services.log(after=last if newest >= last else 0)

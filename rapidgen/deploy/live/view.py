@@ -7,13 +7,17 @@ set among them; what is compared are the attributes that we ever wrote.
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
-from rapidgen.client.rws import Controller, RwsError
+from rapidgen.client.rws import RwsError
 from rapidgen.client.rws.model import CfgInstance, TaskState
 from rapidgen.deploy.cfg import Keyed, shown_key
 from rapidgen.deploy.driverset import DriverSet
 from rapidgen.deploy.neighbour import MODULE
 from rapidgen.system import Attribute, CfgText, Instance, Section
+
+if TYPE_CHECKING:
+    from rapidgen.client.rws import Controller
 
 SECTIONS = (
     ("SYS", "CAB_TASKS"),
@@ -88,7 +92,7 @@ class LiveView:
 
 
 def look(
-    services: Controller,
+    services: "Controller",
     references: Keyed,
     tasks: Iterable[str],
     symbols: Mapping[str, tuple[str, ...]],
@@ -126,7 +130,7 @@ def _some(symbols: Sequence[str], *, whole: bool) -> Sequence[str]:
     return symbols if whole or len(symbols) < 3 else (symbols[0], symbols[-1])
 
 
-def build_in(services: Controller, task: str, symbols: Sequence[str]) -> str:
+def build_in(services: "Controller", task: str, symbols: Sequence[str]) -> str:
     """BUILD_ID in a task's memory; empty where there is none, or where its modules differ.
 
     Raises RobotError.
@@ -157,7 +161,7 @@ def build_symbols(wanted: DriverSet) -> dict[str, tuple[str, ...]]:
     return found
 
 
-def _rows(services: Controller, references: Keyed) -> Iterator[Row]:
+def _rows(services: "Controller", references: Keyed) -> Iterator[Row]:
     wanted = [(domain, section) for domain, section, _ in references]
     for domain, section in dict.fromkeys([*SECTIONS, *wanted]):
         known = [i for key, i in references.items() if key[:2] == (domain, section)]

@@ -1,10 +1,13 @@
 """Which transports there are. A new one is a file beside this one, and a line in `SCHEMES`."""
 
+import logging
 from dataclasses import dataclass
 from importlib import import_module
 
 from rapidgen.deploy.secrets import Credentials
 from rapidgen.deploy.transports.transport import Transport
+
+_LOG = logging.getLogger("rapidgen.deploy")
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,4 +58,5 @@ class Target:
         opened: Transport = getattr(import_module(f"{__package__}.{module}"), name)(
             self, login, timeout
         )
+        _LOG.info("%s: logged in", self.shown)
         return opened

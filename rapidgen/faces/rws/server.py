@@ -4,6 +4,7 @@ RWS 1.0 is plain HTTP, 2.0 is HTTPS with a certificate that the controller signe
 """
 
 import asyncio
+import logging
 from collections.abc import Callable
 from itertools import count
 
@@ -18,6 +19,8 @@ from rapidgen.faces.service import Service, in_use, loopback
 from rapidgen.faces.web_thread import WebThread
 from rapidgen.wire.rws.bodies import Generation
 from rapidgen.wire.rws.events import PROTOCOLS
+
+_LOG = logging.getLogger("rapidgen.faces")
 
 KNOWN = "robotics"
 """The password that controllers are delivered with."""
@@ -110,6 +113,8 @@ class _Server:
             return web.Response(status=413)
         got = self._received(request, body)
         reply = await self._on_controller(lambda: self._desk.handle(got))
+        # Without the query and the body: they may hold what nobody else should read.
+        _LOG.debug("%s %s: %d", request.method, request.path, reply.status)
         return _response(reply)
 
     def _received(self, request: web.Request, body: bytes = b"") -> Received:

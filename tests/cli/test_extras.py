@@ -1,0 +1,110 @@
+"""What an installation without extras does, and which extra it names where it cannot."""
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from rapidgen._extras import EXTRAS
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
+
+
+# Importable names of rapidgen that need no extra are all but those below these.
+BEYOND = {
+    "rapidgen.client.rws.": "web",
+    "rapidgen.deploy.transports.rws": "web",
+    "rapidgen.faces.rws.server": "web",
+    "rapidgen.proving.cluster": "cluster",
+    "rapidgen.view.doorkeeper": "web",
+    "rapidgen.view.drawn": "plot",
+    "rapidgen.view.recording": "recording",
+    "rapidgen.view.server": "web",
+}
+PLAIN = f"""
+import json, sys
+for name in {sorted(EXTRAS)!r}:
+    sys.modules[name] = None
+"""
+ALL = """
+import importlib, pkgutil, rapidgen
+failed = {}
+for module in pkgutil.walk_packages(rapidgen.__path__, "rapidgen.", onerror=lambda name: None):
+    if module.name in ("rapidgen.cli.__main__", "rapidgen.ros.node"):
+        continue
+    try:
+        importlib.import_module(module.name)
+    except ModuleNotFoundError as fault:
+        failed[module.name] = fault.name
+print(json.dumps(failed))
+"""
+
+
+def plain(text, *words):
+    """What a Python without any extra says."""
+    done = subprocess.run(
+        [sys.executable, "-c", PLAIN + text, *words],
+        capture_output=True,
+        text=True,
+        check=False,
+        env={**os.environ, "RAPIDGEN_PASSWORD": "x"},
+    )
+    return done.returncode, done.stdout, done.stderr
+
+
+def test_each_package_is_of_the_extra_that_is_named():
+    project = tomllib.loads((Path(__file__).parents[2] / "pyproject.toml").read_text("utf-8"))
+    extras = dict(project["project"]["optional-dependencies"])
+    every = extras.pop("all")
+    listed = {line.partition(">=")[0]: extra for extra, lines in extras.items() for line in lines}
+    assert listed == EXTRAS
+    assert every == [f"rapidgen[{','.join(sorted(extras))}]"]
+
+
+def test_only_what_an_extra_is_for_needs_it():
+    code, out, err = plain(ALL)
+    assert code == 0, err
+    failed = json.loads(out)
+    for module, package in failed.items():
+        extra = EXTRAS[package.partition(".")[0]]
+        assert any(module.startswith(name) and BEYOND[name] == extra for name in BEYOND), module
+    for name in BEYOND:
+        assert any(module.startswith(name) for module in failed), f"{name} needs no extra"
+
+
+@pytest.mark.parametrize(
+    ("words", "extra"),
+    [
+        ("status rws://192.0.2.1", "web"),
+        ("plan irb120 --to rws://192.0.2.1", "web"),
+        ("sim irb120 --ports auto --rws 1", "web"),
+        ("sim irb120 --ports auto --view", "web"),
+        ("sim irb120 --ports auto --record never.mcap", "recording"),
+        ("view never.mcap", "recording"),
+        ("test irb120 --cluster tcp://127.0.0.1:1", "cluster"),
+    ],
+)
+def test_a_command_names_its_extra(words, extra):
+    code, out, err = plain(
+        "from rapidgen.cli.app import main; sys.exit(main(sys.argv[1:]))", *words.split()
+    )
+    assert code == 2
+    assert "error[RG905]" in err
+    assert f"pip install 'rapidgen[{extra}]'" in err
+    assert out == ""
+    assert not Path("never.mcap").exists()
+
+
+def test_python_is_told_the_extra_too():
+    code, _, err = plain("from rapidgen.client import Controller")
+    assert code == 1
+    assert err.splitlines()[-1] == (
+        "ModuleNotFoundError: this needs httpx2, which is not installed: "
+        "pip install 'rapidgen[web]', or 'rapidgen[all]'"
+    )

@@ -1,0 +1,70 @@
+"""What a stranger types in Python: each is told, with reason and mend, before anything goes out."""
+
+import pytest
+
+from rapidgen.client import (
+    Cell,
+    Controller,
+    InvalidProgram,
+    InvalidTarget,
+    InvalidTrajectory,
+    Program,
+    Robot,
+    Trajectory,
+)
+from rapidgen.controller import VirtualController
+from rapidgen.diagnostics import DiagnosticError
+
+ZEROS = [[0.0] * 6] * 2
+WRONG = {
+    "a number for a robot": (
+        lambda: Robot(5), InvalidTarget, "the target is a text, not int", "a shipped name"),
+    "an address in parts": (
+        lambda: Robot("irb120", address=("127.0.0.1", 11000)),
+        InvalidTarget, "the address is a text, not tuple", "HOST:MOTION,STATE"),
+    "a model that is none": (
+        lambda: Robot("irb121", address="h"),
+        InvalidTarget, "'irb121' is no configuration", "irb120"),
+    "a group that is none": (
+        lambda: Robot("irb120", group="rob2"), InvalidTarget, "no motion group 'rob2'", "rob1"),
+    "a cell of a name": (
+        lambda: Cell("irb120"), InvalidTarget, "robots by name, not of str", "Cell({"),
+    "a number for a controller": (
+        lambda: Controller(5), DiagnosticError, "'5' is no address", "rws://"),
+    "a file where numbers belong": (
+        lambda: Trajectory("p.csv", None), InvalidTrajectory, "a trajectory needs numbers", ""),
+    "one value a point": (
+        lambda: Trajectory([0, 1], [0, 1]), InvalidTrajectory, "of shape (2,)", "(n, joints)"),
+    "more points than times": (
+        lambda: Trajectory([0, 1], [[0] * 6] * 3),
+        InvalidTrajectory, "do not fit", "times of shape"),
+    "a name twice": (
+        lambda: Trajectory([0, 1], [[0] * 2] * 2, ["a", "a"]),
+        InvalidTrajectory, "there twice: a", ""),
+    "too few names": (
+        lambda: Trajectory([0, 1], ZEROS, ["a"]), InvalidTrajectory, "6 columns for 1", ""),
+    "a file that is not there": (
+        lambda: Trajectory.from_csv("x.csv"), InvalidTrajectory, "cannot read x.csv", "path"),
+    "joints as a text": (
+        lambda: Program().move_joints("0,0,0,0,0,0"),
+        InvalidProgram, "'0,0,0,0,0,0' are no joints", "numbers in rad"),
+    "joints as nothing": (
+        lambda: Program().move_joints(None),
+        InvalidProgram, "None are no joints", "numbers in rad"),
+    "a place for a pose": (
+        lambda: Program().move_linear((0.3, 0, 0.5)), InvalidProgram, "is no pose", "quaternion"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("case", WRONG)
+def test_typed_wrong(case):
+    call, kind, told, mend = WRONG[case]
+    with pytest.raises(kind) as caught:
+        call()
+    assert told in str(caught.value)
+    assert mend in " ".join(d.help for d in caught.value.diagnostics)
+
+
+def test_one_file_is_no_list_of_files():
+    with pytest.raises(TypeError, match=r"files are a list.*\['good.mod'\]"):
+        VirtualController.from_files("good.mod")
