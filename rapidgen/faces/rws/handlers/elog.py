@@ -103,7 +103,7 @@ def clear_all(office: "Office", asked: RwsRequest) -> None:
 
 
 @serves(ops.ELOG_NUMBER)
-def get_by_number(office: "Office", asked: RwsRequest) -> Served:
+def get_by_number(office: "Office", asked: RwsRequest) -> Served | None:
     """One entry, whatever its domain."""
     return get_event(office, replace(asked, names={"domain": _ALL, **asked.names}))
 

@@ -97,7 +97,8 @@ def get_range(office: "Office", asked: RwsRequest) -> Served:
 @serves(ops.TEXT_SEARCH)
 def search(office: "Office", asked: RwsRequest) -> Served:
     """Where a text stands, whatever its case."""
-    wanted, found = asked.query.get("text", "").lower(), []
+    wanted = asked.query.get("text", "").lower()
+    found: list[Item] = []
     if not wanted:
         raise Denied(400, "E_INVALIDARG", "text")
     for number, row in enumerate(_module(office, asked).text.splitlines(), 1):
