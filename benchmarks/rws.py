@@ -262,7 +262,7 @@ def main():
         each, rate = cpu(generation)
         print(f"RWS {generation.value}, 8 threads: {json.dumps(ceiling(generation))}")
         print(f"RWS {generation.value}: {each:.2f} ms of CPU a request, {rate:.0f} a second")
-    for generation in (Generation.ONE, Generation.TWO):
+    for generation in Generation:
         told = events(generation, chosen.sockets, chosen.seconds)
         print(f"RWS {generation.value}, {chosen.sockets} websockets: {json.dumps(told)}")
 

@@ -125,8 +125,6 @@ def _robots(
     robots = []
     for name in [group] if group else groups_of(target):
         robot = Robot(target, address=to or None, group=name, watch=True, reconnect=reconnect)
-        if not take:
-            _refuse_plain(robot.address)
         stack.enter_context(robot)
         if not (take or robot.driver.is_rapidgen):
             raise _plain(robot.address)
@@ -150,22 +148,11 @@ def _known(target: str, group: str, robot: "Robot") -> "GroupConfig":
     return GroupConfig(robot.group.name or "robot", "", "", robot.group.map.joints, Ports())
 
 
-def _refuse_plain(address: "Address") -> None:
-    """Refuse what has no control port, before its state port is touched."""
-    import socket
-
-    try:
-        socket.create_connection((address.host, address.control), _LOOK).close()
-    except OSError as fault:
-        raise _plain(address) from fault
-
-
 def _plain(address: "Address") -> Exception:
     return refusal(
         "RG923",
         None,
-        f"{address} has no control port: either nothing runs there, or a driver that serves one "
-        "client, whose place looking would take",
+        f"{address} does not answer HELLO and may serve one client: looking would take its place",
         "with `--take` it is taken, and a program that moves the robot then stops it",
         exit_code=1,
     )

@@ -11,18 +11,30 @@ import uuid
 import weakref
 from collections.abc import Callable
 from pathlib import Path
+from typing import NamedTuple
 
 from rapidgen.controller.booting import Bootable
 from rapidgen.controller.controller import Choices, VirtualController
 from rapidgen.controller.debugger.breakpoints import Breakpoint
 from rapidgen.controller.programs import Programs
-from rapidgen.controller.rebooting import boot
+from rapidgen.controller.rebooting import Kept, boot
+from rapidgen.diagnostics import Diagnostic
 from rapidgen.python310 import Self, Unpack
+from rapidgen.system import read_backup
+from rapidgen.system.backup import backup_cfg
 from rapidgen.system.compose import eio_cfg, sys_cfg
 from rapidgen.system.controller_cfg import ControllerCfg
 from rapidgen.system.model import System
 
 _NS = 1_000_000_000
+
+
+class Restored(NamedTuple):
+    """What the next restart takes from a backup."""
+
+    kept: Kept
+    cfg: ControllerCfg
+    home: Path
 
 
 class Cabinet:
@@ -57,6 +69,7 @@ class Cabinet:
         """Called when the new controller is there."""
         self._before = 0
         self._restart_asked = False
+        self._restored: Restored | None = None
         self._lock = threading.Lock()
         self._up = True
         self._thread: threading.Thread | None = None
@@ -87,6 +100,17 @@ class Cabinet:
         """Restart as soon as what is being done is done."""
         self._restart_asked = True
 
+    def ask_restore(self, backup: Path) -> None:
+        """Restart with the modules, the cfg and the HOME of a backup. DiagnosticError: it is none.
+
+        The robots stay what they are, and where they are.
+        """
+        notes: list[Diagnostic] = []
+        system = read_backup(backup, notes=notes)
+        cfg = backup_cfg(backup, self.controller.system.robotware, notes)
+        self._restored = Restored({t.name: t.modules for t in system.tasks}, cfg, backup / "HOME")
+        self.ask_restart()
+
     def run(self, ended: Callable[[], bool]) -> None:
         """Let time pass, over restarts, until `ended()`."""
         while not ended():
@@ -104,6 +128,12 @@ class Cabinet:
         self._before += old.scheduler.now
         kept = programs.kept()
         old.close()
+        if self._restored is not None:
+            kept, self.cfg, files = self._restored
+            home = old.files.path("HOME:")
+            shutil.rmtree(home)
+            shutil.copytree(files, home)
+            self._restored = None
         self.restarts += 1
         self.controller, self.programs = boot(old, kept, self.cfg, self._options)
         self._set_going()

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from rapidgen.controller.controller import VirtualController
 from rapidgen.diagnostics import Diagnostic, Severity, error
+from rapidgen.machine.scheduler import WaitSet
 from rapidgen.runtime.compiler.missing import missing_routines
 from rapidgen.runtime.compiler.symbols import LoadedModule, Routine
 from rapidgen.runtime.loading import LARGEST_MODULE, module_text
@@ -50,6 +51,10 @@ class Programs:
             name: {} for name in controller.rapid_tasks
         }
         """By task, by lower-case name."""
+        self.changes = dict.fromkeys(controller.rapid_tasks, 0)
+        """How often modules of a task were put in or taken out."""
+        self.changed = WaitSet()
+        """Notified then."""
 
     @property
     def is_stopped(self) -> bool:
@@ -84,11 +89,17 @@ class Programs:
             data = path.read_bytes()
         except OSError as error:
             raise CannotLoad("E_FILE_NOT_FOUND") from error
+        return self.put(task, ModuleFile(path.stem, words, data), replaced=replaced)
+
+    def put(self, task: Task, module: ModuleFile, *, replaced: bool) -> str:
+        """Put a module into a task, as its own text names it; its name. CannotLoad."""
+        if not self.is_stopped:
+            raise CannotLoad("E_EXEC_STATE")
+        words, data = module.path, module.data
         if len(data) > LARGEST_MODULE:
             raise CannotLoad("E_TOO_BIG_MODULE")
-        name = path.stem
-        tree = self._controller.parse_module(ModuleFile(name, words, data))
-        name = tree.name or name
+        tree = self._controller.parse_module(module)
+        name = tree.name or module.name
         file = ModuleFile(name, words, data)
         wrong = tuple(d for d in tree.diagnostics if d.severity is Severity.ERROR)
         here = self.broken[task.name]
@@ -108,12 +119,14 @@ class Programs:
         elif wrong:
             here[name.lower()] = UnlinkedModule(file, wrong)
         self._find_entry(task)
+        self._count(task)
         return name
 
     def unload(self, task: Task, name: str) -> None:
         """Take a module out of a task. CannotLoad."""
         if not self.is_stopped:
             raise CannotLoad("E_EXEC_STATE")
+        self._count(task)
         if self.broken[task.name].pop(name.lower(), None) is not None:
             return
         module = task.program.modules.get(name.lower())
@@ -125,6 +138,10 @@ class Programs:
             raise CannotLoad("E_EXEC_STATE")
         self._take_out(task, name)
         self._find_entry(task)
+
+    def _count(self, task: Task) -> None:
+        self.changes[task.name] += 1
+        self.changed.notify()
 
     def _take_out(self, task: Task, name: str) -> None:
         """Unlink a module. A persistent that nobody declares any more loses its value."""

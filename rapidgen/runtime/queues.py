@@ -78,6 +78,21 @@ class QueueSystem:
         """Queue of a task."""
         return self._queues.setdefault(self.slot_name(task).lower(), Queue())
 
+    def named(self, slot: str) -> Queue | None:
+        """The queue of a name; None: there is none."""
+        return self._queues.get(slot.lower())
+
+    def open(self, slot: str, spec: QueueSpec) -> Queue:
+        """A queue of somebody outside, whom tasks can answer. ValueError: the name is taken."""
+        if slot.lower() in self._queues:
+            raise ValueError(slot)
+        queue = self._queues[slot.lower()] = Queue(spec)
+        return queue
+
+    def close(self, slot: str) -> None:
+        """No more of a queue that was opened."""
+        self._queues.pop(slot.lower(), None)
+
     def send(self, slot: str, message: Message) -> None:
         """Put a message into a queue; ERR_RMQ_INVALID, ERR_RMQ_MSGSIZE, ERR_RMQ_FULL."""
         if not slot:

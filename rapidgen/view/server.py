@@ -6,9 +6,7 @@ Files are those that were there when it began, by name: no path of a request rea
 import asyncio
 import logging
 import struct
-import threading
 from collections.abc import Awaitable, Callable, Mapping
-from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
@@ -18,6 +16,7 @@ from typing import Final
 from aiohttp import WSMsgType, web
 
 from rapidgen.diagnostics import refusal
+from rapidgen.faces.web_thread import WebThread
 from rapidgen.view.aspect import Viewed
 from rapidgen.view.doorkeeper import HEADERS, Doorkeeper
 from rapidgen.view.hub import Hub, Parcel
@@ -114,11 +113,9 @@ class _Server:
     ) -> None:
         self.hub = Hub(watched, self._tell)
         self.door = Doorkeeper()
-        self.port = 0
         self._watched = watched
         self._assets = assets
         self._files = files
-        self._loop = asyncio.new_event_loop()
         self._viewers: dict[_Viewer, web.WebSocketResponse] = {}
         self._looked = True
         app = web.Application(middlewares=[self._guarded], client_max_size=65_536)
@@ -128,18 +125,15 @@ class _Server:
         app.router.add_get("/link", self._link)
         app.router.add_get("/files/{name}", self._file)
         app.router.add_get("/{name}", self._asset)
-        self._runner = web.AppRunner(app, access_log=None, shutdown_timeout=0.05)
-        self._thread: threading.Thread | None = None
+        self._thread = WebThread(app)
 
     # -- the thread ------------------------------------------------------------------------------
 
     def start(self, host: str, port: int) -> None:
         """Open the port and begin to look."""
         try:
-            self._loop.run_until_complete(self._open(host, port))
+            self._thread.start("view", host, port)
         except OSError as error:
-            self._loop.run_until_complete(self._runner.cleanup())
-            self._loop.close()
             raise refusal(
                 "RG921",
                 None,
@@ -148,42 +142,24 @@ class _Server:
                 exit_code=1,
             ) from error
         self.hub.renew()
-        self._thread = threading.Thread(target=self._run, name=f"view:{self.port}", daemon=True)
-        self._thread.start()
+        self._thread.soon(self._look)
 
-    async def _open(self, host: str, port: int) -> None:
-        await self._runner.setup()
-        site = web.TCPSite(self._runner, host, port)
-        await site.start()
-        self.port = self._runner.addresses[0][1]
-
-    def _run(self) -> None:
-        self._loop.call_soon(self._look)
-        self._loop.run_forever()
+    @property
+    def port(self) -> int:
+        """Where it listens."""
+        return self._thread.port
 
     def stop(self) -> None:
         """Close the port; a second call does nothing."""
-        thread, self._thread = self._thread, None
-        if thread is None:
-            return
-        asyncio.run_coroutine_threadsafe(self._close(), self._loop).result()
-        self._loop.call_soon_threadsafe(self._loop.stop)
-        thread.join()
-        self._loop.close()
+        self._thread.stop(self._close)
 
     async def _close(self) -> None:
         for socket in tuple(self._viewers.values()):
             await socket.close()
-        await self._runner.cleanup()
-
-    def _soon(self, function: Callable[[], object]) -> None:
-        """Run a function on the loop; nobody is there to hear of it once that is closed."""
-        with suppress(RuntimeError):
-            self._loop.call_soon_threadsafe(function)
 
     def _look(self) -> None:
         """Ask for a look, unless nobody views or the last one has not been had."""
-        self._loop.call_later(LOOKS, self._look)
+        self._thread.loop.call_later(LOOKS, self._look)
         if not self._viewers or not self._looked:
             return
         self._looked = False
@@ -242,10 +218,10 @@ class _Server:
         viewer = _Viewer(request.transport)
 
         def join() -> None:
-            self._soon(partial(self._begin, viewer, self.hub.join()))
+            self._thread.soon(partial(self._begin, viewer, self.hub.join()))
 
         def ask(text: str) -> None:
-            self._soon(partial(viewer.send, _frame(self.hub.ask(text).data)))
+            self._thread.soon(partial(viewer.send, _frame(self.hub.ask(text).data)))
 
         self._viewers[viewer] = socket
         _LOG.info("a page looks: %d now", len(self._viewers))
@@ -264,7 +240,7 @@ class _Server:
         viewer.knows = True
 
     def _tell(self, parcel: Parcel) -> None:
-        self._soon(partial(self._broadcast, _frame(parcel.data), parcel.passing))
+        self._thread.soon(partial(self._broadcast, _frame(parcel.data), parcel.passing))
 
     def _broadcast(self, frame: bytes, passing: bool) -> None:
         for viewer in self._viewers:

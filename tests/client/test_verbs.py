@@ -5,6 +5,7 @@ import json
 import re
 import struct
 from datetime import datetime, timezone
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -364,3 +365,15 @@ def test_in_a_pipe_a_line_tells_how_far_it_is(monkeypatch, capsys):
     assert following.follow(Execution()) == "done"
     assert capsys.readouterr().err == ""
     set_up([])
+
+
+# -- view ------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("rapidgen", "code"), [(True, "RG920"), (False, "RG923")])
+def test_looking_takes_no_place_that_is_the_only_one(rapidgen, code, capsys, monkeypatch):
+    """A driver without a control port (`profile: basic`) is told from a plain one by HELLO."""
+    monkeypatch.setattr("rapidgen.view.server.ASSETS", Path("nowhere"))
+    with FakeController(rapidgen=rapidgen, control=False) as fake:
+        assert main(["view", fake.address]) == 1
+    assert code in capsys.readouterr().err

@@ -1,8 +1,5 @@
 """`rapidgen view`: a robot is watched, and nothing of it can be moved from the page."""
 
-import subprocess
-import sys
-
 import pytest
 
 from tests.view.bench import STATE, served, until
@@ -34,16 +31,3 @@ def test_a_robot_is_watched_and_not_moved(irb120, open_page):
         text = page.evaluate("request => rapidgen.link.ask(request)", copy)
         assert text.endswith(",[9E9,9E9,9E9,9E9,9E9,9E9]]")
         page.close()
-
-
-def test_the_place_of_a_plain_driver_is_not_taken_unasked():
-    """No control port: its state port is not even touched."""
-    done = subprocess.run(
-        [sys.executable, "-m", "rapidgen.cli", "view", "irb120", "--to", "127.0.0.1:9,9,9"],
-        capture_output=True,
-        text=True,
-        timeout=60,
-    )
-    assert (done.returncode, done.stdout) == (1, "")
-    assert "RG923" in done.stderr
-    assert "--take" in done.stderr

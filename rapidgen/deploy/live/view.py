@@ -116,12 +116,18 @@ def look(
         tuple(_rows(services, references)),
         {t.casefold(): tuple(m.name for m in services.modules(t)) for t in mine},
         {
-            # A cut may leave old and new modules in what a restart keeps; others are read whole.
-            t.casefold(): build_in(services, t, symbols.get(t, ())[: None if t in normal else 1])
+            # A cut may leave old and new modules in what a restart keeps. Others are read from
+            # files, but for the one whose file was not there just then: the one that is switched
+            # last, which is loaded first.
+            t.casefold(): build_in(services, t, _some(symbols.get(t, ()), whole=t in normal))
             for t in mine
         },
         services.grants(),
     )
+
+
+def _some(symbols: Sequence[str], *, whole: bool) -> Sequence[str]:
+    return symbols if whole or len(symbols) < 3 else (symbols[0], symbols[-1])
 
 
 def build_in(services: "Controller", task: str, symbols: Sequence[str]) -> str:

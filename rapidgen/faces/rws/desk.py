@@ -1,7 +1,7 @@
 """The face without a network: a request in, an answer out, on the controller's thread.
 
 Strict is what controllers are: versions in media types (406, 415), verbs in their place (405),
-20 requests a second, 70 sessions, mastership.
+20 requests a second of RWS 1.0, 70 sessions, mastership.
 """
 
 import secrets
@@ -37,11 +37,13 @@ class Desk:
     ) -> None:
         self.office = office = Office(cabinet, generation, login, strict=strict)
         self.generation = generation
-        self.sessions = Sessions(lambda: cabinet.now, strict=strict)
+        # The ceiling is that of RWS 1.0 [RWS manual].
+        self.sessions = Sessions(lambda: cabinet.now, limited=strict and self.is_one)
         self.groups = office.groups = Groups(
             generation, lambda: cabinet.controller.scheduler, partial(watched, office)
         )
         office.end_session = self.sessions.end
+        office.sessions = self.sessions.all
         self._users = login.users
         self._strict = strict
         self._key = secrets.randbelow(10**9) * 10**6
@@ -49,6 +51,8 @@ class Desk:
         self._connections: dict[str, Session] = {}
         """Sessions by the cookie of the TCP connection."""
         cabinet.on_restart.append(self._restarted)
+        cabinet.on_boot.append(self._booted)
+        self._booted()
 
     @property
     def is_one(self) -> bool:
@@ -65,6 +69,10 @@ class Desk:
             if session is not None and session.user != user:
                 return None
         return session
+
+    def _booted(self) -> None:
+        """Dialogs of programs can be answered from now on."""
+        self.office.controller.operator.attach()
 
     def _restarted(self) -> None:
         self.groups.end_all()
@@ -147,10 +155,11 @@ class Desk:
         syntax: Syntax | None,
     ) -> Served:
         files = path.startswith("/fileservice")
-        if syntax is None and not (files and got.method in ("GET", "PUT")):
+        if syntax is None and not (files and got.method in ("GET", "HEAD", "PUT")):
             raise Denied(406, "E_INVALIDARG", "cannot generate response for given accept header")
         self._check_type(got, files)
-        found = find(self.generation, got.method, path, query.get("action", ""))
+        method = "GET" if got.method == "HEAD" else got.method
+        found = find(self.generation, method, path, query)
         if found.handler is None:
             if found.allowed:
                 raise Denied(405, "E_INVALIDARG", f"{got.method} {path}")
@@ -172,7 +181,7 @@ class Desk:
 
     def _check_type(self, got: Received, files: bool) -> None:
         """406 for a request without the type that RWS 2.0 wants, 415 for a file of another."""
-        if got.method in ("GET", "OPTIONS") or not self._strict:
+        if got.method in ("GET", "HEAD", "OPTIONS") or not self._strict:
             return
         sent = plain(got.headers.get("content-type", ""))
         if self.generation is Generation.ONE:

@@ -10,6 +10,7 @@ from typing import Literal
 from rapidgen.faces.rws.asking import Denied, RwsRequest
 from rapidgen.faces.rws.rmmp import ManualPrivilege, Privilege
 from rapidgen.faces.rws.sessions import Session
+from rapidgen.machine.scheduler import WaitSet
 from rapidgen.wire.rws.bodies import Generation
 
 Domain = Literal["cfg", "motion", "rapid"]
@@ -32,6 +33,8 @@ class Masters:
         self.manual = manual
         self._strict = strict
         self.holders: dict[str, Session] = {}
+        self.changed = WaitSet()
+        """Notified when a domain is taken or given back."""
         self.stations: dict[str, str] = {}
         """Names of control stations by their id."""
         self.station = ""
@@ -50,6 +53,7 @@ class Masters:
         holder = self.holders.get(domain)
         if holder is None:
             self.holders[domain] = session
+            self.changed.notify()
             session.on_end.append(lambda: self._drop(domain, session))
         elif holder is not session:
             raise Denied(403, "E_RESOURCE_HELD", f"mastership of {domain} is held", -1)
@@ -60,10 +64,12 @@ class Masters:
         if self.holders.get(domain) is not session:
             raise Denied(403, "E_RESOURCE_NOT_HELD", f"mastership of {domain} is not held", -1)
         del self.holders[domain]
+        self.changed.notify()
 
     def _drop(self, domain: str, session: Session) -> None:
         if self.holders.get(domain) is session:
             del self.holders[domain]
+            self.changed.notify()
 
     def _check(self, domain: str) -> None:
         if domain not in self.domains:

@@ -7,6 +7,7 @@ from pathlib import Path
 from rapidgen.controller.cabinet import Cabinet
 from rapidgen.controller.controller import VirtualController
 from rapidgen.faces.rws.asking import Denied, Served
+from rapidgen.faces.rws.client_queues import ClientQueue
 from rapidgen.faces.rws.mastership import Masters
 from rapidgen.faces.rws.rmmp import ManualPrivilege
 from rapidgen.faces.rws.sessions import Session
@@ -36,6 +37,8 @@ class Office:
     """Subscriptions."""
     end_session: Callable[[Session], None]
     """A user logs out."""
+    sessions: Callable[[], tuple[Session, ...]]
+    """Who is logged in."""
 
     def __init__(
         self, cabinet: Cabinet, generation: Generation, login: Accounts, *, strict: bool
@@ -47,6 +50,18 @@ class Office:
         self.masters = self._new_masters()
         self.progress: dict[str, int] = {}
         """Result codes of jobs by number."""
+        self.dialogs: dict[int, str] = {}
+        """Answers to dialogs by number, until they are complete."""
+        self.queues: dict[str, ClientQueue] = {}
+        """Message queues of clients, by name in lower case."""
+        self.chosen: dict[str, dict[str, str]] = {}
+        """What clients have chosen for jogging, by mechanical unit: tool, wobj, ..."""
+        self.led: set[str] = set()
+        """Units that are led by hand."""
+        self.program_names: dict[str, str] = {}
+        """Names of program files that were loaded, by task."""
+        self.mode_lock = ""
+        """`Temporary`, `Permanent`, or nothing: whether the operating mode is locked by a pin."""
 
     @property
     def controller(self) -> VirtualController:
@@ -60,7 +75,8 @@ class Office:
     def restarted(self) -> None:
         """Nothing is held and nothing is under way any more."""
         self.masters = self._new_masters()
-        self.progress.clear()
+        for state in (self.progress, self.dialogs, self.queues, self.chosen, self.led):
+            state.clear()
 
     def started(self, refused: str) -> Served:
         """The answer to a job that has come to its end already: refused by a code's name, or not.

@@ -55,17 +55,24 @@ def _rows(generation: Generation) -> tuple[_Row, ...]:
     routes = [(operation.route(generation), operation, handler) for operation, handler in _TABLE]
     rows = [_Row(r.pattern, r, handler, operation) for r, operation, handler in routes if r]
     # What names more of its path goes first: `/ctrl/identity` before `/ctrl/{variable}`.
-    return tuple(sorted(rows, key=lambda row: (row.route.path.count("{"), "*" in row.route.path)))
+    return tuple(sorted(rows, key=_vagueness))
 
 
-def find(generation: Generation, method: str, path: str, action: str) -> Lookup:
+def _vagueness(row: _Row) -> tuple[int, bool, int, bool]:
+    path = row.route.path
+    return path.count("{"), "*" in path, -len(path), not row.route.selector
+
+
+def find(generation: Generation, method: str, path: str, query: Mapping[str, str]) -> Lookup:
     """The handler of a request. With none, `allowed` empty is 404, else 405."""
+    action = f"action={query['action']}" if query.get("action") else ""
+    asked = (action,) if action else (f"resource={query.get('resource', '')}", "")
     allowed: list[str] = []
     for row in _rows(generation):
         match = row.pattern.fullmatch(path)
         if match is None:
             continue
-        if row.route.method == method and row.route.action == action:
+        if row.route.method == method and row.route.selector in asked:
             return Lookup(row.handler, match.groupdict(), operation=row.operation)
         allowed.append(row.route.method)
     return Lookup(None, {}, tuple(dict.fromkeys(allowed)))

@@ -5,9 +5,7 @@ RWS 1.0 is plain HTTP, 2.0 is HTTPS with a certificate that the controller signe
 
 import asyncio
 import logging
-import threading
 from collections.abc import Callable
-from contextlib import suppress
 from itertools import count
 
 from aiohttp import WSCloseCode, WSMsgType, web
@@ -18,6 +16,7 @@ from rapidgen.faces.rws.certificate import Certificate, self_signed
 from rapidgen.faces.rws.desk import Desk
 from rapidgen.faces.rws.office import Accounts
 from rapidgen.faces.service import Service, in_use, loopback
+from rapidgen.faces.web_thread import WebThread
 from rapidgen.wire.rws.bodies import Generation
 from rapidgen.wire.rws.events import PROTOCOLS
 
@@ -62,13 +61,10 @@ class _Server:
     def __init__(self, desk: Desk, certificate: Certificate | None) -> None:
         self._desk = desk
         self._certificate = certificate
-        self._loop = asyncio.new_event_loop()
         self._connections = count(1)
         self._numbers: dict[asyncio.BaseTransport, int] = {}
         self._pending: set[asyncio.Future[HttpReply]] = set()
-        self._runner = web.AppRunner(self._app(), access_log=None, shutdown_timeout=0.05)
-        self._thread: threading.Thread | None = None
-        self.port = 0
+        self._thread = WebThread(self._app())
         desk.office.cabinet.on_restart.append(self._restarting)
 
     def _app(self) -> web.Application:
@@ -81,45 +77,26 @@ class _Server:
 
     def start(self, host: str, port: int) -> None:
         """Open the port. Raises DiagnosticError RG561."""
-        try:
-            self._loop.run_until_complete(self._open(host, port))
-        except OSError as error:
-            self._loop.run_until_complete(self._runner.cleanup())
-            self._loop.close()
-            raise in_use(host, port, error) from error
-        self._thread = threading.Thread(
-            target=self._loop.run_forever, name=f"rws:{self.port}", daemon=True
-        )
-        self._thread.start()
-
-    async def _open(self, host: str, port: int) -> None:
-        await self._runner.setup()
         context = self._certificate.context() if self._certificate else None
-        site = web.TCPSite(self._runner, host, port, ssl_context=context)
-        await site.start()
-        self.port = self._runner.addresses[0][1]
+        try:
+            self._thread.start("rws", host, port, context)
+        except OSError as error:
+            raise in_use(host, port, error) from error
+
+    @property
+    def port(self) -> int:
+        """Where it listens."""
+        return self._thread.port
 
     def stop(self) -> None:
         """Close the port and every connection; a second call does nothing."""
-        thread, self._thread = self._thread, None
-        if thread is None:
-            return
-        asyncio.run_coroutine_threadsafe(self._close(), self._loop).result()
-        self._loop.call_soon_threadsafe(self._loop.stop)
-        thread.join()
-        self._loop.close()
+        self._thread.stop(self._close)
 
     async def _close(self) -> None:
         self._give_up()
-        await self._runner.cleanup()
 
     def _restarting(self) -> None:
-        self._soon(self._give_up)
-
-    def _soon(self, function: Callable[[], None]) -> None:
-        """Run a function on the loop; nobody is there to hear of it once that is closed."""
-        with suppress(RuntimeError):
-            self._loop.call_soon_threadsafe(function)
+        self._thread.soon(self._give_up)
 
     def _give_up(self) -> None:
         """Nobody will answer what was asked: the controller restarts."""
@@ -153,7 +130,7 @@ class _Server:
 
     async def _on_controller(self, function: Callable[[], HttpReply]) -> HttpReply:
         """The outcome of a function on the controller's thread; 503 while it restarts."""
-        future: asyncio.Future[HttpReply] = self._loop.create_future()
+        future: asyncio.Future[HttpReply] = self._thread.loop.create_future()
 
         def settle(reply: HttpReply) -> None:
             if not future.done():
@@ -164,7 +141,7 @@ class _Server:
             try:
                 reply = function()
             finally:
-                self._soon(lambda: settle(reply))
+                self._thread.soon(lambda: settle(reply))
 
         self._pending.add(future)
         try:
@@ -186,7 +163,7 @@ class _Server:
         events: asyncio.Queue[bytes | None] = asyncio.Queue()
 
         def send(event: bytes | None) -> None:
-            self._soon(lambda: events.put_nowait(event))
+            self._thread.soon(lambda: events.put_nowait(event))
 
         def listen() -> HttpReply:
             session = self._desk.session_of(got)

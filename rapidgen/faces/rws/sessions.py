@@ -35,9 +35,10 @@ class Session:
 class Sessions:
     """All sessions of a face."""
 
-    def __init__(self, clock: Callable[[], float], *, strict: bool = True) -> None:
+    def __init__(self, clock: Callable[[], float], *, limited: bool = True) -> None:
+        """`limited`: there may be RATE requests in a second."""
         self._clock = clock
-        self._strict = strict
+        self._limited = limited
         self._sessions: dict[str, Session] = {}
         self._recent: deque[float] = deque()
         self._made = 0
@@ -45,9 +46,14 @@ class Sessions:
     def __len__(self) -> int:
         return len(self._sessions)
 
+    def all(self) -> tuple[Session, ...]:
+        """All of them, in the order in which they began."""
+        self._expire()
+        return tuple(self._sessions.values())
+
     def is_too_fast(self) -> bool:
         """Count a request; whether it is one too many in this second."""
-        if not self._strict:
+        if not self._limited:
             return False
         now = self._clock()
         while self._recent and self._recent[0] <= now - 1:

@@ -82,10 +82,13 @@ class Groups:
             raise Denied(404, "E_UNRESOLVED_URL", f"no subscription {number}")
         return group
 
+    def of(self, session: Session) -> list[EventGroup]:
+        """Groups of a session."""
+        return [group for group in self._groups.values() if group.session is session]
+
     def begin(self, asked: RwsRequest, wanted: Iterable[WantedResource]) -> EventGroup:
         """A new group. Denied: too many, or something that cannot be watched."""
-        own = sum(g.session is asked.session for g in self._groups.values())
-        if own >= MOST_GROUPS:
+        if len(self.of(asked.session)) >= MOST_GROUPS:
             raise Denied(503, "E_MAX_LIMIT_REACHED", "two groups are the most")
         self._made += 1
         group = EventGroup(self._made, asked.session)

@@ -6,7 +6,16 @@ from typing import TYPE_CHECKING
 from urllib.parse import unquote
 
 from rapidgen.faces.rws.asking import Denied, RwsRequest
-from rapidgen.faces.rws.handlers import execution, panel, signals, symbols, tasks
+from rapidgen.faces.rws.handlers import (
+    dialogs,
+    execution,
+    panel,
+    pointers,
+    queues,
+    signals,
+    symbols,
+    tasks,
+)
 from rapidgen.faces.rws.subscriptions import Told, Watched
 from rapidgen.machine.log import Event
 from rapidgen.machine.scheduler import WaitSet
@@ -86,15 +95,144 @@ def _execution(
 
 
 def _task(office: "Office", asked: RwsRequest, text: str, suffix: str, m: re.Match[str]) -> Watched:
-    task = tasks.find_task(office, m["task"], asked)
+    task, programs = tasks.find_task(office, m["task"], asked), office.cabinet.programs
+    if suffix == "taskchange":
+
+        def change() -> Item:
+            told = {"change-count": str(programs.changes[task.name]), "task-name": task.name}
+            return Item(
+                "rap-task-ev", "taskchange", {**told, "changetype": "module"}, {"self": text}
+            )
+
+        return _on(programs.changed, lambda: programs.changes[task.name], change)
     if suffix != "excstate":
         raise Denied(400, "E_INVALIDARG", f"cannot be subscribed: {text}")
 
     def item() -> Item:
-        state = {"excstate": tasks.execution_state(task, asked)}
-        return Item("rap-execstate-ev", task.name, state, {"self": text})
+        told = {"task-name": task.name, "pgmtaskexec-state": tasks.execution_state(task, asked)}
+        return Item("rap-execstate-ev", "execstatechange", told, {"self": text})
 
     return _on(office.controller.operation.changed, lambda: task.state, item)
+
+
+def _tasks(
+    office: "Office", _asked: RwsRequest, text: str, suffix: str, _m: re.Match[str]
+) -> Watched:
+    programs = office.cabinet.programs
+    if suffix != "buildlogchange":
+        raise Denied(400, "E_INVALIDARG", f"cannot be subscribed: {text}")
+
+    def item() -> Item:
+        count = str(sum(programs.changes.values()))
+        return Item("rap-buildlog-ev", "buildlogchange", {"change-count": count}, {"self": text})
+
+    return _on(programs.changed, lambda: sum(programs.changes.values()), item)
+
+
+_POINTERS = {
+    "programpointerchange": ("rap-pp-ev", "pp"), "motionpointerchange": ("rap-mp-ev", "mp"),
+}  # fmt: skip
+
+
+def _pointer(
+    office: "Office", asked: RwsRequest, text: str, suffix: str, m: re.Match[str]
+) -> Watched:
+    task = tasks.find_task(office, m["task"], asked)
+    if suffix not in _POINTERS:
+        raise Denied(400, "E_INVALIDARG", f"cannot be subscribed: {text}")
+    kind, title = _POINTERS[suffix]
+
+    def item() -> Item:
+        place = pointers.place_of(task)
+        row, column = (place.span.line, place.span.column) if place else (0, 0)
+        told = {
+            "module-name": place.module if place else "",
+            "routine-name": place.routine if place else "",
+            "BegPosLine": str(row),
+            "BegPosCol": str(column),
+            "EndPosLine": str(row),
+            "EndPosCol": str(column),
+        }
+        return Item(kind, title, told, {"self": text})
+
+    return _on(office.controller.operation.changed, lambda: pointers.place_of(task), item)
+
+
+def _dialog(
+    office: "Office", _asked: RwsRequest, text: str, suffix: str, _m: re.Match[str]
+) -> Watched:
+    operator = office.controller.operator
+    if suffix != "uievent":
+        raise Denied(400, "E_INVALIDARG", f"cannot be subscribed: {text}")
+
+    def watch(told: Told) -> Callable[[], None]:
+        seen = {q.number: q for q in operator.questions if q.task}
+
+        def look() -> None:
+            now = {q.number: q for q in operator.questions if q.task}
+            gone = [q for number, q in seen.items() if number not in now and not q.answered]
+            new = [q for number, q in now.items() if number not in seen]
+            seen.clear()
+            seen.update(now)
+            for event, questions in (("ABORT", gone), ("SEND", new)):
+                for question in questions:
+                    told(Item("rap-ui-ev", "uiinstruction", dialogs.told(question, event)))
+
+        def written(task: str, line: str) -> None:
+            stack = {"stack": f"RAPID/{task}/", "execlv": "NORMAL", "msg": f'"{line}"'}
+            fields = {"instr": "TPWrite", "event": "POST", **stack}
+            told(Item("rap-ui-ev", "uiinstruction", fields))
+
+        def end() -> None:
+            operator.asked.remove(look)
+            no_more()
+
+        operator.asked.add(look)
+        no_more = operator.subscribe(written)
+        return end
+
+    return Watched(lambda: Item("rap-ui-ev"), watch, has_state=False)
+
+
+def _queue(
+    office: "Office", _asked: RwsRequest, text: str, suffix: str, m: re.Match[str]
+) -> Watched:
+    queue = queues.find(office, m["queue"])
+    if suffix not in ("", "nomessage"):
+        raise Denied(400, "E_INVALIDARG", f"cannot be subscribed: {text}")
+
+    def watch(told: Told) -> Callable[[], None]:
+        def look() -> None:
+            fields = {} if suffix else queues.taken(queue)
+            if fields is not None:
+                told(Item("dipc-msg-ev", "msg", fields, {"self": text}))
+
+        queue.queue.changed.add(look)
+        return lambda: queue.queue.changed.remove(look)
+
+    return Watched(lambda: Item("dipc-msg-ev"), watch, has_state=False)
+
+
+def _mastership(
+    office: "Office", _asked: RwsRequest, text: str, _suffix: str, m: re.Match[str]
+) -> Watched:
+    masters, domain = office.masters, m["domain"]
+    if domain not in masters.domains:
+        raise Denied(400, "E_INVALIDARG", f"cannot be subscribed: {text}")
+
+    def item() -> Item:
+        holder = masters.holders.get(domain)
+        told = {
+            "holdmastership": "TRUE" if holder else "FALSE",
+            "uid": str(holder.number if holder else 0),
+            "location": holder.location if holder else "",
+            "alias": (holder.alias or holder.user) if holder else "",
+            "application": holder.application if holder else "",
+            "mastership": "remote" if holder else "nomaster",
+        }
+        return Item("msh-resource-value", domain, told, {"self": text})
+
+    return _on(masters.changed, lambda: masters.holders.get(domain), item)
 
 
 def _signal(office: "Office", _a: RwsRequest, text: str, suffix: str, m: re.Match[str]) -> Watched:
@@ -169,7 +307,12 @@ _KINDS: tuple[tuple[str, _Make], ...] = (
         "pnl-speedratio-ev", "speedratio", lambda d: str(panel.speed(d.controller)))),
     (r"/rw/panel/coldetstate", _panel("pnl-coldetstate-ev", "coldetstate", lambda _: "INIT")),
     (r"/rw/rapid/execution", _execution),
+    (r"/rw/rapid/tasks", _tasks),
     (r"/rw/rapid/tasks/(?P<task>[^/]+)", _task),
+    (r"/rw/rapid/tasks/(?P<task>[^/]+)/pcp", _pointer),
+    (r"/rw/rapid/uiinstr", _dialog),
+    (r"/rw/dipc/(?P<queue>[^/]+)", _queue),
+    (r"/rw/mastership/(?P<domain>[^/]+)", _mastership),
     (r"/rw/iosystem/signals/(?P<signal>.+)", _signal),
     (r"/rw/rapid/symbol/data/RAPID/(?P<symbol>.+)", _symbol),
     (r"/rw/rapid/symbol/RAPID/(?P<symbol>.+)/data", _symbol),

@@ -28,24 +28,38 @@ _NEEDED: dict[str, tuple[RwsOperation, ...]] = {
         ops.START,
         ops.RESET_PP,
         ops.POINTER_TO_ROUTINE,
+        ops.POINTER_TO_CURSOR,
+        ops.POINTER_TO_MAIN,
+        ops.START_ENTRY,
         ops.SET_CYCLE,
         ops.ACTIVATE,
         ops.DEACTIVATE,
+        ops.ACTIVATE_ALL,
+        ops.DEACTIVATE_ALL,
     ),
-    "UAS_RAPID_LOADPROGRAM": (ops.LOAD_MODULE, ops.UNLOAD_MODULE),
+    "UAS_RAPID_LOADPROGRAM": (
+        ops.LOAD_MODULE,
+        ops.UNLOAD_MODULE,
+        ops.LOAD_PROGRAM,
+        ops.UNLOAD_PROGRAM,
+    ),
+    "UAS_RAPID_EDIT": (ops.SET_TEXT, ops.SET_TEXT_RANGE),
     "UAS_RAPID_CURRVALUE": (ops.SET_SYMBOL,),
     "UAS_IO_WRITE": (ops.SET_SIGNAL,),
     "UAS_SPEED_DECREASE": (ops.SET_SPEED,),
     "UAS_CFG_WRITE": (ops.CFG_SET, ops.CFG_CREATE, ops.CFG_DELETE, ops.CFG_LOAD),
     "UAS_REMOTE_WARMSTART": (ops.RESTART, ops.RESTART_AT_CTRL),
     "UAS_BACKUP": (ops.BACKUP,),
-    "UAS_EVENTLOG_CLEAR": (ops.CLEAR_ELOG,),
+    "UAS_RESTORE": (ops.RESTORE,),
+    "UAS_EVENTLOG_CLEAR": (ops.CLEAR_ELOG, ops.CLEAR_ELOGS),
+    "UAS_CONTROLLER_PROPERTIES_WRITE": (ops.SET_CLOCK,),
 }
 _OF: dict[RwsOperation, str] = {o: grant for grant, them in _NEEDED.items() for o in them}
+_REMOTE = (ops.START, ops.START_ENTRY, ops.STOP, ops.SET_CTRL_STATE)
 _READING = (ops.VOLUMES, ops.READ_FILE)
 _WRITING = (
     ops.WRITE_FILE, ops.DELETE_FILE, ops.FILE_ACTION, ops.CREATE_FOLDER, ops.COPY_FILE,
-    ops.RENAME_FILE, ops.SAVE_MODULE, ops.CFG_SAVE,
+    ops.RENAME_FILE, ops.SAVE_MODULE, ops.CFG_SAVE, ops.SAVE_PROGRAM, ops.SAVE_ELOG,
 )  # fmt: skip
 
 
@@ -65,7 +79,7 @@ def needed(operation: RwsOperation, generation: Generation) -> tuple[str, ...]:
         return (_FTP_READ if is_one else _READ,)
     if operation in _WRITING:
         return (_FTP_WRITE if is_one else _WRITE,)
-    remote = operation in (ops.START, ops.STOP, ops.SET_CTRL_STATE) and not is_one
+    remote = operation in _REMOTE and not is_one
     own = _OF.get(operation, "")
     return tuple(filter(None, (own, _REMOTE_START if remote else "")))
 

@@ -1,7 +1,8 @@
 """What can be asked of a controller: each operation once, as every generation spells it.
 
-`METHOD /path[?action=name]`; `{name}` is one segment, `{name*}` several. RWS 1.0 has verbs as
-`?action=`, RWS 2.0 as a last segment, with few exceptions. "-" is what a generation does not have.
+`METHOD /path[?action=name]`, or `?resource=name`; `{name}` is one segment, `{name*}` several. RWS
+1.0 has verbs as `?action=`, 2.0 as a last segment, with few exceptions. "-" is what a generation
+does not have.
 """
 
 import re
@@ -18,7 +19,8 @@ class Route:
 
     method: str
     path: str
-    action: str = ""
+    selector: str = ""
+    """`action=name` or `resource=name`: what of the path is meant."""
 
     def fill(self, names: dict[str, str]) -> str:
         """The request target for these names."""
@@ -26,7 +28,7 @@ class Route:
         for name, value in names.items():
             target = target.replace(f"{{{name}}}", segment(value))
             target = target.replace(f"{{{name}*}}", path_of(value))
-        return f"{target}?action={self.action}" if self.action else target
+        return f"{target}?{self.selector}" if self.selector else target
 
     @property
     def pattern(self) -> re.Pattern[str]:
@@ -62,8 +64,8 @@ def _route(operation: RwsOperation, generation: Generation) -> Route | None:
     if text == "-":
         return None
     method, _, target = text.partition(" ")
-    path, _, action = target.partition("?action=")
-    return Route(method, path, action)
+    path, _, selector = target.partition("?")
+    return Route(method, path, selector)
 
 
 def _same(text: str) -> RwsOperation:
@@ -81,6 +83,12 @@ RMMP_POLL = _same("GET /users/rmmp/poll")
 ASK_RMMP = _same("POST /users/rmmp")
 CANCEL_RMMP = RwsOperation("POST /users/rmmp?action=cancel", "POST /users/rmmp/cancel")
 RETCODE = _same("GET /rw/retcode")
+USERS = _same("GET /users")
+IMPERSONATE = RwsOperation("POST /users?action=impersonate", "POST /users/impersonate")
+SET_LOCALE = RwsOperation("POST /users?action=set-locale", "-")
+ALL_GRANTS = RwsOperation("-", "GET /uas/grants")
+PASSWORD_CHANGE = RwsOperation("-", "GET /uas/user/password-change-allow")
+GRANT_RMMP = RwsOperation("POST /users/rmmp?action=set", "-")
 
 # -- mastership, write access
 MASTERSHIPS = RwsOperation("GET /rw/mastership", "GET /rw/mastership")
@@ -100,6 +108,12 @@ WRITE_REQUEST = RwsOperation("-", "-", "POST /rw/controlstation/writeaccess/requ
 WRITE_RELEASE = RwsOperation("-", "-", "POST /rw/controlstation/writeaccess/release")
 MOTION_ALLOWED = RwsOperation("-", "-", "GET /rw/controlstation/allowmotioncontrol")
 ALLOW_MOTION = RwsOperation("-", "-", "POST /rw/controlstation/allowmotioncontrol")
+REQUEST_WITH_ID = RwsOperation("-", "POST /rw/mastership/{domain}/request-with-id")
+RELEASE_WITH_ID = RwsOperation("-", "POST /rw/mastership/{domain}/release-with-id")
+WATCHDOG = RwsOperation("-", "POST /rw/mastership/watchdog")
+STATION_TYPE = RwsOperation("-", "-", "GET /rw/controlstation/type")
+STATION_ID = RwsOperation("-", "-", "GET /rw/controlstation/id")
+LOCAL_STATION = RwsOperation("-", "-", "GET /rw/controlstation/local/isconnected")
 
 # -- panel
 CTRL_STATE = RwsOperation("GET /rw/panel/ctrlstate", "GET /rw/panel/ctrl-state")
@@ -110,7 +124,17 @@ OPMODE = _same("GET /rw/panel/opmode")
 SET_OPMODE = RwsOperation("POST /rw/panel/opmode?action=setopmode", "POST /rw/panel/opmode")
 SPEED = _same("GET /rw/panel/speedratio")
 SET_SPEED = _same("POST /rw/panel/speedratio?action=setspeedratio")
+SET_SPEED_PLAIN = RwsOperation("-", "POST /rw/panel/speedratio")
 COLLISION = _same("GET /rw/panel/coldetstate")
+PANEL = _same("GET /rw/panel")
+ACKNOWLEDGE = RwsOperation(
+    "POST /rw/panel/opmode?action=acknowledge", "POST /rw/panel/opmode/acknowledge"
+)
+LOCK_STATE = RwsOperation("-", "GET /rw/panel/opmode/lock-state")
+LOCK = RwsOperation("POST /rw/panel/opmode?action=lock", "POST /rw/panel/opmode/lock")
+UNLOCK = RwsOperation("POST /rw/panel/opmode?action=unlock", "POST /rw/panel/opmode/unlock")
+LANGUAGE = RwsOperation("POST /rw/panel?action=setlang", "POST /rw/panel/lang")
+EMERGENCY_STOP = RwsOperation("-", "POST /rw/panel/emergency-stop")
 
 # -- execution
 EXECUTION = _same("GET /rw/rapid/execution")
@@ -121,6 +145,9 @@ RESET_PP = RwsOperation(
 )
 SET_CYCLE = RwsOperation(
     "POST /rw/rapid/execution?action=setcycle", "POST /rw/rapid/execution/cycle"
+)
+START_ENTRY = RwsOperation(
+    "POST /rw/rapid/execution?action=startprodentry", "POST /rw/rapid/execution/startprodentry"
 )
 
 # -- tasks, modules, program
@@ -136,7 +163,10 @@ MODULES = RwsOperation("GET /rw/rapid/modules", "GET /rw/rapid/tasks/{task}/modu
 MODULE = RwsOperation(
     "GET /rw/rapid/modules/{module}", "GET /rw/rapid/tasks/{task}/modules/{module}"
 )
-MODULE_TEXT = RwsOperation("-", "GET /rw/rapid/tasks/{task}/modules/{module}/text")
+MODULE_TEXT = RwsOperation(
+    "GET /rw/rapid/modules/{module}?resource=module-text",
+    "GET /rw/rapid/tasks/{task}/modules/{module}/text",
+)
 LOAD_MODULE = RwsOperation(
     "POST /rw/rapid/tasks/{task}?action=loadmod", "POST /rw/rapid/tasks/{task}/loadmod"
 )
@@ -154,6 +184,62 @@ POINTER_TO_ROUTINE = RwsOperation(
     "POST /rw/rapid/tasks/{task}/pcp?action=set-pp-routine",
     "POST /rw/rapid/tasks/{task}/pcp/routine",
 )
+TASK_MOTION = _same("GET /rw/rapid/tasks/{task}/motion")
+ACTIVATE_ALL = RwsOperation("POST /rw/rapid/tasks?action=activate", "-")
+DEACTIVATE_ALL = RwsOperation("POST /rw/rapid/tasks?action=deactivate", "-")
+TASK_SELECTION = RwsOperation("-", "GET /rw/rapid/taskselection")
+CHANGE_COUNT = RwsOperation("-", "GET /rw/rapid/tasks/{task}/structural-changecount")
+ACTIVATION_RECORD = RwsOperation(
+    "GET /rw/rapid/tasks/{task}?resource=activation-record",
+    "GET /rw/rapid/tasks/{task}/activation-record",
+)
+ROUTINES = _same("GET /rw/rapid/tasks/{task}/serviceroutine")
+MODULE_COUNT = RwsOperation("-", "GET /rw/rapid/tasks/{task}/modules/{module}/changecount")
+TEXT_RANGE = RwsOperation("-", "GET /rw/rapid/tasks/{task}/modules/{module}/text/range")
+TEXT_SEARCH = RwsOperation("-", "GET /rw/rapid/tasks/{task}/modules/{module}/text/search")
+SET_TEXT = RwsOperation(
+    "POST /rw/rapid/modules/{module}?action=set-module-text",
+    "POST /rw/rapid/tasks/{task}/modules/{module}/text",
+)
+SET_TEXT_RANGE = RwsOperation(
+    "POST /rw/rapid/modules/{module}?action=set-text-range",
+    "POST /rw/rapid/tasks/{task}/modules/{module}/text/range",
+)
+LOAD_PROGRAM = RwsOperation(
+    "POST /rw/rapid/tasks/{task}/program?action=loadprog",
+    "POST /rw/rapid/tasks/{task}/program/load",
+)
+UNLOAD_PROGRAM = RwsOperation(
+    "POST /rw/rapid/tasks/{task}/program?action=unloadprog",
+    "POST /rw/rapid/tasks/{task}/program/unload",
+)
+SAVE_PROGRAM = RwsOperation(
+    "POST /rw/rapid/tasks/{task}/program?action=save",
+    "POST /rw/rapid/tasks/{task}/program/save",
+)
+COUNTER = RwsOperation("GET /rw/rapid/tasks/{task}/execution", "-")
+POINTER_TO_CURSOR = RwsOperation(
+    "POST /rw/rapid/tasks/{task}/pcp?action=set-pp-cursor",
+    "POST /rw/rapid/tasks/{task}/pcp/cursor",
+)
+POINTER_TO_MAIN = RwsOperation("-", "POST /rw/rapid/tasks/{task}/pcp/reset")
+
+# -- dialogs of the pendant
+DIALOG = _same("GET /rw/rapid/uiinstr/active")
+DIALOG_PARAMETERS = _same("GET /rw/rapid/uiinstr/active/params/{stack*}")
+DIALOG_PARAMETER = _same("GET /rw/rapid/uiinstr/active/param/{stack*}/{parameter}")
+SET_DIALOG_PARAMETER = RwsOperation(
+    "POST /rw/rapid/uiinstr/active/param/{stack*}/{parameter}?action=set",
+    "POST /rw/rapid/uiinstr/active/param/{stack*}/{parameter}",
+)
+
+# -- message queues
+QUEUES = _same("GET /rw/dipc")
+CREATE_QUEUE = RwsOperation("POST /rw/dipc?action=dipc-create", "POST /rw/dipc")
+SEND_MESSAGE = RwsOperation("POST /rw/dipc/{queue}?action=dipc-send", "POST /rw/dipc/{queue}")
+READ_MESSAGE = RwsOperation("GET /rw/dipc/{queue}?action=dipc-read", "GET /rw/dipc/{queue}")
+QUEUE = RwsOperation("GET /rw/dipc/{queue}", "GET /rw/dipc/{queue}/information")
+DELETE_QUEUE = _same("DELETE /rw/dipc/{queue}")
 
 # -- symbols
 SYMBOL = RwsOperation(
@@ -170,6 +256,11 @@ SYMBOL_PROPERTIES = RwsOperation(
 SEARCH_SYMBOLS = RwsOperation(
     "POST /rw/rapid/symbols?action=search-symbols", "POST /rw/rapid/symbols/search"
 )
+SET_INITIAL = RwsOperation("POST /rw/rapid/symbol/data/RAPID/{symbol*}?action=setInitValue", "-")
+VALIDATE_VALUE = RwsOperation(
+    "POST /rw/rapid/symbol/data?action=validate",
+    "POST /rw/rapid/symbol/RAPID/{task}/data?action=validate",
+)
 
 # -- signals
 NETWORKS = _same("GET /rw/iosystem/networks")
@@ -183,6 +274,16 @@ SET_SIGNAL = RwsOperation(
 SEARCH_SIGNALS = RwsOperation(
     "POST /rw/iosystem/signals?action=signal-search", "POST /rw/iosystem/signals/signal-search"
 )
+IO_SYSTEM = _same("GET /rw/iosystem")
+NETWORK = _same("GET /rw/iosystem/networks/{network}")
+DEVICE = _same("GET /rw/iosystem/devices/{device*}")
+SEARCH_NETWORKS = RwsOperation("POST /rw/iosystem/networks?action=search", "-")
+SEARCH_DEVICES = _same("POST /rw/iosystem/devices?action=search")
+SEARCH_SIGNALS_TWICE = RwsOperation(
+    "POST /rw/iosystem/signals?action=signal-searchex",
+    "POST /rw/iosystem/signals/signal-search-ex",
+)
+SIGNAL_CONFIG = RwsOperation("-", "GET /rw/iosystem/signals/{signal*}/config")
 
 # -- motion
 MECHUNITS = _same("GET /rw/motionsystem/mechunits")
@@ -190,6 +291,24 @@ MECHUNIT = _same("GET /rw/motionsystem/mechunits/{unit}")
 JOINT_TARGET = _same("GET /rw/motionsystem/mechunits/{unit}/jointtarget")
 ROB_TARGET = _same("GET /rw/motionsystem/mechunits/{unit}/robtarget")
 CARTESIAN = _same("GET /rw/motionsystem/mechunits/{unit}/cartesian")
+MOTION_SYSTEM = _same("GET /rw/motionsystem")
+CHECK_COUNT = RwsOperation(
+    "GET /rw/motionsystem/checkchangecount", "GET /rw/motionsystem/checkchangecount/{count}"
+)
+ERROR_STATE = _same("GET /rw/motionsystem/errorstate")
+SET_MECHUNIT = RwsOperation(
+    "POST /rw/motionsystem/mechunits/{unit}?action=set", "POST /rw/motionsystem/mechunits/{unit}"
+)
+BASE_FRAME = _same("GET /rw/motionsystem/mechunits/{unit}/baseframe")
+AXES = _same("GET /rw/motionsystem/mechunits/{unit}/axes")
+AXIS = _same("GET /rw/motionsystem/mechunits/{unit}/axes/{axis}")
+LEAD_THROUGH = RwsOperation("-", "GET /rw/motionsystem/mechunits/{unit}/lead-through")
+SET_LEAD_THROUGH = RwsOperation("-", "POST /rw/motionsystem/mechunits/{unit}/lead-through")
+SET_POSITION = RwsOperation(
+    "POST /rw/motionsystem/mechunits/{unit}?action=mechunit-position",
+    "POST /rw/motionsystem/mechunits/{unit}/position",
+)
+JOG = RwsOperation("POST /rw/motionsystem?action=jog", "POST /rw/motionsystem/jog")
 
 # -- cfg
 CFG = _same("GET /rw/cfg")
@@ -208,6 +327,7 @@ CFG_DELETE = _same("DELETE /rw/cfg/{domain}/{type}/instances/{instance}")
 CFG_LOAD = RwsOperation("POST /rw/cfg?action=load", "POST /rw/cfg/load")
 CFG_VALIDATE = RwsOperation("POST /rw/cfg?action=validate", "POST /rw/cfg/validate")
 CFG_SAVE = RwsOperation("POST /rw/cfg/{domain}?action=saveas", "POST /rw/cfg/{domain}/saveas")
+CFG_ATTRIBUTES = RwsOperation("-", "GET /rw/cfg/{domain}/{type}/attributes")
 
 # -- files
 VOLUMES = _same("GET /fileservice")
@@ -226,7 +346,7 @@ VARIABLE = _same("GET /ctrl/{variable}")
 IDENTITY = _same("GET /ctrl/identity")
 CLOCK = _same("GET /ctrl/clock")
 SYSTEM = _same("GET /rw/system")
-OPTIONS = RwsOperation("-", "GET /rw/system/options")
+OPTIONS = _same("GET /rw/system/options")
 PRODUCTS = _same("GET /rw/system/products")
 ROBOT_TYPE = _same("GET /rw/system/robottype")
 RESTART = RwsOperation("POST /rw/panel?action=restart", "POST /ctrl/restart")
@@ -238,6 +358,22 @@ ELOGS = _same("GET /rw/elog")
 ELOG = _same("GET /rw/elog/{domain}")
 ELOG_EVENT = _same("GET /rw/elog/{domain}/{number}")
 CLEAR_ELOG = RwsOperation("POST /rw/elog/{domain}?action=clear", "POST /rw/elog/{domain}/clear")
+SET_CLOCK = _same("PUT /ctrl/clock")
+TIME_ZONE = _same("GET /ctrl/clock/timezone")
+RESTART_COUNT = RwsOperation("-", "GET /ctrl/restart/restartcount")
+LICENSE = _same("GET /rw/system/license")
+ENERGY = _same("GET /rw/system/energy")
+VIRTUAL_TIME = _same("GET /ctrl/virtualtime/vttime")
+VIRTUAL_STATE = _same("GET /ctrl/virtualtime/vtstate")
+VIRTUAL_SPEED = _same("GET /ctrl/virtualtime/vtspeed")
+SAFETY_MODE = RwsOperation("-", "GET /ctrl/safety/mode")
+BACKUPS = _same("GET /ctrl/backup")
+RESTORE = RwsOperation("POST /ctrl/backup?action=restore", "POST /ctrl/backup/restore")
+CHECK_RESTORE = RwsOperation("-", "POST /ctrl/backup/check-restore")
+VISION = _same("GET /rw/vision")
+CLEAR_ELOGS = RwsOperation("POST /rw/elog?action=clearall", "POST /rw/elog/clearall")
+ELOG_NUMBER = RwsOperation("-", "GET /rw/elog/seqnum/{number}")
+SAVE_ELOG = RwsOperation("POST /rw/elog?action=saveraw", "POST /rw/elog/saveraw")
 
 # -- subscriptions
 SUBSCRIBE = _same("POST /subscription")
@@ -245,3 +381,5 @@ ADD_SUBSCRIPTION = _same("PUT /subscription/{group}")
 UNSUBSCRIBE = _same("DELETE /subscription/{group}")
 UNSUBSCRIBE_ONE = _same("DELETE /subscription/{group}/{resource*}")
 POLL = _same("GET /poll/{group}")
+SUBSCRIPTIONS = _same("GET /subscription")
+SUBSCRIPTION = _same("GET /subscription/{group}")

@@ -29,15 +29,16 @@ CERTIFICATE = b"certificate"
 
 
 class Line:
-    """Where a client's requests go. `cut` says at which one, `how` whether it is still done."""
+    """Where a client's requests go. `cut(number, got)` says how one is cut: "before" or "after" it
+    was done; None: not at all."""
 
     def __init__(
-        self, cabinet, generation, *, strict=True, on_thread=False, cut=None, how="before"
+        self, cabinet, generation, *, strict=True, on_thread=False, cut=lambda number, got: None
     ):
         self.cabinet, self.generation = cabinet, generation
         accounts = Accounts({"Default User": PASSWORD})
         self.desk = Desk(cabinet, generation, accounts, strict=strict)
-        self.on_thread, self.cut, self.how = on_thread, cut, how
+        self.on_thread, self.cut = on_thread, cut
         self.count, self.log, self.dead = 0, [], False
 
     def request(self, got):
@@ -45,9 +46,9 @@ class Line:
             raise _lost()
         self.count += 1
         self.log.append((got.method, got.target))
-        if self.count == self.cut:
+        if how := self.cut(self.count, got):
             self.dead = True
-            if self.how == "after":
+            if how == "after":
                 self.handle(got)
             raise _lost()
         return self.handle(got)

@@ -41,10 +41,10 @@ STARTED = {
 }  # fmt: skip
 
 
-def make_cabinet(folder, generation=Generation.ONE, **options) -> Cabinet:
+def make_cabinet(folder, generation=Generation.ONE, program=MAIN, **options) -> Cabinet:
     """A controller with T_ROB1 and a main, and no driver: motors on, the program stands."""
     path = folder / "MainModule.mod"
-    path.write_text(MAIN)
+    path.write_text(program)
     system = replace(read_files([path]), robotware=RELEASES[generation], signals=SIGNALS)
     chosen = {"robots": load_config("irb120").groups, "autostart": False, **options}
     return Cabinet(system, **chosen)
@@ -57,6 +57,11 @@ class Caller:
         self.desk = desk
         self.session = desk.sessions.begin(user)
         self.accept = media.HAL
+
+    @property
+    def is_one(self):
+        """Whether it speaks RWS 1.0."""
+        return self.desk.generation is Generation.ONE
 
     def send(self, method, target, form=None, body=None, **headers):
         """A request of this session; its HttpReply."""

@@ -61,10 +61,7 @@ def module_text(core: RwsCore, task: str, module: str) -> Flow[str]:
     """Source of a module, with initial values as they were written."""
     names, query = _of_task(core, task)
     names["module"] = module
-    if core.generation is Generation.ONE:
-        body, _ = yield from ask(core, ops.MODULE, names, query=f"resource=module-text&{query}")
-    else:
-        body, _ = yield from ask(core, ops.MODULE_TEXT, names)
+    body, _ = yield from ask(core, ops.MODULE_TEXT, names, query=query)
     for item in body.items:
         if "module-text" in item.fields:
             return item.text("module-text")

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.faces.rws.asking import Denied, RwsRequest, Served, show
+from rapidgen.faces.rws.built_in import DOMAINS, built_in
 from rapidgen.faces.rws.disks import disk_path
 from rapidgen.faces.rws.paging import page
 from rapidgen.faces.rws.routing import serves
@@ -24,6 +25,8 @@ def _domain(office: "Office", asked: RwsRequest) -> CfgText:
     for text in office.cabinet.cfg.domains:
         if text.domain == name:
             return text
+    if name in DOMAINS:
+        return CfgText(name, office.cabinet.cfg.domains[0].version, ())
     raise Denied(400 if asked.is_one else 404, "E_CFG_DOMAIN_INVALID", name)
 
 
@@ -35,7 +38,7 @@ def _title(section: str, instance: Instance) -> str:
 def get_domains(office: "Office", asked: RwsRequest) -> Served:
     """The domains."""
     return show(
-        *(Item("cfg-domain-li", text.domain) for text in office.cabinet.cfg.domains),
+        *(Item("cfg-domain-li", name) for name in DOMAINS),
         collection=True,
     )
 
@@ -43,7 +46,9 @@ def get_domains(office: "Office", asked: RwsRequest) -> Served:
 @serves(ops.CFG_DOMAIN)
 def get_types(office: "Office", asked: RwsRequest) -> Served:
     """Types of a domain."""
-    names = dict.fromkeys(section.name for section in _domain(office, asked).sections)
+    text = _domain(office, asked)
+    names = dict.fromkeys(section.name for section in text.sections)
+    names |= dict.fromkeys(kind for domain, kind in built_in(office) if domain == text.domain)
     return show(*(Item("cfg-dt-li", name) for name in names), collection=True)
 
 
@@ -61,7 +66,14 @@ def get_instance(office: "Office", asked: RwsRequest) -> Served:
 
 
 def _instances(office: "Office", asked: RwsRequest) -> Iterator[Instance]:
-    return _domain(office, asked).instances(asked.names["type"])
+    """Instances of the database; where it has none of a type, those that are built in."""
+    text, kind = _domain(office, asked), asked.names["type"]
+    found = tuple(text.instances(kind))
+    return iter(found or built_in(office).get((text.domain, kind.upper()), ()))
+
+
+def _is_built_in(office: "Office", text: CfgText, kind: str) -> bool:
+    return (text.domain, kind.upper()) in built_in(office)
 
 
 def _one(office: "Office", asked: RwsRequest) -> Instance:
@@ -86,12 +98,22 @@ def _value(attribute: Attribute) -> str:
     return " ".join(map(str, attribute.values)) if attribute.values else "true"
 
 
+@serves(ops.CFG_ATTRIBUTES)
+def get_attributes(office: "Office", asked: RwsRequest) -> Served:
+    """Attributes that instances of a type have."""
+    names = dict.fromkeys(a.name for i in _instances(office, asked) for a in i.attributes)
+    found = (Item("cfg-dt-attribute", name, {"name": name, "mandatory": "false"}) for name in names)
+    return show(*found, collection=True)
+
+
 # -- single instances ----------------------------------------------------------------------------
 
 
 def _with(office: "Office", asked: RwsRequest, instances: tuple[Instance, ...]) -> None:
     """The database with these instances of a type, in place of those that it has."""
     text, name = _domain(office, asked), asked.names["type"]
+    if not any(True for _ in text.instances(name)) and _is_built_in(office, text, name):
+        raise Denied(403, "E_REJECT", f"{name} is read only", -2)
     at = [i for i, s in enumerate(text.sections) if s.name.casefold() == name.casefold()]
     sections = [None if i in at else s for i, s in enumerate(text.sections)]
     if not at:
@@ -100,7 +122,9 @@ def _with(office: "Office", asked: RwsRequest, instances: tuple[Instance, ...]) 
         sections[at[0]] = Section(text.sections[at[0]].name, instances)
     changed = replace(text, sections=tuple(s for s in sections if s is not None))
     cfg = office.cabinet.cfg
-    domains = tuple(changed if d is text else d for d in cfg.domains)
+    domains = tuple(changed if d.domain == text.domain else d for d in cfg.domains)
+    if changed not in domains:
+        domains = (*domains, changed)
     office.cabinet.cfg = replace(cfg, domains=domains)
 
 

@@ -1,9 +1,11 @@
 """The event log: domains, entries with their arguments."""
 
+from dataclasses import replace
 from datetime import timedelta
 from typing import TYPE_CHECKING
 
 from rapidgen.faces.rws.asking import Denied, RwsRequest, Served, show
+from rapidgen.faces.rws.disks import disk_path
 from rapidgen.faces.rws.paging import page
 from rapidgen.faces.rws.routing import serves
 from rapidgen.machine.calendar import date_time
@@ -92,3 +94,29 @@ def clear(office: "Office", asked: RwsRequest) -> None:
     """Forget all entries; here of all domains."""
     _events(office, asked.names["domain"])
     office.controller.log.clear()
+
+
+@serves(ops.CLEAR_ELOGS)
+def clear_all(office: "Office", asked: RwsRequest) -> None:
+    """Forget all entries of all domains."""
+    office.controller.log.clear()
+
+
+@serves(ops.ELOG_NUMBER)
+def get_by_number(office: "Office", asked: RwsRequest) -> Served | None:
+    """One entry, whatever its domain."""
+    return get_event(office, replace(asked, names={"domain": _ALL, **asked.names}))
+
+
+@serves(ops.SAVE_ELOG)
+def save(office: "Office", asked: RwsRequest) -> Served:
+    """Write all entries to a file, whose path begins with /fileservice."""
+    words = asked.field("path")
+    if not words.startswith("/fileservice/"):
+        raise Denied(400, "E_INVALID_PATH", f"{words}: /fileservice/... is wanted")
+    rows = [
+        "\t".join((i.title, *(i.fields[k] for k in ("tstamp", "msgtype", "code", "desc"))))
+        for i in (_item(office, _ALL, e) for e in _events(office, _ALL))
+    ]
+    office.write_file(disk_path(office, words, asked), "\n".join([*rows, ""]).encode())
+    return office.started("")

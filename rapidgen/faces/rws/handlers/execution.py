@@ -4,6 +4,7 @@ from typing import TYPE_CHECKING
 
 from rapidgen.faces.rws.asking import Denied, RwsRequest, Served, show
 from rapidgen.faces.rws.routing import serves
+from rapidgen.runtime.task.pointer import CannotStep
 from rapidgen.wire.rws import operations as ops
 from rapidgen.wire.rws.bodies import Item
 
@@ -44,15 +45,46 @@ def start(office: "Office", asked: RwsRequest) -> None:
     office.masters.need_start(asked)
     office.masters.need_mode(asked.session, "exec")
     if told["execmode"] != "continue":
-        raise Denied(403, "E_MODE_REJECT", "steps are for manual mode", -2)
+        _step(office, told["execmode"])
+        return
+    _may_start(office, asked)
+    if told["cycle"] != "asis":
+        controller.cycle = "once" if told["cycle"] == "once" else "forever"
+    controller.start_program()
+
+
+def _may_start(office: "Office", asked: RwsRequest) -> None:
     if office.masters.is_editing and office.strict:
         # Whoever holds mastership keeps RAPID from taking it [real 7.21].
         raise Denied(403, "E_RESOURCE_HELD", "start is blocked while mastership is held", -13)
-    if told["cycle"] != "asis":
-        controller.cycle = "once" if told["cycle"] == "once" else "forever"
-    if any(office.cabinet.programs.faults(t) for t in controller.rapid_tasks.values()):
+    if any(office.cabinet.programs.faults(t) for t in office.controller.rapid_tasks.values()):
         raise Denied((asked.is_one and 400) or 403, "E_NO_PP", "errors in the program")
-    controller.start_program()
+
+
+def _step(office: "Office", mode: str) -> None:
+    """One statement of each selected task: in manual mode only [VC 7.21]."""
+    controller = office.controller
+    if controller.mode == "auto":
+        raise Denied(403, "E_MODE_REJECT", "steps are for manual mode", -2)
+    if mode not in ("stepin", "stepover", "stepback"):
+        raise Denied(403, "E_REJECT", f"{mode} is not offered here", -2)
+    for task in controller.rapid_tasks.values():
+        if task.spec.type != "NORMAL" or task.name in controller.operation.left_out:
+            continue
+        try:
+            controller.tasks[task.name].step(back=mode == "stepback", over=mode == "stepover")
+        except CannotStep as error:
+            raise Denied(403, "E_EXEC_STATE", str(error), -508) from error
+
+
+@serves(ops.START_ENTRY)
+def start_entry(office: "Office", asked: RwsRequest) -> None:
+    """Start at the entry routine: the program pointer goes to main first."""
+    office.masters.need_start(asked)
+    office.masters.need_mode(asked.session, "exec")
+    _may_start(office, asked)
+    reset_pp(office, asked)
+    office.controller.start_program()
 
 
 @serves(ops.STOP)

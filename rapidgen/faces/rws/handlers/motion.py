@@ -2,7 +2,9 @@
 
 from typing import TYPE_CHECKING
 
+from rapidgen.axes.mapping import ABSENT
 from rapidgen.faces.rws.asking import Denied, RwsRequest, Served, show
+from rapidgen.faces.rws.handlers.tasks import find_task
 from rapidgen.faces.rws.routing import serves
 from rapidgen.motion.group import MotionGroup
 from rapidgen.runtime.builtins.motion.arguments import joint_target
@@ -21,7 +23,9 @@ _AXES = ("rax_1", "rax_2", "rax_3", "rax_4", "rax_5", "rax_6")
 _EXTERNAL = "abcdef"
 
 
-def _group(office: "Office", name: str) -> MotionGroup:
+def find_group(office: "Office", asked: RwsRequest) -> MotionGroup:
+    """The robot of a request. Denied: there is none of that name."""
+    name = asked.names["unit"]
     for group in office.controller.motion.groups.values():
         if group.config.mechanical_unit.lower() == name.lower():
             return group
@@ -37,33 +41,48 @@ def get_units(office: "Office", asked: RwsRequest) -> Served:
     return show(*found, collection=True)
 
 
+_STATIC = ("type", "task-name", "axes", "axes-total", "is-integrated-unit", "has-integrated-unit")
+
+
 @serves(ops.MECHUNIT)
 def get_unit(office: "Office", asked: RwsRequest) -> Served:
-    """One robot, with the tool and the object of its last move."""
-    group = _group(office, asked.names["unit"])
+    """One robot, with what has been chosen for jogging; `resource` asks for parts of it."""
+    group = find_group(office, asked)
+    count, chosen = (
+        str(len(group.config.joints)),
+        office.chosen.get(group.config.mechanical_unit, {}),
+    )
     told = {
-        "tool-name": "tool0",
-        "wobj-name": "wobj0",
-        "payload-name": "load0",
-        "total-payload-name": "load0",
-        "status": "stopped" if group.is_standing else "running",
-        "mode": "Activated",
-        "jog-mode": "AxisGroup1",
-        "coord-system": "World",
-        "is-integrated-unit": "NoIntegratedUnit",
-        "has-integrated-unit": "NoIntegratedUnit",
+        "tool-name": chosen.get("tool", "tool0"),
+        "wobj-name": chosen.get("wobj", "wobj0"),
+        "payload-name": chosen.get("payload", "load0"),
+        "total-payload-name": chosen.get("total-payload", "load0"),
+        "status": "Synchronized",
+        "mode": chosen.get("mode", "Activated"),
+        "jog-mode": chosen.get("jog-mode", "Cartesian"),
+        "coord-system": chosen.get("coord-system", "World"),
         "type": "TCPRobot",
         "task-name": group.config.task,
-        "axes": str(len(group.config.joints)),
-        "axes-total": str(len(group.config.joints)),
+        "axes": count,
+        "axes-total": count,
+        "is-integrated-unit": "NoIntegratedUnit",
+        "has-integrated-unit": "NoIntegratedUnit",
     }
+    parts = {p for p in (asked.query.get("resource", ""), asked.suffix) for p in p.split(";") if p}
+    if parts:
+        told = {name: value for name, value in told.items() if _is_asked(name, parts)}
     return show(Item("ms-mechunit", group.config.mechanical_unit, told))
+
+
+def _is_asked(name: str, parts: set[str]) -> bool:
+    short = {name, name.removesuffix("-name"), name.removesuffix("-unit")}
+    return bool(short & parts) or ("static" if name in _STATIC else "dynamic") in parts
 
 
 @serves(ops.JOINT_TARGET)
 def get_joints(office: "Office", asked: RwsRequest) -> Served:
     """Where the joints are."""
-    group = _group(office, asked.names["unit"])
+    group = find_group(office, asked)
     value = joint_target(group.map, group.positions())
     told = dict(zip(_AXES, map(str, value.robax.values()), strict=True))
     external = zip(_EXTERNAL, value.extax.values(), strict=True)
@@ -74,8 +93,13 @@ def get_joints(office: "Office", asked: RwsRequest) -> Served:
 def _pose(office: "Office", asked: RwsRequest) -> Value:
     """The TCP of a tool in a work object; `Base` is the world's here: robots stand at its origin
     unless their object says otherwise."""
-    group = _group(office, asked.names["unit"])
-    frame = asked.query.get("coordinate", "Base").lower()
+    return _pose_of(office, asked, find_group(office, asked))
+
+
+def _pose_of(
+    office: "Office", asked: RwsRequest, group: MotionGroup, default: str = "base"
+) -> Value:
+    frame = asked.query.get("coordinate", default).lower()
     if frame not in ("base", "world", "wobj"):
         raise Denied(400, "E_INVALIDARG", f"coordinate {frame}")
     tool = _datum(office, group, asked.query.get("tool", "tool0"), "tooldata") or tool0()
@@ -105,14 +129,17 @@ def _datum(office: "Office", group: MotionGroup, name: str, kind: str) -> Value 
 @serves(ops.ROB_TARGET)
 def get_target(office: "Office", asked: RwsRequest) -> Served:
     """Where the TCP is, as a robtarget."""
-    value = _pose(office, asked)
+    return show(Item("ms-robtargets", "robtarget", _rob_target(_pose(office, asked))))
+
+
+def _rob_target(value: Value, external: str = "") -> dict[str, str]:
+    """A robtarget's fields; `external` spells those of external axes, by number from 1 on."""
     told = dict(zip(("x", "y", "z"), map(str, value.trans.values()), strict=True))
     told |= dict(zip(("q1", "q2", "q3", "q4"), map(str, value.rot.values()), strict=True))
     conf = ("cf1", "cf4", "cf6", "cfx")
     told |= dict(zip(conf, (f"{v:g}" for v in value.robconf.values()), strict=True))
-    external = zip(_EXTERNAL, value.extax.values(), strict=True)
-    told |= {f"eax{letter}": f"{v:g}" for letter, v in external}
-    return show(Item("ms-robtargets", "robtarget", told))
+    names = [external.format(i) if external else f"eax{c}" for i, c in enumerate(_EXTERNAL, 1)]
+    return told | dict(zip(names, (f"{v:g}" for v in value.extax.values()), strict=True))
 
 
 @serves(ops.CARTESIAN)
@@ -124,3 +151,36 @@ def get_cartesian(office: "Office", asked: RwsRequest) -> Served:
     told |= dict(zip(("q1", "q2", "q3", "q4"), map(str, value.rot.values()), strict=True))
     told |= dict(zip(names, (f"{v:g}" for v in value.robconf.values()), strict=True))
     return show(Item("ms-mechunit-cartesian", "cartesian", told))
+
+
+# -- by task -------------------------------------------------------------------------------------
+
+
+@serves(ops.TASK_MOTION)
+def get_motion(office: "Office", asked: RwsRequest) -> Served:
+    """Positions of a task's robot [RWS manual 3HAC050973]; without `resource` what there is."""
+    task = find_task(office, asked.names["task"], asked)
+    kind = asked.query.get("resource", "")
+    if not kind:
+        names = ("jointtarget", "robtarget", "extjointstate")
+        return show(
+            *(Item(f"rapid-{n}-li", n, {}, {"self": f"motion?resource={n}"}) for n in names)
+        )
+    group = next(
+        (g for g in office.controller.motion.groups.values() if g.config.task == task.name), None
+    )
+    if group is None:
+        raise Denied(400, "E_NO_SUCH_MECHUNIT", f"{task.name} has no robot")
+    if kind == "robtarget":
+        told = _rob_target(_pose_of(office, asked, group, "wobj"), "ej{}")
+    elif kind in ("jointtarget", "extjointstate"):
+        value = joint_target(group.map, group.positions())
+        external = enumerate(value.extax.values(), 1)
+        if kind == "extjointstate":
+            told = {f"j{i}": "not_active" if v > ABSENT / 2 else "rotating" for i, v in external}
+        else:
+            told = {f"j{i}": str(v) for i, v in enumerate(value.robax.values(), 1)}
+            told |= {f"ej{i}": f"{v:g}" for i, v in external}
+    else:
+        raise Denied(400, "E_INVALIDARG", f"resource {kind}")
+    return show(Item(f"rapid-{kind}", kind, told))

@@ -105,37 +105,32 @@ def set_signal(office: "Office", asked: RwsRequest) -> None:
 @serves(ops.SEARCH_SIGNALS)
 def search(office: "Office", asked: RwsRequest) -> Served:
     """Signals whose name holds a text, of a type, of a device [VC 7.21]."""
-    name, kind, device = (asked.form.get(k, "").lower() for k in ("name", "type", "device"))
-    found = [
-        item(s, "ios-signal-li", asked)
-        for s in office.controller.io.signals.values()
-        if name in s.name.lower()
-        and kind in ("", s.spec.type.lower())
-        and device in ("", s.spec.device.lower())
-    ]
-    return page(asked, found, 100, "signals")
+    wanted = {k: asked.form.get(k, "").lower() for k in ("name", "type", "device")}
+    found = [s for s in office.controller.io.signals.values() if _fits(s, wanted)]
+    return page(asked, [item(s, "ios-signal-li", asked) for s in found], 100, "signals")
 
 
-@serves(ops.NETWORKS)
-def get_networks(office: "Office", asked: RwsRequest) -> Served:
-    """Networks that signals stand on."""
-    names = dict.fromkeys(map(network_of, _devices(office)))
-    state = {"pstate": "running", "lstate": "started"}
-    return show(*(Item("ios-network-li", n, {"name": n, **state}) for n in names), collection=True)
+@serves(ops.SEARCH_SIGNALS_TWICE)
+def search_twice(office: "Office", asked: RwsRequest) -> Served:
+    """Signals that fit up to two sets of criteria, both of them [VC 6.16, VC 7.21]."""
+    found = list(office.controller.io.signals.values())
+    for one in ("", "1", "2"):
+        wanted = {k: asked.form.get(f"{k}{one}", "").lower() for k in ("name", "type", "device")}
+        found = [s for s in found if _fits(s, wanted)]
+    return page(asked, [item(s, "ios-signal-li", asked) for s in found], 100, "signals")
 
 
-@serves(ops.DEVICES)
-def get_devices(office: "Office", asked: RwsRequest) -> Served:
-    """Devices that signals stand on."""
-    state = {"lstate": "enabled", "pstate": "running", "address": "-"}
-    found = [
-        Item("ios-device-li", f"{network_of(d)}/{d}", {"name": d, **state})
-        for d in _devices(office)
-        if asked.query.get("network", network_of(d)) == network_of(d)
-    ]
-    return show(*found, collection=True)
+def _fits(signal: Signal, wanted: dict[str, str]) -> bool:
+    return (
+        wanted["name"] in signal.name.lower()
+        and wanted["type"] in ("", signal.spec.type.lower())
+        and wanted["device"] in ("", signal.spec.device.lower())
+    )
 
 
-def _devices(office: "Office") -> list[str]:
-    found = (s.spec.device for s in office.controller.io.signals.values())
-    return [device for device in dict.fromkeys(found) if device]
+@serves(ops.SIGNAL_CONFIG)
+def get_config(office: "Office", asked: RwsRequest) -> Served:
+    """What EIO.cfg says of a signal."""
+    spec = find(office, asked.names["signal"]).spec
+    told = {"name": spec.name, "type": spec.type, "device": spec.device, "access": spec.access}
+    return show(Item("ios-signal-config-general", spec.name, told))

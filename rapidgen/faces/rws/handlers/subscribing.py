@@ -2,9 +2,10 @@
 
 from typing import TYPE_CHECKING
 
-from rapidgen.faces.rws.asking import Denied, RwsRequest, Served
+from rapidgen.faces.rws.asking import Denied, RwsRequest, Served, show
 from rapidgen.faces.rws.routing import serves
 from rapidgen.wire.rws import operations as ops
+from rapidgen.wire.rws.bodies import Item
 from rapidgen.wire.rws.events import WantedResource, read_wanted, write_opened
 
 if TYPE_CHECKING:
@@ -54,3 +55,22 @@ def unsubscribe_one(office: "Office", asked: RwsRequest) -> Served:
     suffix = f";{asked.suffix}" if asked.suffix else ""
     office.groups.remove(group, f"/{asked.names['resource']}{suffix}")
     return Served(200)
+
+
+@serves(ops.SUBSCRIPTIONS)
+def get_groups(office: "Office", asked: RwsRequest) -> Served:
+    """Groups of this session."""
+    own = office.groups.of(asked.session)
+    items = (Item("sub-group-li", str(g.number), {}, {"self": str(g.number)}) for g in own)
+    return show(*items, collection=True)
+
+
+@serves(ops.SUBSCRIPTION)
+def get_group(office: "Office", asked: RwsRequest) -> Served:
+    """What a group of this session watches."""
+    group = office.groups.find(asked.names["group"], asked.session)
+    found = (
+        Item("sub-resource-li", w.wanted.resource, {"priority": str(w.wanted.priority)})
+        for w in group.watches
+    )
+    return show(*found, collection=True)

@@ -11,6 +11,7 @@ from rapidgen.faces.rws.asking import Denied, RwsRequest, Served, show
 from rapidgen.faces.rws.handlers.tasks import find_task
 from rapidgen.faces.rws.routing import serves
 from rapidgen.rapid.syntax import nodes as n
+from rapidgen.runtime.compiler.predefined import find_type
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.text import NotALiteral, literal_text, parse_value
 from rapidgen.runtime.values import Type, Value
@@ -113,6 +114,20 @@ def set_symbol(office: "Office", asked: RwsRequest) -> None:
         raise Denied(400, "E_INVALIDARG", f"no value of {found.type.name}: {text}") from error
     except RapidError as error:
         raise Denied(400, "E_INVALIDARG", error.name) from error
+
+
+@serves(ops.VALIDATE_VALUE)
+def validate(office: "Office", asked: RwsRequest) -> None:
+    """Whether a text is a value of a type: 204, or 400."""
+    find_task(office, asked.names.get("task") or asked.field("task"), asked)
+    name, text = asked.field(asked.kind("datatype", "dattyp")), asked.field("value")
+    found = find_type(name.lower())
+    try:
+        if found is None or not found.is_value:
+            raise Denied(400, "E_INVALIDARG", f"no type {name}")
+        parse_value(text, found, escaped=True)
+    except NotALiteral as error:
+        raise Denied(400, "E_INVALIDARG", f"no value of {name}: {text}") from error
 
 
 @serves(ops.SYMBOL_PROPERTIES)

@@ -2,9 +2,8 @@
 
 from typing import TYPE_CHECKING
 
-from rapidgen.controller.backing_up import back_up
 from rapidgen.faces.rws.asking import Denied, RwsRequest, Served, show
-from rapidgen.faces.rws.disks import disk_path
+from rapidgen.faces.rws.built_in import OPTIONS
 from rapidgen.faces.rws.routing import serves
 from rapidgen.machine.calendar import date_time
 from rapidgen.wire.rws import operations as ops
@@ -62,7 +61,7 @@ def get_system(office: "Office", asked: RwsRequest) -> Served:
 
 
 def _options(kind: str) -> list[Item]:
-    return [Item(kind, str(i), {"option": "616-1 PC Interface"}) for i in (1,)]
+    return [Item(kind, str(i), {"option": option}) for i, option in enumerate(OPTIONS, 1)]
 
 
 @serves(ops.OPTIONS)
@@ -123,24 +122,67 @@ def get_progress(office: "Office", asked: RwsRequest) -> Served:
     return show(Item("progress", asked.names["id"], {"state": "ready", "code": str(code)}))
 
 
-@serves(ops.BACKUP)
-def back_up_now(office: "Office", asked: RwsRequest) -> Served:
-    """A backup into a new folder: done when it is answered."""
-    words = asked.field("backup")
-    if not words.startswith("/fileservice/"):
-        raise Denied(400, "E_INVALID_PATH", f"{words}: /fileservice/... is wanted")
-    path, cabinet = disk_path(office, words, asked), office.cabinet
-    if path.exists():
-        raise Denied(400, "E_DIR_EXIST", words)
-    try:
-        back_up(cabinet.controller, cabinet.programs, cabinet.cfg, path)
-    except OSError as error:
-        raise Denied(400, "E_DIR_NOT_EXIST", words) from error
-    office.controller.log.info(10_230, "Backup finished", words)
-    return office.started("")
+@serves(ops.LICENSE)
+def get_license(office: "Office", asked: RwsRequest) -> Served:
+    """A virtual controller has none."""
+    return show(Item("sys-license", "license", {"license": "virtual controller"}))
 
 
-@serves(ops.BACKUP_STATE)
-def backup_state(office: "Office", asked: RwsRequest) -> Served:
-    """Whether a backup is under way: never, here."""
-    return show(Item("ctrl-backup", "state", {"state": "0", "backup-state": "idle"}))
+@serves(ops.ENERGY)
+def get_energy(office: "Office", asked: RwsRequest) -> Served:
+    """Energy is not modelled: the state -1 says that no value is valid [RWS manual]."""
+    zeros = ("change-count", "time-stamp", "reset-time", "interval-length", "interval-energy")
+    told = {"state": "-1", "energy-state": "blocked", **dict.fromkeys(zeros, "0")}
+    told["accumulated-energy"] = "0"
+    return show(Item(asked.kind("sys-energy-state-li", "sys-energy-state"), "energy-state", told))
+
+
+@serves(ops.VISION)
+def get_vision(office: "Office", asked: RwsRequest) -> Served:
+    """No camera is connected."""
+    return show(Item("number-of-cameras-li", "cameras", {"number-of-cameras": "0"}))
+
+
+@serves(ops.TIME_ZONE)
+def get_time_zone(office: "Office", asked: RwsRequest) -> Served:
+    """The controller's clock knows no zone here: it is UTC's."""
+    return show(Item("ctrl-timezone", "timezone", {"timezone": "UTC"}))
+
+
+@serves(ops.SET_CLOCK)
+def set_clock(office: "Office", asked: RwsRequest) -> None:
+    """The clock is the simulation's: it cannot be put."""
+    raise Denied(403, "E_REJECT", "the clock of a virtual controller is its machine's", -2)
+
+
+@serves(ops.RESTART_COUNT)
+def restart_count(office: "Office", asked: RwsRequest) -> Served:
+    """How often it has restarted."""
+    told = {"restart-count": str(office.cabinet.restarts)}
+    return show(Item("ctrl-restart-count", "restartcount", told))
+
+
+@serves(ops.VIRTUAL_TIME)
+def virtual_time(office: "Office", asked: RwsRequest) -> Served:
+    """Virtual time in ms."""
+    told = {"vtcounter": str(round(office.cabinet.now * 1000))}
+    return show(Item("ctrl-vttime", "vttime", told))
+
+
+@serves(ops.VIRTUAL_STATE)
+def virtual_state(office: "Office", asked: RwsRequest) -> Served:
+    """Virtual time runs."""
+    return show(Item("ctrl-vtstate", "vtstate", {"vtcurrstate": "running"}))
+
+
+@serves(ops.VIRTUAL_SPEED)
+def virtual_speed(office: "Office", asked: RwsRequest) -> Served:
+    """How fast virtual time is, in percent of the real one."""
+    told = {"vtcurrspeed": f"{100 * office.controller.scheduler.speed:g}"}
+    return show(Item("ctrl-vtspeed", "vtspeed", told))
+
+
+@serves(ops.SAFETY_MODE)
+def safety_mode(office: "Office", asked: RwsRequest) -> Served:
+    """No safety controller is modelled."""
+    return show(Item("safetymodestatus", "mode", {"safetymode": "DEACTIVATED"}))

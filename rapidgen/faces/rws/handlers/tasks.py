@@ -1,5 +1,6 @@
 """Tasks, their modules and program pointers."""
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from rapidgen.controller.programs import CannotLoad
@@ -8,7 +9,6 @@ from rapidgen.faces.rws.disks import disk_path
 from rapidgen.faces.rws.handlers.execution import execution
 from rapidgen.faces.rws.routing import serves
 from rapidgen.runtime.loading import module_text
-from rapidgen.runtime.task.pointer import CannotStep
 from rapidgen.runtime.task.task import Task
 from rapidgen.wire.rws import operations as ops
 from rapidgen.wire.rws.bodies import Item
@@ -73,6 +73,44 @@ def get_task(office: "Office", asked: RwsRequest) -> Served:
     return show(_item(office, find_task(office, asked.names["task"], asked), "rap-task", asked))
 
 
+@serves(ops.ACTIVATE_ALL, ops.DEACTIVATE_ALL)
+def activate_all(office: "Office", asked: RwsRequest) -> None:
+    """All NORMAL tasks at once."""
+    for task in office.controller.rapid_tasks.values():
+        if task.spec.type == "NORMAL":
+            activate(office, replace(asked, names={"task": task.name}))
+
+
+@serves(ops.TASK_SELECTION)
+def selection(office: "Office", asked: RwsRequest) -> Served:
+    """The task selection panel [VC 7.21]."""
+    left_out = office.controller.operation.left_out
+    found = [
+        Item(
+            "rap-taskselection",
+            task.name,
+            {
+                "name": task.name,
+                "state": "OFF" if task.name in left_out else "ON",
+                "motiontask": "TRUE" if task.spec.motion else "FALSE",
+                "usermodify": "TRUE",
+            },
+        )
+        for task in office.controller.rapid_tasks.values()
+        if task.spec.type == "NORMAL"
+    ]
+    return show(*found, collection=True)
+
+
+@serves(ops.CHANGE_COUNT)
+def change_count(office: "Office", asked: RwsRequest) -> Served:
+    """How often a task's program was changed."""
+    task = find_task(office, asked.names["task"], asked)
+    count = str(office.cabinet.programs.changes[task.name])
+    told = {"struc-change-count": count, "change-count": count}
+    return show(Item("rap-task-struc-change-count", task.name, told))
+
+
 @serves(ops.ACTIVATE, ops.DEACTIVATE)
 def activate(office: "Office", asked: RwsRequest) -> None:
     """The task selection panel: which NORMAL tasks are started with the program."""
@@ -93,7 +131,8 @@ def activate(office: "Office", asked: RwsRequest) -> None:
 # -- modules -------------------------------------------------------------------------------------
 
 
-def _task_asked(office: "Office", asked: RwsRequest) -> Task:
+def task_asked(office: "Office", asked: RwsRequest) -> Task:
+    """The task that a path, or `?task=` of RWS 1.0, names. Denied."""
     name = asked.names.get("task") or asked.query.get("task", "")
     return find_task(office, name, asked)
 
@@ -101,7 +140,7 @@ def _task_asked(office: "Office", asked: RwsRequest) -> Task:
 @serves(ops.MODULES)
 def get_modules(office: "Office", asked: RwsRequest) -> Served:
     """Modules of a task; they stand in `state` in HAL, though they are many [VC 7.21]."""
-    found = office.cabinet.programs.modules(_task_asked(office, asked))
+    found = office.cabinet.programs.modules(task_asked(office, asked))
     return show(
         *(
             Item(
@@ -116,30 +155,19 @@ def get_modules(office: "Office", asked: RwsRequest) -> Served:
 
 @serves(ops.MODULE)
 def get_module(office: "Office", asked: RwsRequest) -> Served:
-    """One module: its file; in RWS 1.0 with `resource=module-text` its text."""
-    task, name = _task_asked(office, asked), asked.names["module"]
+    """One module: its file."""
+    task, name = task_asked(office, asked), asked.names["module"]
     found = [m for m in office.cabinet.programs.modules(task) if m.name.lower() == name.lower()]
     if not found:
-        raise Denied(400 if asked.is_one else 404, "E_NO_SUCH_SYMBOL", f"no module {name}", -517)
-    if asked.query.get("resource") == "module-text":
-        return _text(office, asked, task, name)
+        raise no_module(asked, name)
     file = found[0].file
     told = {"modname": found[0].name, "filename": file.target or file.path, "attribute": ""}
     return show(Item("rap-module", found[0].name, told))
 
 
-@serves(ops.MODULE_TEXT)
-def get_text(office: "Office", asked: RwsRequest) -> Served:
-    """The source of a module."""
-    return _text(office, asked, _task_asked(office, asked), asked.names["module"])
-
-
-def _text(office: "Office", asked: RwsRequest, task: Task, name: str) -> Served:
-    text = office.cabinet.programs.text(task, name)
-    if text is None:
-        raise Denied(400 if asked.is_one else 404, "E_NO_SUCH_SYMBOL", f"no module {name}", -517)
-    kind = "rap-module-text"
-    return show(Item(kind, name, {"change-count": "0", "module-text": text}))
+def no_module(asked: RwsRequest, name: str) -> Denied:
+    """The answer for a module that is not there."""
+    return Denied(400 if asked.is_one else 404, "E_NO_SUCH_SYMBOL", f"no module {name}", -517)
 
 
 @serves(ops.LOAD_MODULE)
@@ -153,7 +181,7 @@ def load_module(office: "Office", asked: RwsRequest) -> Served | None:
     try:
         name = office.cabinet.programs.load(task, path, words, replaced=replaced)
     except CannotLoad as fault:
-        raise _refused(asked, fault, words) from fault
+        raise load_refused(asked, fault, words) from fault
     if asked.is_one:
         return None
     return show(Item("rap-task-module-li", name, {"name": name}))
@@ -168,10 +196,11 @@ def unload_module(office: "Office", asked: RwsRequest) -> None:
     try:
         office.cabinet.programs.unload(task, name)
     except CannotLoad as fault:
-        raise _refused(asked, fault, name) from fault
+        raise load_refused(asked, fault, name) from fault
 
 
-def _refused(asked: RwsRequest, fault: CannotLoad, what: str) -> Denied:
+def load_refused(asked: RwsRequest, fault: CannotLoad, what: str) -> Denied:
+    """The answer to a module that is not taken, or not given away."""
     name = str(fault)
     return Denied(_STATUS[name][0 if asked.is_one else 1], name, what, -507)
 
@@ -179,10 +208,10 @@ def _refused(asked: RwsRequest, fault: CannotLoad, what: str) -> Denied:
 @serves(ops.SAVE_MODULE)
 def save_module(office: "Office", asked: RwsRequest) -> None:
     """Write a module with the present values of its persistents; an ending is put behind."""
-    task, name = _task_asked(office, asked), asked.names["module"]
+    task, name = task_asked(office, asked), asked.names["module"]
     module = task.program.modules.get(name.lower())
     if module is None:
-        raise Denied(400 if asked.is_one else 404, "E_NO_SUCH_SYMBOL", f"no module {name}", -517)
+        raise no_module(asked, name)
     folder = asked.field("path")
     if not asked.is_one and not folder.endswith(":"):
         raise Denied(400, "E_INVALID_PATH", folder)  # the root of a volume only [VC 7.21]
@@ -190,61 +219,3 @@ def save_module(office: "Office", asked: RwsRequest) -> None:
     path = disk_path(office, f"{folder.rstrip('/')}/{asked.field('name')}{ending}", asked)
     text = module_text(task, module)
     office.write_file(path, text.encode(module.tree.source.encoding, "replace"))
-
-
-@serves(ops.PROGRAM)
-def get_program(office: "Office", asked: RwsRequest) -> Served | None:
-    """The program of a task; nothing where there is none."""
-    task = find_task(office, asked.names["task"], asked)
-    if not office.cabinet.programs.modules(task):
-        return None
-    return show(Item("rap-program", "program", {"name": "", "entrypoint": task.spec.entry}))
-
-
-@serves(ops.BUILD_ERRORS)
-def get_build_errors(office: "Office", asked: RwsRequest) -> Served:
-    """What is wrong with the program of a task."""
-    task = find_task(office, asked.names["task"], asked)
-    names = {m.file.path: m.name for m in office.cabinet.programs.modules(task)}
-    found = []
-    for fault in office.cabinet.programs.faults(task):
-        span = fault.span
-        told = {
-            "ModuleName": names.get(span.path, "") if span else "",
-            "row": str(span.line if span else 0),
-            "column": str(span.column if span else 0),
-            "error": fault.message,
-        }
-        found.append(Item("rap-builderrs", "builderror", told))
-    return show(*found)
-
-
-@serves(ops.POINTER)
-def get_pointer(office: "Office", asked: RwsRequest) -> Served:
-    """Program pointer of a task."""
-    task = find_task(office, asked.names["task"], asked)
-    stack = task.stack()
-    place = task.pointer.stands_before() or (stack[-1] if stack else None)
-    if place is None:
-        return show(Item("pcp-info", "progpointer", {"modulemame": "", "routinename": ""}))
-    at = f"{place.span.line},{place.span.column}"
-    told = {
-        "beginposition": at,
-        "endposition": at,
-        "modulemame": place.module,
-        "routinename": place.routine,
-        "changecount": "0",
-        "executiontype": "normal",
-    }
-    return show(Item("pcp-info", "progpointer", told))
-
-
-@serves(ops.POINTER_TO_ROUTINE)
-def pointer_to_routine(office: "Office", asked: RwsRequest) -> None:
-    """Program pointer of one task to a routine."""
-    office.masters.need(asked, "rapid")
-    task = find_task(office, asked.names["task"], asked)
-    try:
-        office.controller.tasks[task.name].pp_to_routine(asked.field("routine"))
-    except CannotStep as error:
-        raise Denied(400, "E_ILLEGAL_ENTRYPOINT", str(error)) from error

@@ -1,6 +1,5 @@
-"""Users, grants, mastership, write access; the end of a session."""
+"""Users, grants, remote writing in manual mode; the end of a session."""
 
-import re
 from typing import TYPE_CHECKING
 
 from rapidgen.faces.rws.asking import Denied, RwsRequest, Served, show
@@ -8,12 +7,11 @@ from rapidgen.faces.rws.rmmp import Privilege
 from rapidgen.faces.rws.routing import serves
 from rapidgen.wire.rws import operations as ops
 from rapidgen.wire.rws.bodies import Generation, Item
-from rapidgen.wire.rws.codes import CODES, name_of
+from rapidgen.wire.rws.codes import CODES, NAMES, name_of
+from rapidgen.wire.rws.grants import GRANTS
 
 if TYPE_CHECKING:
     from rapidgen.faces.rws.office import Office
-
-_GUID = re.compile(r"\{[0-9A-Fa-f]{8}(-[0-9A-Fa-f]{4}){3}-[0-9A-Fa-f]{12}\}")
 
 
 @serves(ops.LOGOUT)
@@ -31,6 +29,60 @@ def register(office: "Office", asked: RwsRequest) -> Served:
     session.application = asked.form.get("application", "")
     session.location = asked.form.get("location", "")
     return Served(201)
+
+
+@serves(ops.USERS)
+def users(office: "Office", asked: RwsRequest) -> Served:
+    """Who is logged in: one entry a session [code: abb-rws-client]; the class is [mem]."""
+    found = [
+        Item(
+            "user-li",
+            session.user,
+            {
+                "uid": str(session.number),
+                "alias": session.alias or session.user,
+                "application": session.application,
+                "location": session.location,
+                "ulocale": "remote",
+            },
+        )
+        for session in office.sessions()
+    ]
+    return show(*found, collection=True)
+
+
+@serves(ops.SET_LOCALE)
+def set_locale(office: "Office", asked: RwsRequest) -> None:
+    """Local users press the enabling device within 5 s, which nobody does here."""
+    if asked.field("type", ("local", "remote")) == "local":
+        raise Denied(403, "E_REJECT", "no enabling device is pressed", -2)
+
+
+@serves(ops.IMPERSONATE)
+def impersonate(office: "Office", asked: RwsRequest) -> None:
+    """Act as another session's user, by its number."""
+    number = asked.field("uid")
+    for other in office.sessions():
+        if str(other.number) == number:
+            if office.login.granted(other.user) - office.login.granted(asked.session.user):
+                raise Denied(403, "E_UAS_REJECT", f"user {number} may do more", -757)
+            asked.session.user = other.user
+            return
+    raise Denied(400, "E_INVALIDARG", f"no user {number}")
+
+
+@serves(ops.ALL_GRANTS)
+def all_grants(office: "Office", asked: RwsRequest) -> Served:
+    """All grants that there are."""
+    names = ("grantname", "description")
+    found = (Item("uas-grant", g, dict.fromkeys(names, g)) for g in sorted(GRANTS))
+    return show(*found, collection=True)
+
+
+@serves(ops.PASSWORD_CHANGE)
+def password_change(office: "Office", asked: RwsRequest) -> Served:
+    """Whether this user may change the password: nobody may, here."""
+    return show(Item("uas-password-change-allow", "allow", {"password-change-allow": "false"}))
 
 
 @serves(ops.LOGIN_INFO)
@@ -62,7 +114,13 @@ def grant_exists(office: "Office", asked: RwsRequest) -> Served:
 
 @serves(ops.RETCODE)
 def retcode(office: "Office", asked: RwsRequest) -> Served:
-    """What a code means."""
+    """What a code means; without one, all of them."""
+    if "code" not in asked.query:
+        found = [
+            Item("err-desc", str(code), {"name": name, "code": str(code)})
+            for code, name in NAMES.items()
+        ]
+        return show(*found, collection=True)
     try:
         code = int(asked.query.get("code", ""))
     except ValueError as error:
@@ -131,125 +189,14 @@ def poll_rmmp(office: "Office", asked: RwsRequest) -> Served:
     return show(Item("user-rmmp-poll", "poll", told))
 
 
+@serves(ops.GRANT_RMMP)
+def grant_rmmp(office: "Office", asked: RwsRequest) -> None:
+    """A local user's answer to a request: nobody is local here."""
+    asked.field("uid")
+    asked.field("privilege", ("modify", "exec", "deny"))
+    raise Denied(403, "E_REJECT", "only a local user grants", -2)
+
+
 def _no_rmmp_on_8(office: "Office") -> None:
     if office.generation is Generation.EIGHT:
         raise Denied(500, "E_UNEXPECTED", "RMMP")
-
-
-# -- mastership ----------------------------------------------------------------------------------
-
-
-def _gone(office: "Office") -> None:
-    if office.generation is Generation.EIGHT:
-        raise Denied(410, "E_NOTIMPL", "mastership is gone: write access of a control station")
-
-
-@serves(ops.MASTERSHIPS)
-def masterships(office: "Office", asked: RwsRequest) -> Served:
-    """The domains."""
-    _gone(office)
-    return show(*(Item("msh-resource-li", d) for d in office.masters.domains), collection=True)
-
-
-@serves(ops.MASTERSHIP)
-def mastership(office: "Office", asked: RwsRequest) -> Served:
-    """Who has a domain."""
-    _gone(office)
-    domain = asked.names["domain"]
-    if domain not in office.masters.domains:
-        raise Denied(404, "E_UNRESOLVED_URL", f"no domain {domain}")
-    holder = office.masters.holders.get(domain)
-    mine = holder is asked.session
-    told = {
-        "uid": str(holder.number if holder else 0),
-        "application": holder.application if holder else "",
-        "alias": (holder.alias or holder.user) if holder else "",
-        "location": holder.location if holder else "",
-        "mastershipheldbyme": "TRUE" if mine else "FALSE",
-        "mastership": "remote" if holder else "nomaster",
-    }
-    return show(Item("msh-resource", domain, told))
-
-
-@serves(ops.REQUEST, ops.REQUEST_ALL, ops.REQUEST_PLAIN)
-def request(office: "Office", asked: RwsRequest) -> None:
-    """Take one domain, or all of them."""
-    _gone(office)
-    office.masters.need_mode(asked.session)
-    for domain in _named(office, asked):
-        office.masters.request(asked.session, domain)
-
-
-@serves(ops.RELEASE, ops.RELEASE_ALL)
-def release(office: "Office", asked: RwsRequest) -> None:
-    """Give one domain back, or all of them."""
-    _gone(office)
-    for domain in _named(office, asked):
-        office.masters.release(asked.session, domain)
-
-
-def _named(office: "Office", asked: RwsRequest) -> tuple[str, ...]:
-    domain = asked.names.get("domain")
-    return (domain,) if domain else office.masters.domains
-
-
-# -- RobotWare 8 ---------------------------------------------------------------------------------
-
-
-@serves(ops.STATION_REGISTER)
-def register_station(office: "Office", asked: RwsRequest) -> None:
-    """The session becomes part of a control station; its id stands in braces."""
-    guid = asked.field("control-station-id")
-    if not _GUID.fullmatch(guid):
-        raise Denied(400, "E_INVALIDARG", "control-station-id", -20_103)
-    asked.field("pincode")
-    office.masters.stations[guid] = asked.field("control-station-name")
-    asked.session.station = guid
-
-
-@serves(ops.WRITE_ACCESS)
-def write_access(office: "Office", asked: RwsRequest) -> Served:
-    """Which control station may write."""
-    masters = office.masters
-    told = {
-        "control-station-write-access-held": "true" if masters.station else "false",
-        "held-by-control-station-Id": masters.station,
-        "held-by-control-station-name": masters.stations.get(masters.station, ""),
-        "control-station-external-control-enabled": "true",
-    }
-    return show(Item("controlstation-write-access-status", "status", told))
-
-
-@serves(ops.WRITE_REQUEST)
-def request_write(office: "Office", asked: RwsRequest) -> None:
-    """Take write access."""
-    masters, station = office.masters, asked.session.station
-    if not station:
-        raise Denied(403, "E_REJECT", "Session is not part of a Control Station", -20_107)
-    if masters.station not in ("", station):
-        raise Denied(403, "E_WRITE_ACCESS_TAKEN", "write access is taken", -20_109)
-    masters.station = station
-
-
-@serves(ops.WRITE_RELEASE)
-def release_write(office: "Office", asked: RwsRequest) -> None:
-    """Give write access back."""
-    masters, station = office.masters, asked.session.station
-    if not station or masters.station != station:
-        raise Denied(403, "E_NO_WRITE_ACCESS", "session does not have SPoC", -20_107)
-    masters.station = ""
-
-
-@serves(ops.MOTION_ALLOWED)
-def motion_allowed(office: "Office", asked: RwsRequest) -> Served:
-    """Whether a start may move something."""
-    told = {"is-enabled": "true" if office.masters.motion_allowed else "false"}
-    return show(Item("controstation-allow-motion-control", "allowmotioncontrol", told))
-
-
-@serves(ops.ALLOW_MOTION)
-def allow_motion(office: "Office", asked: RwsRequest) -> None:
-    """Let a start move something."""
-    office.masters.need(asked, "motion")
-    told = asked.field("allow-motion-control", ("true", "false"))
-    office.masters.motion_allowed = told == "true"

@@ -1,0 +1,56 @@
+"""An aiohttp application on a port, in a thread with a loop of its own."""
+
+import asyncio
+import ssl
+import threading
+from collections.abc import Awaitable, Callable
+from contextlib import suppress
+
+from aiohttp import web
+
+
+class WebThread:
+    """Serves one application; `port` is known when it has started."""
+
+    def __init__(self, app: web.Application) -> None:
+        self.loop = asyncio.new_event_loop()
+        self.port = 0
+        self._runner = web.AppRunner(app, access_log=None, shutdown_timeout=0.05)
+        self._thread: threading.Thread | None = None
+
+    def start(self, name: str, host: str, port: int, context: ssl.SSLContext | None = None) -> None:
+        """Open the port, of TLS with a context. OSError: it cannot be had; all is closed then."""
+        try:
+            self.loop.run_until_complete(self._open(host, port, context))
+        except OSError:
+            self.loop.run_until_complete(self._runner.cleanup())
+            self.loop.close()
+            raise
+        self._thread = threading.Thread(
+            target=self.loop.run_forever, name=f"{name}:{self.port}", daemon=True
+        )
+        self._thread.start()
+
+    async def _open(self, host: str, port: int, context: ssl.SSLContext | None) -> None:
+        await self._runner.setup()
+        await web.TCPSite(self._runner, host, port, ssl_context=context).start()
+        self.port = self._runner.addresses[0][1]
+
+    def stop(self, first: Callable[[], Awaitable[None]]) -> None:
+        """Close the port and every connection after `first`; a second call does nothing."""
+        thread, self._thread = self._thread, None
+        if thread is None:
+            return
+        asyncio.run_coroutine_threadsafe(self._close(first), self.loop).result()
+        self.loop.call_soon_threadsafe(self.loop.stop)
+        thread.join()
+        self.loop.close()
+
+    async def _close(self, first: Callable[[], Awaitable[None]]) -> None:
+        await first()
+        await self._runner.cleanup()
+
+    def soon(self, function: Callable[[], object]) -> None:
+        """Run a function on the loop; nobody is there to hear of it once that is closed."""
+        with suppress(RuntimeError):
+            self.loop.call_soon_threadsafe(function)

@@ -1,0 +1,376 @@
+"""Resources that public clients ask for beside the usual ones: what they show is what is, and a
+success shows elsewhere. Spellings: RWS manual 3HAC050973, [VC 6.16], [VC 7.21]."""
+
+import pytest
+from served import STARTED, Caller, code_of, make_cabinet, make_desk
+
+from rapidgen.wire.rws.bodies import Generation
+from rapidgen.wire.rws.codes import CODES
+
+EDIT = {Generation.ONE: "rapid?action=request", Generation.TWO: "edit/request"}
+
+
+@pytest.fixture(params=[Generation.ONE, Generation.TWO], ids=["one", "two"])
+def caller(request, tmp_path):
+    with make_cabinet(tmp_path, request.param) as cabinet:
+        yield Caller(make_desk(cabinet, request.param))
+
+
+def edit(caller):
+    assert caller.post(f"/rw/mastership/{EDIT[caller.desk.generation]}") == 204
+
+
+def act(caller, path, name, form=None, two=""):
+    """The status of an action, as each generation spells it."""
+    path += f"?action={name}" if caller.is_one else f"/{two or name}"
+    return caller.post(path, form)
+
+
+def stop(caller):
+    caller.desk.office.cabinet.controller.run_for(0.1)
+    assert act(caller, "/rw/rapid/execution", "stop", {"stopmode": "stop"}) == 204
+    caller.desk.office.cabinet.controller.run_for(0.5)
+
+
+# -- positions -----------------------------------------------------------------------------------
+
+
+def test_positions_by_task_are_those_of_its_robot(caller):
+    (joints,) = caller.get("/rw/rapid/tasks/T_ROB1/motion?resource=jointtarget")
+    (unit,) = caller.get("/rw/motionsystem/mechunits/ROB_1/jointtarget")
+    assert [joints.text(f"j{i}") for i in range(1, 7)] == [
+        unit.text(f"rax_{i}") for i in range(1, 7)
+    ]
+    (target,) = caller.get("/rw/rapid/tasks/T_ROB1/motion?resource=robtarget&tool=tool0&wobj=wobj0")
+    (cartesian,) = caller.get("/rw/motionsystem/mechunits/ROB_1/robtarget")
+    assert (target.kind, target.text("ej1")) == ("rapid-robtarget", "9e+09")
+    assert [target.text(n) for n in ("x", "q1", "cf6")] == [
+        cartesian.text(n) for n in ("x", "q1", "cf6")
+    ]
+    assert len(caller.get("/rw/rapid/tasks/T_ROB1/motion")) == 3
+    assert caller.send("GET", "/rw/rapid/tasks/T_ROB1/motion?resource=else").status == 400
+
+
+def test_a_robot_is_put_elsewhere_within_its_limits(caller):
+    form = {"rob_joint": "[10,0,0,0,20,0]", "ext_joint": "[0,0,0,0,0,0]"}
+    unit = "/rw/motionsystem/mechunits/ROB_1"
+    assert act(caller, unit, "mechunit-position", form, "position") == 204
+    (joints,) = caller.get(f"{unit}/jointtarget")
+    assert float(joints.text("rax_1")) == pytest.approx(10)
+    assert float(joints.text("rax_5")) == pytest.approx(20)
+    form["rob_joint"] = "[400,0,0,0,20,0]"
+    path = unit + ("?action=mechunit-position" if caller.is_one else "/position")
+    assert code_of(caller.send("POST", path, form)) == CODES["E_MECHPOS_NOT_IN_LIMIT"]
+    for wrong in ("", "a,b", "[1,nan]"):
+        assert caller.post(path, {**form, "rob_joint": wrong}) == 400
+
+
+def test_what_is_chosen_for_jogging_is_shown(caller):
+    unit = "/rw/motionsystem/mechunits/ROB_1"
+    path = f"{unit}?action=set" if caller.is_one else unit
+    if caller.is_one:
+        assert caller.post("/rw/mastership/motion?action=request") == 204
+    assert caller.post(path, {"jog-mode": "AxisGroup1"}) == 204
+    (item,) = caller.get(unit)
+    assert (item.text("jog-mode"), item.text("status")) == ("AxisGroup1", "Synchronized")
+    assert code_of(caller.send("POST", path, {"tool": "tNowhere"})) == CODES["E_TOOL_ERROR"]
+    assert caller.post(path, {"else": "1"}) == 400
+
+
+def test_axes_and_the_motion_system(caller):
+    assert len(caller.get("/rw/motionsystem/mechunits/ROB_1/axes")) == 7
+    status, logical = caller.get("/rw/motionsystem/mechunits/ROB_1/axes/3")
+    assert (status.text("axis-status"), logical.text("logical-axis")) == ("Synchronized", "3")
+    assert caller.send("GET", "/rw/motionsystem/mechunits/ROB_1/axes/7").status == 400
+    (base,) = caller.get("/rw/motionsystem/mechunits/ROB_1/baseframe")
+    assert (base.text("x"), base.text("q1")) == ("0", "1")
+    (system, *_) = caller.get("/rw/motionsystem")
+    assert system.text("mechunit-name") == "ROB_1"
+    (count,) = caller.get("/rw/motionsystem?resource=change-count")
+    assert dict(count.fields) == {"change-count": "0"}
+    form = {"jogmode": "AxisGroup1", "mechunit": "ROB_1", "ccount": "0"}
+    assert act(caller, "/rw/motionsystem", "jog", form) == 403
+
+
+def test_leading_by_hand_takes_a_standing_program(two):
+    """The success alone says nothing [real 7.21]."""
+    path = "/rw/motionsystem/mechunits/ROB_1/lead-through"
+    assert two.get(path)[0].text("status") == "Inactive"
+    assert two.post(path, {"status": "active"}) == 204
+    assert two.get(path)[0].text("status") == "Active"
+    assert two.post(path, {"status": "inactive"}) == 204
+    assert two.post("/rw/rapid/execution/start", STARTED) == 204
+    two.desk.office.cabinet.controller.run_for(0.1)
+    assert two.post(path, {"status": "active"}) == 204
+    assert two.get(path)[0].text("status") == "Inactive"
+
+
+# -- programs ------------------------------------------------------------------------------------
+
+
+def module(caller, rest):
+    one, two = "/rw/rapid/modules/MainModule", "/rw/rapid/tasks/T_ROB1/modules/MainModule"
+    return f"{one}?task=T_ROB1&{rest[0]}" if caller.is_one else f"{two}/{rest[1]}"
+
+
+def test_a_text_that_is_written_is_what_runs(caller):
+    controller = caller.desk.office.cabinet.controller
+    (read,) = caller.get(module(caller, ("resource=module-text", "text")))
+    text = read.text("module-text").replace("WaitTime 0.1", 'name := "new"; WaitTime 0.1')
+    target = module(caller, ("action=set-module-text", "text"))
+    assert caller.post(target, {"text": text}) == 403, "without mastership"
+    edit(caller)
+    assert caller.post(target, {"text": text}) == 204
+    assert act(caller, "/rw/rapid/execution", "resetpp") == 204
+    released = "rapid?action=release" if caller.is_one else "edit/release"
+    assert caller.post(f"/rw/mastership/{released}") == 204
+    assert act(caller, "/rw/rapid/execution", "start", STARTED) == 204
+    controller.run_for(0.5)
+    assert controller.tasks["T_ROB1"]["name"] == "new"
+
+
+def test_a_piece_of_a_text_is_read_found_and_replaced(two):
+    base = "/rw/rapid/tasks/T_ROB1/modules/MainModule/text"
+    (row,) = two.get(f"{base}/range?startrow=2&startcol=5&endrow=2&endcol=-1")
+    assert row.text("text") == "PERS num x := 1;"
+    (place,) = two.get(f"{base}/search?text=WAITTIME")
+    assert (place.text("row"), place.text("column")) == ("11", "13")
+    edit(two)
+    place = {"startrow": "2", "startcol": "19", "endrow": "2", "endcol": "19"}
+    form = {**place, "replace-mode": "Replace", "query-mode": "Force", "text": "3"}
+    assert two.post(f"{base}/range", form) == 204
+    (row,) = two.get(f"{base}/range?startrow=2&startcol=5&endrow=2&endcol=-1")
+    assert row.text("text") == "PERS num x := 3;"
+    for wrong in ("startrow=0", "endrow=99", "startrow=2&startcol=200", "startrow=a"):
+        assert two.send("GET", f"{base}/range?{wrong}").status == 400
+
+
+def test_a_program_is_saved_taken_out_and_loaded(caller):
+    volume = "$TEMP" if caller.is_one else "TEMP"
+    program = "/rw/rapid/tasks/T_ROB1/program"
+    assert act(caller, program, "save", {"path": f"{volume}/mine"}) == 204
+    edit(caller)
+    assert act(caller, program, "unloadprog", None, "unload") == 204
+    assert caller.send("GET", program).status == 204
+    form = {"progpath": f"{volume}/mine/T_ROB1.pgf", "loadmode": "replace"}
+    assert act(caller, program, "loadprog", form, "load") == 204
+    (loaded,) = caller.get(program)
+    assert loaded.text("name") == "T_ROB1"
+    assert caller.desk.office.cabinet.controller.tasks["T_ROB1"]["x"] == 1
+    missing = {"progpath": f"{volume}/else.pgf"}
+    assert act(caller, program, "loadprog", missing, "load") in (400, 404)
+
+
+def test_the_stack_and_the_pointer_of_a_stopped_program(caller):
+    start = {**STARTED, "cycle": "forever"}
+    frame = "?resource=activation-record" if caller.is_one else "/activation-record"
+    path = f"/rw/rapid/tasks/T_ROB1{frame}"
+    assert caller.send("GET", path).status == 400, "idle [VC 6.16]"
+    assert act(caller, "/rw/rapid/execution", "start", start) == 204
+    stop(caller)
+    (found,) = caller.get(path)
+    assert found.text("routine-url") == "RAPID/T_ROB1/MainModule/main"
+    pointer, motion = caller.get("/rw/rapid/tasks/T_ROB1/pcp")
+    assert (pointer.title, motion.title) == ("progpointer", "motionpointer")
+    assert pointer.text("beginposition").partition(",")[0] == found.text("beg-row")
+    edit(caller)
+    row = {"line": "10", "column": "1"} if caller.is_one else {"begin-position-row": "10"}
+    form = {"module": "MainModule", "routine": "main", **row}
+    assert act(caller, "/rw/rapid/tasks/T_ROB1/pcp", "set-pp-cursor", form, "cursor") == 204
+    assert caller.get("/rw/rapid/tasks/T_ROB1/pcp")[0].text("beginposition").startswith("10,")
+
+
+def test_a_step_is_for_manual_mode(caller):
+    controller = caller.desk.office.cabinet.controller
+    form = {**STARTED, "execmode": "stepover"}
+    assert act(caller, "/rw/rapid/execution", "start", form) == 403
+    controller.set_mode("manual_reduced")
+    controller.set_motors(True)
+    lenient = Caller(make_desk(caller.desk.office.cabinet, caller.desk.generation, strict=False))
+    for _ in range(2):
+        assert act(lenient, "/rw/rapid/execution", "start", form) == 204
+        controller.run_for(0.2)
+    assert controller.tasks["T_ROB1"]["count"] == 1
+    assert controller.tasks["T_ROB1"].state == "stopped"
+
+
+# -- the rest ------------------------------------------------------------------------------------
+
+
+def test_sessions_are_listed_one_by_one(caller):
+    before = len(caller.get("/users"))
+    form = {"username": "me", "application": "app", "location": "here"}
+    assert caller.post("/users" if caller.is_one else "/users/register", form) == 201
+    other = Caller(caller.desk)
+    found = other.get("/users")
+    assert len(found) == before + 1
+    assert found[0].text("application") == "app"
+    other.send("GET", "/logout")
+    assert len(caller.get("/users")) == before
+
+
+def test_who_may_less_cannot_be_somebody_who_may_more(tmp_path):
+    with make_cabinet(tmp_path, Generation.TWO) as cabinet:
+        desk = make_desk(cabinet, Generation.TWO, denied=frozenset(["UAS_IO_WRITE"]))
+        caller, admin = Caller(desk), Caller(desk, "Admin")
+        more = {"uid": str(admin.session.number)}
+        assert code_of(caller.send("POST", "/users/impersonate", more)) == CODES["E_UAS_REJECT"]
+        assert admin.post("/users/impersonate", {"uid": str(caller.session.number)}) == 204
+        assert admin.post("/rw/iosystem/signals/aoSpeed/set-value", {"lvalue": "1"}) == 403
+        assert admin.post("/users/impersonate", {"uid": "99"}) == 400
+
+
+def test_networks_and_devices_one_by_one(caller):
+    (network,) = caller.get("/rw/iosystem/networks")
+    assert caller.get(f"/rw/iosystem/networks/{network.title}")[0].text("lstate") == "started"
+    (device,) = caller.get("/rw/iosystem/devices")
+    assert (device.title, caller.get(f"/rw/iosystem/devices/{device.title}")[0].text("name")) == (
+        "Local/DRV_1",
+        "DRV_1",
+    )
+    found = caller.send("POST", "/rw/iosystem/devices?action=search", {"name": "drv"})
+    assert found.status == 200
+    assert caller.post("/rw/iosystem/devices?action=search", {"network": "Local"}) == 400
+    assert caller.send("GET", "/rw/iosystem/networks/Else").status == 404
+
+
+def test_a_locked_mode_cannot_be_changed(caller):
+    path, man = "/rw/panel/opmode", {"opmode": "man"}
+    setting = f"{path}?action=setopmode" if caller.is_one else path
+    assert act(caller, path, "lock", {"pin": "12", "permanent": "0"}) == 400
+    assert act(caller, path, "lock", {"pin": "1234", "permanent": "0"}) == 204
+    assert caller.post(setting, man) == 403
+    assert act(caller, path, "unlock") == 204
+    assert caller.post(setting, man) == 204
+
+
+def test_the_emergency_stop_of_a_virtual_controller(two):
+    """`off` presses it [VC 7.21]."""
+    assert two.post("/rw/panel/emergency-stop", {"state": "off"}) == 204
+    assert two.get("/rw/panel/ctrl-state")[0].text("ctrlstate") == "emergencystop"
+    assert two.post("/rw/panel/emergency-stop", {"state": "on"}) == 204
+    assert two.get("/rw/panel/ctrl-state")[0].text("ctrlstate") != "emergencystop"
+
+
+def test_a_literal_is_judged(caller):
+    two = "/rw/rapid/symbol/RAPID/T_ROB1/data?action=validate"
+    path = "/rw/rapid/symbol/data?action=validate" if caller.is_one else two
+    kind = "datatype" if caller.is_one else "dattyp"
+    form = {"task": "T_ROB1", kind: "robtarget"}
+    good = "[[0,0,600],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]"
+    assert caller.post(path, {**form, "value": good}) == 204
+    assert caller.post(path, {**form, "value": "[0,0,600]"}) == 400
+    assert caller.post(path, {**form, kind: "nothing", "value": "1"}) == 400
+
+
+def test_a_backup_is_restored_with_modules_and_files(caller):
+    cabinet = caller.desk.office.cabinet
+    volume = "$BACKUP" if caller.is_one else "BACKUP"
+    kept = cabinet.controller.files.path("HOME:") / "kept.txt"
+    kept.write_text("kept")
+    form = {"backup": f"/fileservice/{volume}/first"}
+    assert act(caller, "/ctrl/backup", "backup", form, "create") == 202
+    kept.unlink()
+    edit(caller)
+    assert act(caller, "/rw/rapid/tasks/T_ROB1", "unloadmod", {"module": "MainModule"}) == 204
+    assert act(caller, "/ctrl/backup", "restore", {"backup": f"/fileservice/{volume}/no"}) == (
+        400 if not caller.is_one else 403
+    )
+    if caller.is_one:
+        assert caller.post("/rw/mastership/cfg?action=request") == 204
+    assert act(caller, "/ctrl/backup", "restore", form) == 202
+    cabinet.run(lambda: cabinet.restarts == 1)
+    assert cabinet.controller.tasks["T_ROB1"]["x"] == 1
+    assert (cabinet.controller.files.path("HOME:") / "kept.txt").read_text() == "kept"
+    assert not cabinet.controller.failed
+
+
+def test_groups_of_a_session_and_what_they_watch(caller):
+    form = {"resources": "1", "1": "/rw/panel/opmode", "1-p": "1"}
+    assert caller.post("/subscription", form) == 201
+    assert [i.title for i in caller.get("/subscription")] == ["1"]
+    assert [i.title for i in caller.get("/subscription/1")] == ["/rw/panel/opmode"]
+    assert Caller(caller.desk).get("/subscription") == ()
+
+
+@pytest.mark.parametrize(
+    ("resource", "kind"),
+    [
+        ("/rw/rapid/tasks/T_ROB1;excstate", b"pgmtaskexec-state"),
+        ("/rw/rapid/tasks/T_ROB1/pcp;programpointerchange", b"BegPosLine"),
+        ("/rw/mastership/motion", b"holdmastership"),
+        ("/rw/rapid/tasks/T_ROB1;taskchange", b"changetype"),
+        ("/rw/rapid/tasks;buildlogchange", b"rap-buildlog-ev"),
+    ],
+)
+def test_events_have_the_manuals_fields(caller, resource, kind):
+    """RWS manual 3HAC050973; [code: App SDK] reads `pgmtaskexec-state`."""
+    form = {"resources": "1", "1": resource, "1-p": "1"}
+    reply = caller.send("POST", "/subscription", form)
+    assert reply.status == 201
+    assert kind in reply.body
+    events = []
+    group = caller.desk.groups.find("1", caller.session)
+    caller.desk.groups.listen(group, events.append, lambda: None)
+    motion = "motion?action=request" if caller.is_one else "motion/request"
+    assert caller.post(f"/rw/mastership/{motion}") == 204
+    edit(caller)
+    text = {"text": "MODULE MainModule\nPROC main()\nWaitTime 5;\nENDPROC\nENDMODULE\n"}
+    assert caller.post(module(caller, ("action=set-module-text", "text")), text) == 204
+    released = "rapid?action=release" if caller.is_one else "edit/release"
+    assert caller.post(f"/rw/mastership/{released}") == 204
+    assert act(caller, "/rw/rapid/execution", "start", STARTED) == 204
+    stop(caller)
+    assert events
+    assert all(kind in event for event in events)
+
+
+@pytest.mark.parametrize(
+    ("path", "name"),
+    [
+        ("/rw/system/energy", "energy-state"), ("/rw/system/license", "license"),
+        ("/rw/vision", "number-of-cameras"), ("/ctrl/clock/timezone", "timezone"),
+        ("/ctrl/virtualtime/vtspeed", "vtcurrspeed"), ("/ctrl/virtualtime/vttime", "vtcounter"),
+        ("/rw/motionsystem/errorstate", "err-state"), ("/rw/system/options", "option"),
+    ],
+)  # fmt: skip
+def test_what_is_told_of_the_controller(caller, path, name):
+    assert caller.get(path)[0].text(name)
+
+
+def test_the_log_is_saved_and_cleared(caller):
+    volume = "$TEMP" if caller.is_one else "TEMP"
+    log = caller.desk.office.controller.log
+    log.info(10_000, "a title of its own")
+    assert act(caller, "/rw/elog", "saveraw", {"path": f"/fileservice/{volume}/log.txt"}) == 202
+    assert b"a title of its own" in caller.send("GET", f"/fileservice/{volume}/log.txt").body
+    assert act(caller, "/rw/elog", "clearall") == 204
+    assert not list(log)
+
+
+def test_options_and_mechanics_are_in_the_cfg_of_every_controller(caller):
+    """[code: abb_librws]: names and attributes that it reads, and that nobody may change."""
+
+    def first(path):
+        item = caller.get(f"/rw/cfg/{path}/instances")[0]
+        return {one.title.lower(): one.text("value") for one in item.within}
+
+    assert [i.title for i in caller.get("/rw/cfg")] == ["EIO", "MMC", "MOC", "PROC", "SIO", "SYS"]
+    assert first("sys/present_options")["desc"] == "PC Interface"
+    assert first("sys/mechanical_unit_group") == {"name": "rob1", "robot": "ROB_1"}
+    assert first("moc/mechanical_unit")["use_robot"] == "ROB_1"
+    assert float(first("moc/arm")["upper_joint_bound"]) > 1
+    assert first("MOC/JOINT")["use_arm"] == "rob1_1"
+    assert caller.get("/rw/cfg/MMC") == ()
+    edit(caller)
+    form = {"upper_joint_bound": "9" if caller.is_one else "[9,1]"}
+    path = "/rw/cfg/MOC/ARM/instances/rob1_1"
+    assert caller.post(f"{path}?action=set" if caller.is_one else path, form) == 403
+    assert float(first("moc/arm")["upper_joint_bound"]) < 9
+
+
+def test_the_mode_has_its_lock_behind_it(two):
+    """rws2 takes the first of several [code: rws2, run on a GoFa]."""
+    mode, lock = two.get("/rw/panel/opmode")
+    assert (mode.text("opmode"), lock.kind) == ("AUTO", "pnl-opmode-lockstate-li")
+    assert two.get("/rw/panel/opmode/lock-state")[0].text("lockstate") == "Unlocked"
