@@ -235,7 +235,8 @@ class Search:
         """Damped least squares from many starts; those that arrive, each once, soonest first."""
         goal = np.array(frames.to_matrix(pose[1]))
         target = np.array(pose[0])
-        seen: list[Floats] = []
+        # A pose on axis 1 has endlessly many postures: thousands of starts may arrive.
+        seen, count = np.empty_like(values), 0
         for _ in range(_TOGETHER_ROUNDS):
             rotation, place, axes = self._forward(values)
             error = np.empty((len(values), 6))
@@ -243,8 +244,10 @@ class Search:
             error[:, 3:] = _rotation_vectors(goal @ rotation.transpose(0, 2, 1))
             size = np.max(np.abs(error), axis=1)
             for row in values[size < _CLOSE]:
-                if all(np.max(np.abs(_wrapped(row - s, self.turning))) > 1e-4 for s in seen):
-                    seen.append(row)
+                apart = np.abs(_wrapped(row - seen[:count], self.turning))
+                if np.all(np.max(apart, axis=1) > 1e-4):
+                    seen[count] = row
+                    count += 1
                     yield row
             left = size >= _CLOSE
             if not left.any():

@@ -8,8 +8,9 @@ one. Angles and geometry are those of `WristArm`.
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from math import atan2, cos, pi, sin, sqrt
-from typing import TypeAlias, TypeVar
+from typing import NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,6 +32,8 @@ _GOLDEN = (sqrt(5.0) - 1) / 2
 _NARROW = 1e-7
 _HALVINGS = 40
 _EXACT = 1e-13
+_EXACT_STEPS = 1e-14
+"""Product of two steps of the secant method, by which the second one is off at most."""
 _GRAZING = 0.02
 """How far from zero the equation may turn round between samples and yet be looked at closely."""
 _CLOSE = 0.5
@@ -45,6 +48,22 @@ class OffsetWrist:
     """Its `flange` begins on axis 6, where `offset` ends."""
     offset: tuple[float, float]
     """y, z from where axes 4 and 5 meet to axis 6 at zero."""
+
+    @cached_property
+    def figures(self) -> tuple[float, ...]:
+        """What the equation needs of the geometry, in its order."""
+        arm = self.arm
+        (length2, _), (length3, rise3) = arm.upper, arm.fore
+        square2, square3 = length2 * length2, length3 * length3
+        return (
+            *self.offset,
+            arm.lateral,
+            *arm.shoulder,
+            square2,
+            (square2 - square3) / 2,
+            cos(rise3) / length3,
+            sin(rise3) / length3,
+        )
 
     def solutions(self, pose: Pose) -> Iterator[Angles]:
         """All angles within +-pi of a flange pose."""
@@ -68,13 +87,15 @@ class OffsetWrist:
                 return wrist.angles(side, new)
             if here == before:
                 return None
-            last, new = new, new - here * (new - last) / (here - before)
+            step = here * (new - last) / (here - before)
+            if abs(step * (new - last)) < _EXACT_STEPS:
+                return wrist.angles(side, new - step)
+            last, new = new, new - step
             before, here = here, wrist.value(side, new)
         return None
 
 
-@dataclass(frozen=True)
-class _Wrist:
+class _Wrist(NamedTuple):
     """A flange pose: axes 4 and 5 meet in `fixed` less the offset, turned back about axis 6."""
 
     geometry: OffsetWrist
@@ -100,9 +121,8 @@ class _Wrist:
         self, side: Side, c: Number, s: Number, root: Callable[[Number], Number]
     ) -> tuple[Number, Number, Number]:
         """Cosine between axes 4 and 5; negative where axes 1, or 2 and 3, do not get there."""
-        arm, (oy, oz) = self.geometry.arm, self.geometry.offset
-        (length2, _), (length3, rise3) = arm.upper, arm.fore
-        (fx, fy, fz), (yx, yy, yz), (zx, zy, zz) = self.fixed, self.y, self.z
+        geometry, (fx, fy, fz), _, (yx, yy, yz), (zx, zy, zz) = self
+        oy, oz, lateral, x2, z2, square2, squares, cr, sr = geometry.figures
         along_y, along_z = oy * c + oz * s, oz * c - oy * s
         x, y, z = (
             fx - along_y * yx - along_z * zx,
@@ -110,28 +130,29 @@ class _Wrist:
             fz - along_y * yz - along_z * zz,
         )
         flat = x * x + y * y
-        planar = flat - arm.lateral * arm.lateral
+        planar = flat - lateral * lateral
         along = side[0] * root(planar)
-        c1, s1 = (x * along + y * arm.lateral) / flat, (y * along - x * arm.lateral) / flat
-        ux, uz = along - arm.shoulder[0], z - arm.shoulder[1]
+        c1, s1 = (x * along + y * lateral) / flat, (y * along - x * lateral) / flat
+        ux, uz = along - x2, z - z2
         square = ux * ux + uz * uz
         # The upper arm is at `lift` from the line to the wrist, as shares of that line's length.
-        lift = (square + length2 * length2 - length3 * length3) / (2 * square)
-        bent = length2 * length2 / square - lift * lift
+        lift = 0.5 + squares / square
+        bent = square2 / square - lift * lift
         tilt = side[1] * root(bent)
         ex, ez = ux - (lift * ux - tilt * uz), uz - (lift * uz + tilt * ux)
-        cr, sr = cos(rise3) / length3, sin(rise3) / length3
         level, down = cr * ex + sr * ez, sr * ex - cr * ez
         across = c * (c1 * yx + s1 * yy) - s * (c1 * zx + s1 * zy)
         return level * across - down * (c * yz - s * zz), planar, bent
 
     def angles(self, side: Side, a6: float) -> Angles:
         """All angles where axis 6 solves the equation."""
-        arm, (oy, oz) = self.geometry.arm, self.geometry.offset
+        geometry, (fx, fy, fz), (xx, xy, xz), (yx, yy, yz), (zx, zy, zz) = self
+        arm, (oy, oz) = geometry.arm, geometry.offset
         c, s = cos(a6), sin(a6)
         across, up = oy * c + oz * s, oz * c - oy * s
-        turned = frames.add(frames.scale(self.y, across), frames.scale(self.z, up))
-        x, y, z = frames.subtract(self.fixed, turned)
+        x = fx - across * yx - up * zx
+        y = fy - across * yy - up * zy
+        z = fz - across * yz - up * zz
         along = side[0] * _root(x * x + y * y - arm.lateral * arm.lateral)
         a1 = atan2(y, x) - atan2(arm.lateral, along)
         (length2, rise2), (length3, rise3) = arm.upper, arm.fore
@@ -142,13 +163,13 @@ class _Wrist:
         dx, dz = lift * ux - tilt * uz, lift * uz + tilt * ux
         a2 = rise2 - atan2(dz, dx)
         bend = rise3 - atan2(uz - dz, ux - dx)
-        axis5 = frames.subtract(frames.scale(self.y, c), frames.scale(self.z, s))
         c1, s1, cb, sb = cos(a1), sin(a1), cos(bend), sin(bend)
-        fore = (c1 * cb, s1 * cb, -sb)
-        left, over = (-s1, c1, 0.0), (c1 * sb, s1 * sb, cb)
-        a4 = atan2(frames.dot(axis5, over), frames.dot(axis5, left))
-        square4 = frames.cross(fore, axis5)
-        a5 = atan2(-frames.dot(self.x, square4), frames.dot(self.x, fore))
+        # Axis 5, and the forearm with what is left of it and above it.
+        ax, ay, az = c * yx - s * zx, c * yy - s * zy, c * yz - s * zz
+        fx, fy, fz = c1 * cb, s1 * cb, -sb
+        a4 = atan2(sb * (c1 * ax + s1 * ay) + cb * az, c1 * ay - s1 * ax)
+        lifted = xx * (fy * az - fz * ay) + xy * (fz * ax - fx * az) + xz * (fx * ay - fy * ax)
+        a5 = atan2(-lifted, xx * fx + xy * fy + xz * fz)
         return _wrap(a1), _wrap(a2), _wrap(bend - a2), a4, a5, _wrap(a6)
 
     # -- its roots --------------------------------------------------------------------------

@@ -10,6 +10,8 @@ import typer
 
 from rapidgen.config.described import Answers
 from rapidgen.config.open_lines import OPEN
+from rapidgen.config.scaffold import ranges
+from rapidgen.diagnostics import DiagnosticError, render
 
 _JOINT = re.compile(r'^\s*("[^"]*"|\w+): \{axis: ("\?{3}"|\w+)', re.MULTILINE)
 _SHOWN = re.compile(r"^\s*(?:#.*|tip: .*|rob\w+:|(?:\"[^\"]*\"|\w+): \{axis: .*|coupling: .*)$")
@@ -49,15 +51,18 @@ def ask_open(make: Callable[[Answers], str], answers: Answers) -> Answers:
     """Show what is known, and ask until nothing is open that one answer settles."""
     text = make(answers)
     typer.echo(drawn(text), err=True)
-    for joint, axis in [(hit[1].strip('"'), hit[2]) for hit in _JOINT.finditer(text)]:
-        if axis == OPEN:
-            taken = {a for _, a in _JOINT.findall(text)} | set(answers.joints.values())
-            usual = next((a for a in _AXES if a not in taken), "ignore")
-            given = _choice(f"Axis of {joint}", _AXES, usual)
-            if given == "ignore":
-                answers = replace(answers, ignore=(*answers.ignore, joint))
-            else:
-                answers = replace(answers, joints={**answers.joints, joint: given})
+    while left := [joint for joint, axis in _axes(text) if axis == OPEN]:
+        joint = left[0]
+        taken = {axis for _, axis in _axes(text)}
+        usual = next((axis for axis in _AXES if axis not in taken), "ignore")
+        given = _choice(f"Axis of {joint}", _AXES, usual)
+        if given == "ignore":
+            answers = replace(answers, ignore=(*answers.ignore, joint))
+        else:
+            answers = replace(answers, joints={**answers.joints, joint: given})
+        text = make(answers)  # where the others are told by it, they are not asked for
+    if f"lower: {OPEN}" in text:
+        answers = replace(answers, ranges={**answers.ranges, **_ranges(text)})
     if f"coupling: {OPEN}" in text:
         rod = _choice("Does a rod couple axes 2 and 3 (0 no, 1 yes)", ("0", "1"), "")
         answers = replace(answers, coupling=float(rod))
@@ -67,6 +72,36 @@ def ask_open(make: Callable[[Answers], str], answers: Answers) -> Answers:
         )
         answers = replace(answers, speed=speed)
     return answers
+
+
+def _axes(text: str) -> list[tuple[str, str]]:
+    return [(hit[1].strip('"'), hit[2]) for hit in _JOINT.finditer(text)]
+
+
+def _ranges(text: str) -> dict[str, tuple[float, float]]:
+    """The ranges that a person knows, the last one offered again for the next turning joint."""
+    made: dict[str, tuple[float, float]] = {}
+    usual = ""
+    for line in text.splitlines():
+        hit = _JOINT.match(line)
+        if not hit or f"lower: {OPEN}" not in line:
+            continue
+        name = hit[1].strip('"')
+        unit = "mm" if "unit: mm" in line else "deg"
+        while True:
+            question = f"Range of {name}, {unit}, LOWER..UPPER (. leaves it open)"
+            default = usual if unit == "deg" and usual else "."
+            given = str(typer.prompt(question, default=default, err=True))
+            if given == ".":
+                break
+            try:
+                made |= ranges([f"{name}={given}"])
+            except DiagnosticError as fault:
+                typer.echo(render(fault.diagnostics), err=True, nl=False)
+                continue
+            usual = given if unit == "deg" else usual
+            break
+    return made
 
 
 def _choice(question: str, choices: tuple[str, ...], usual: str) -> str:

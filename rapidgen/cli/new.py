@@ -51,6 +51,13 @@ def new(
         float | None,
         typer.Option("--speed", help="deg/s (mm/s) of axes of which nothing says a speed."),
     ] = None,
+    range_: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--range",
+            help="NAME=LOWER..UPPER, deg or mm; without NAME: for turning axes without one.",
+        ),
+    ] = None,
     controller: Annotated[
         str, typer.Option("--controller", help="irc5, irc5_compact or omnicore.")
     ] = "irc5",
@@ -60,7 +67,7 @@ def new(
     """Write a commented configuration that checks and builds. What stays open is marked in it."""
     from rapidgen.cli.asking import ask_open, ask_source, is_terminal
     from rapidgen.config.described import Answers
-    from rapidgen.config.scaffold import assignments, from_model, from_urdf, write_new
+    from rapidgen.config.scaffold import assignments, from_model, from_urdf, ranges, write_new
 
     if robot is None and urdf is None and is_terminal():
         robot, urdf = ask_source()
@@ -90,6 +97,7 @@ def new(
             keep=tuple(keep or ()),
             coupling=coupling,
             speed=speed,
+            ranges=ranges(range_ or ()),
             controller=controller,
             robotware=robotware,
         )

@@ -1,5 +1,7 @@
 """`rapidgen test`: the driver's own suite, on the virtual controller, for this robot."""
 
+from contextlib import nullcontext
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -21,6 +23,9 @@ if TYPE_CHECKING:
 def test(
     config: options.Config,
     seeds: Annotated[int, typer.Option(help="Random schedules to explore.", min=0)] = 100,
+    programs: Annotated[
+        int, typer.Option(help="Random motion programs, each beside the same in RAPID.", min=0)
+    ] = 0,
     jobs: Annotated[
         int | None, typer.Option(help="Processes; default one for each core.", min=1)
     ] = None,
@@ -45,11 +50,17 @@ def test(
     ] = None,
     replay: Annotated[
         str | None,
-        typer.Option(help="One schedule again, exactly; its story on stdout.", metavar="SCHEDULE"),
+        typer.Option(
+            help="One schedule or program again, exactly; its story on stdout.", metavar="NAME"
+        ),
     ] = None,
     trace: Annotated[
         Path | None,
         typer.Option(help="With --replay: every statement of RAPID.", metavar="FILE"),
+    ] = None,
+    record: Annotated[
+        Path | None,
+        typer.Option(help="With --replay: all of it, for `rapidgen view`.", metavar="FILE.mcap"),
     ] = None,
     uncovered: Annotated[
         bool, typer.Option("--uncovered", help="List the lines of RAPID that no case reaches.")
@@ -106,7 +117,7 @@ def test(
     if list_cases:
         return _list(as_json)
     if replay is not None:
-        return _replay(model, replay, trace)
+        return _replay(model, replay, trace, record)
     _check_names(case or [])
     assuming = [text for given in assume or () for text in given.split(",")]
     assumed(assuming)
@@ -120,6 +131,7 @@ def test(
             report = prove(
                 model,
                 seeds=seeds,
+                programs=programs,
                 jobs=jobs,
                 hire=None if cluster is None else _of_cluster(cluster),
                 only=case or (),
@@ -254,6 +266,7 @@ def _show(report: "Proof", uncovered: bool, durations: int, command: str) -> Non
     from rich.console import Console
     from rich.table import Table
 
+    from rapidgen.proving.model import is_program
     from rapidgen.proving.report import complaint, met, missed, slowest
 
     console = Console(highlight=False)
@@ -264,8 +277,11 @@ def _show(report: "Proof", uncovered: bool, durations: int, command: str) -> Non
         answers = sorted({a.strip() for o in own for a in o.answers.split(",") if a})
         table.add_row(group, str(sum(o.passed for o in own)), str(len(own)), " ".join(answers))
     if report.schedules:
-        held = report.schedules - len(report.findings)
+        held = report.schedules - sum(not is_program(f.schedule) for f in report.findings)
         table.add_row("schedules", str(held), str(report.schedules), "R1 R5 R7 R12")
+    if report.programs:
+        held = report.programs - sum(is_program(f.schedule) for f in report.findings)
+        table.add_row("programs", str(held), str(report.programs), "")
     reached, of = report.covered
     if of:
         table.add_row("lines of RAPID", str(reached), str(of), f"{reached / of:.1%} covered")
@@ -280,7 +296,8 @@ def _show(report: "Proof", uncovered: bool, durations: int, command: str) -> Non
             console.print(f"failed: {complaint(outcome)}", markup=False)
     for finding in report.findings:
         console.print(f"failed: {finding.detail}", markup=False)
-        console.print(f"  {command} --replay {finding.schedule}", markup=False, soft_wrap=True)
+        again = f"{command} --replay {finding.schedule} --record story.mcap"
+        console.print(f"  {again}", markup=False, soft_wrap=True)
     if report.curve:
         console.print(met(report), markup=False)
     verdict = "everything held" if report.passed else "something did not hold"
@@ -295,19 +312,21 @@ def _show(report: "Proof", uncovered: bool, durations: int, command: str) -> Non
     )
 
 
-def _replay(config: "RobotConfig", name: str, trace: Path | None) -> int:
+def _replay(config: "RobotConfig", name: str, trace: Path | None, recording: Path | None) -> int:
+    from rapidgen.proving.model import is_program, title
     from rapidgen.proving.run import replay
+    from rapidgen.view.recording.writer import record
 
     _check_writable(trace)
-    if trace is None:
-        explored = replay(config, name)
-    else:
-        with trace.open("w", encoding="utf-8") as file:
-            explored = replay(config, name, file)
+    _check_writable(recording)
+    with trace.open("w", encoding="utf-8") if trace else nullcontext() as story:
+        begin = partial(record, path=recording) if recording else None
+        explored = replay(config, name, story, begin)
     typer.echo(explored.plan)
     if explored.finding is None:
-        typer.echo(f"schedule {name}: the invariant held")
+        held = "it moved as the same in RAPID" if is_program(name) else "the invariant held"
+        typer.echo(f"{title(name)}: {held}")
         return 0
     typer.echo("\n".join(explored.finding.log))
-    typer.echo(f"schedule {name}: {explored.finding.detail}")
+    typer.echo(f"{title(name)}: {explored.finding.detail}")
     return 1

@@ -2,11 +2,13 @@
 
 import json
 import math
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from rapidgen.config import schema
+from rapidgen.config.axis_sets import ROBOT_AXES
 from rapidgen.config.contradictions import is_mirror
 from rapidgen.config.draft import JointDraft
 from rapidgen.config.few import few
@@ -15,7 +17,7 @@ from rapidgen.config.model import ChainLink
 from rapidgen.config.open_lines import OPEN
 from rapidgen.config.recognition import Alignment
 from rapidgen.config.urdf import limits
-from rapidgen.config.urdf.arms import Arm, Cell, no_robot, read_cell
+from rapidgen.config.urdf.arms import Arm, Cell, no_robot, read_cell, says_abb
 from rapidgen.config.urdf.crosscheck import COUPLED, SERIAL
 from rapidgen.config.urdf.expand import expand
 from rapidgen.config.urdf.graph import build_graph
@@ -24,6 +26,7 @@ from rapidgen.config.urdf.robot import UrdfJoint, read_robot
 from rapidgen.config.urdf.source import macros, read_xml
 from rapidgen.diagnostics import DiagnosticError, Severity, refusal, suggest
 
+_PACKAGE = re.compile(r"package://([\w-]+)")
 _EXTERNAL = tuple(f"eax_{letter}" for letter in "abcdef")
 
 
@@ -38,6 +41,8 @@ class Answers:
     coupling: float | None = None
     speed: float | None = None
     """deg/s and mm/s for axes of which nothing says a speed"""
+    ranges: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    """deg or mm by joint; "" is for turning axes of which nothing says a range"""
     controller: str = "irc5"
     robotware: str = "6.15"
 
@@ -87,7 +92,10 @@ def describe(
     robot = read_robot(description, None)
     graph, found = build_graph(robot, None)
     names = (robot.name, description.path.name)
-    cell = read_cell(graph, names)
+    said = {**dict.fromkeys(answers.ignore, ""), **answers.joints}
+    around = (*description.path.resolve().parts[-5:-1], *_PACKAGE.findall(description.text))
+    claimed = bool(said or answers.tips) or says_abb(*names, *around, description.text)
+    cell = replace(read_cell(graph, names, said), around=around, is_claimed=claimed)
     faults = [d for d in found if d.severity is Severity.ERROR]
     refused = list(no_robot(cell, None))
     if refused and refused[0].message.startswith("a delta"):
@@ -122,7 +130,7 @@ def _with_macro(urdf: Path, given: schema.UrdfKeys) -> schema.UrdfKeys:
 def _check_names(cell: Cell, answers: Answers) -> None:
     names = [joint.name for joint in cell.graph.robot.joints]
     links = list(cell.graph.robot.links)
-    for name in (*answers.joints, *answers.ignore):
+    for name in (*answers.joints, *answers.ignore, *filter(None, answers.ranges)):
         if name not in names:
             raise refusal(
                 "RG020", None, f"the description has no joint '{name}'", suggest(name, names)
@@ -162,6 +170,8 @@ def _group(cell: Cell, arm: Arm, arms: Sequence[Arm], number: int, answers: Answ
         head.append(f"# {said}")
     else:
         head.append("# No known variant has these axes: check every line against the data sheet.")
+        if not cell.is_claimed:
+            head.append("# Nothing in the description says that it is a robot of ABB.")
     taken = {*answers.joints.values(), *(("eax_a",) if "eax_a" in arm.axes else ())}
     free = [axis for axis in _EXTERNAL if axis not in taken]
     mapped = [(joint, axis) for joint, axis in zip(arm.joints, arm.axes, strict=True)]
@@ -188,11 +198,15 @@ def _group(cell: Cell, arm: Arm, arms: Sequence[Arm], number: int, answers: Answ
         tail.append(f'source: {{limits: "{variant.name} of robots/variants.json"}}')
     if answers.keep:
         tail.append(f"keep: [{', '.join(answers.keep)}]")
+    elif arm.axes == ROBOT_AXES[:3] and not any(line.axis == "rax_4" for line in lines):
+        tail.append("keep: [rax_4]           # not in the description: held where it stands")
     if number == 0:
         tail += _positioners(cell)
     tip = cell.graph.tip_link(arm.joints[-1])
     own = {line.name for line in lines} | set(answers.ignore)
-    needs_tip = any(j.is_actuated and j.name not in own for j in cell.graph.robot.joints)
+    needs_tip = any(
+        j.is_actuated and not j.is_stuck and j.name not in own for j in cell.graph.robot.joints
+    )
     return GroupText(
         _name(arm, arms, number), [*head, *([f"tip: {tip}"] if needs_tip else [])], lines, tail
     )
@@ -236,7 +250,13 @@ def _line(
     range_of_file = lower is not None and upper is not None and not endless and "RG041" not in bad
     mirrored = bool(known and is_mirror((lower, upper), (known.lower, known.upper)))
     comments = []
-    if known and known.lower is not None and (not range_of_file or mirrored):
+    said = answers.ranges.get(joint.name)
+    if said is None and not range_of_file and not is_linear and (not known or known.lower is None):
+        said = answers.ranges.get("")
+    if said:
+        line.keys += [f"lower: {said[0]:g}", f"upper: {said[1]:g}"]
+        comments.append("range as said")
+    elif known and known.lower is not None and (not range_of_file or mirrored):
         line.keys += [f"lower: {known.lower:g}", f"upper: {known.upper:g}"]
         line.is_known = True
         comments += ["mirrored in the file"] if mirrored else []

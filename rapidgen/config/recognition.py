@@ -7,7 +7,7 @@ has it; that gives signs and zeros. Axes 1 and 6 have no zero in this: the file'
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise, product
 
 from rapidgen.config.geometry import Line, Skeleton, apply, distance, laid, turn
@@ -19,6 +19,9 @@ _ROUGH = 0.01
 _EXACT = math.radians(0.06)
 """A zero this near to a multiple of 15 degrees is that multiple."""
 _STEP = math.radians(15)
+_SCARA = [False, False, True, False]
+_WITHOUT_LAST = 3
+"""Axes of a SCARA whose export leaves out axis 4: that one turns about the quill, unseen."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,14 +48,23 @@ def align(lines: Sequence[Line], *names: str) -> Alignment | None:
 
 
 def _aligned(lines: Sequence[Line], names: tuple[str, ...], within: float) -> Alignment | None:
-    hits = [v for v in variants() if _is_like(lines, v.skeleton.lines, within)]
+    wanted = [_of_size(v.skeleton, len(lines)) for v in variants()]
+    if len(lines) == _WITHOUT_LAST and [line.slides for line in lines] == [False, False, True]:
+        # Where the quill turns is where it slides: with axis 4 left out that tells the forearm.
+        lines = [replace(line, slides=False) for line in lines]
+    known = {
+        v.name: skeleton
+        for v, skeleton in zip(variants(), wanted, strict=True)
+        if skeleton and _is_like(lines, skeleton.lines, within)
+    }
+    hits = [v for v in variants() if v.name in known]
     if within > SAME_PLACE:
         hits = [v for v in hits if v.family == family(*names)]
     said = family(*names)
     hits.sort(key=lambda v: (v.family == said, closeness(v, *names)), reverse=True)
     for variant in hits:
         found = sorted(
-            _postures(lines, variant.skeleton, within),
+            _postures(lines, known[variant.name], within),
             key=lambda f: _plainness(f, lines[0].direction),
         )
         if not found:
@@ -68,11 +80,21 @@ def _aligned(lines: Sequence[Line], names: tuple[str, ...], within: float) -> Al
         ]
         offsets = tuple(-s * v for s, v in zip(signs, values, strict=True))
         same = [v.name for v in hits if v is not variant and _is_same(v, variant)]
-        axes = tuple(line.axis for line in variant.skeleton.lines)
+        axes = tuple(line.axis for line in known[variant.name].lines)
         return Alignment(
             variant, tuple(same), axes, signs, offsets, not rivals, within > SAME_PLACE
         )
     return None
+
+
+def _of_size(known: Skeleton, size: int) -> Skeleton | None:
+    """A variant's axes where an arm has as many, or a SCARA's without its last one; else None."""
+    if len(known.lines) == size:
+        return known
+    if size != _WITHOUT_LAST or [line.slides for line in known.lines] != _SCARA:
+        return None
+    lines = (*known.lines[:2], replace(known.lines[3], axis="rax_3"))
+    return Skeleton(lines, known.end)
 
 
 def _is_same(a: Variant, b: Variant) -> bool:
@@ -99,7 +121,7 @@ def _plainness(
 
 def _is_like(lines: Sequence[Line], known: Sequence[Line], within: float) -> bool:
     """Whether neighbouring axes have the distances and angles of a variant's."""
-    if [line.slides for line in lines] != [line.slides for line in known] or len(lines) < 4:
+    if [line.slides for line in lines] != [line.slides for line in known] or len(lines) < 3:
         return False
     return all(
         abs(a[0] - b[0]) <= within and abs(a[1] - b[1]) <= SAME_TURN

@@ -182,6 +182,22 @@ def assignments(words: Sequence[str]) -> dict[str, str]:
     return made
 
 
+def ranges(words: Sequence[str]) -> dict[str, tuple[float, float]]:
+    """LOWER..UPPER or NAME=LOWER..UPPER, by name; anything else raises DiagnosticError (RG020)."""
+    made = {}
+    for word in words:
+        name, _, figures = word.rpartition("=")
+        lower, _, upper = figures.partition("..")
+        try:
+            made[name] = float(lower), float(upper)
+        except ValueError:
+            text = f"'{word}' is not LOWER..UPPER or NAME=LOWER..UPPER"
+            raise refusal("RG020", None, text) from None
+        if not made[name][0] < made[name][1]:
+            raise refusal("RG020", None, f"'{word}': lower is not below upper")
+    return made
+
+
 def write_new(
     path: Path, text: str, *, package_paths: Sequence[Path] = (), force: bool = False
 ) -> tuple[Diagnostic, ...]:

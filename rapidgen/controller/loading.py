@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
+from functools import lru_cache
 
 from rapidgen.config.model import GroupConfig
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, error
@@ -15,21 +16,30 @@ from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.values import Type, Value
 from rapidgen.system.model import ModuleFile, System
 
+_SMALL = 64_000
+"""Bytes of a module whose tree is kept for the next controller that boots."""
+
 
 class Trees:
-    """Trees of module files; the same bytes are parsed once."""
+    """Trees of module files; the same bytes are parsed once, small ones for all controllers."""
 
     def __init__(self, robotware: tuple[int, int]) -> None:
         self._dialect = Dialect(robotware=robotware)
-        self._parsed: dict[bytes, n.Module] = {}
+        self._parsed: dict[tuple[bytes, str], n.Module] = {}
 
     def parse(self, file: ModuleFile) -> n.Module:
-        """The tree of a module file."""
-        tree = self._parsed.get(file.data)
-        if tree is None or tree.source.path != file.path:
-            tree = parse(file.data, path=file.path, dialect=self._dialect)
-            self._parsed[file.data] = tree
-        return tree
+        """The tree of a module file, which nobody changes."""
+        if len(file.data) <= _SMALL:
+            return _tree(file.data, file.path, self._dialect)
+        key = file.data, file.path
+        if key not in self._parsed:
+            self._parsed[key] = _tree.__wrapped__(*key, self._dialect)
+        return self._parsed[key]
+
+
+@lru_cache(maxsize=128)
+def _tree(data: bytes, path: str, dialect: Dialect) -> n.Module:
+    return parse(data, path=path, dialect=dialect)
 
 
 def load(

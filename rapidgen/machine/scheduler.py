@@ -127,6 +127,7 @@ class Scheduler:
         """Nanoseconds in which no process was ready."""
         self._now = 0
         self._heap: list[tuple[int, int, Timer]] = []
+        self._looks: list[tuple[int, int, Callable[[], None]]] = []
         self._serial = count()
         self._front: Runnable | None = None
         self._until: int | None = None
@@ -171,6 +172,26 @@ class Scheduler:
     def after(self, delay_ns: int, function: Callable[[], None]) -> Timer:
         """Call `function` after a delay."""
         return self.at(self.now + max(0, delay_ns), function)
+
+    def look_after(self, delay_ns: int, function: Callable[[], None]) -> None:
+        """Call `function`, which only looks, after a delay: nothing else happens otherwise for it.
+
+        On the virtual clock it is called when time next stands still there or later: it cuts
+        nobody's turn short, keeps no controller busy and lets no `stop()` be asked once more.
+        """
+        time = self.now + max(0, delay_ns)
+        if self.clock == "real":
+            self.at(time, function)
+        else:
+            heapq.heappush(self._looks, (time, next(self._serial), function))
+
+    def _look(self, end: int) -> None:
+        """Let those look whose time comes up to `end`."""
+        while self._looks and self._looks[0][0] <= end:
+            when, _, function = heapq.heappop(self._looks)
+            if when > self._now:
+                self._now = when
+            function()
 
     @property
     def paused(self) -> bool:
@@ -234,6 +255,7 @@ class Scheduler:
         self.ready.clear()
         self._front = None
         self._heap.clear()
+        self._looks.clear()
         for process in processes:
             process.abandon()
 
@@ -281,6 +303,7 @@ class Scheduler:
                 if until is None:
                     return "idle"
                 self.idle += until - self._now
+                self._look(until)
                 self._now = until
                 return "time"
             self.idle += max(0, ahead - self._now)
@@ -388,6 +411,8 @@ class Scheduler:
             if function is None:
                 continue
             timer.function = None
+            if self._looks:
+                self._look(when)
             if when > self._now:
                 self._now = when
             function()
@@ -395,6 +420,8 @@ class Scheduler:
                 self._stopping = True
             if one:
                 return
+        if self._looks:
+            self._look(end)
         if end > self._now:
             self._now = end
 
@@ -403,6 +430,8 @@ class Scheduler:
         what it does there, however the time was cut into pieces."""
         if self._heap and self._heap[0][0] < end:
             self._fire(end - 1)
+        if self._looks:
+            self._look(end)
         if end > self._now:
             self._now = end
 

@@ -12,12 +12,13 @@ that speaks simple_message on the group's motion port:
 """
 
 import random
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import TextIO
 
 from rapidgen.config.model import RobotConfig
+from rapidgen.controller.controller import VirtualController
 from rapidgen.controller.faults import FaultPlan
 from rapidgen.controller.tracing import Trace
 from rapidgen.machine.network.rules import Direction, NetworkRule
@@ -29,6 +30,9 @@ from rapidgen.proving.model import Finding
 from rapidgen.proving.plan import DriverLine, Ground, Plan, drawn, named
 from rapidgen.proving.settings import Setting
 from rapidgen.system.model import System
+
+Recording = Callable[[VirtualController], Callable[[], None]]
+"""Begins a recording of a controller; what it returns ends it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,12 +54,14 @@ def explore(
     only: Sequence[str] = (),
     silence: float = 4.0,
     trace: TextIO | None = None,
+    record: Recording | None = None,
 ) -> Explored:
     """Run one schedule; the same one gives the same history.
 
     `only` names the steps that a history is made of (default: all of STEPS). `silence`: s
     after which a new client may expect to be served. `trace` gets a line for each statement
-    of RAPID and for each step of the history. Raises DiagnosticError RG807.
+    of RAPID and for each step of the history; `record` begins a recording of the controller and
+    gives what ends it. Neither changes what happens. Raises DiagnosticError RG807.
     """
     name = named(schedule)
     ground = ground_of(config, system)
@@ -71,11 +77,15 @@ def explore(
             Trace(bench.controller, trace)
         walk = History(bench, plan, silence, trace)
         finding = None
+        end = record(bench.controller) if record is not None else None
         try:
             walk.go()
             bench.healthy()
         except FAILURES as error:
             finding = Finding(schedule, str(error), "\n".join(walk.plan), bench.log())
+        finally:
+            if end is not None:
+                end()
     return Explored(schedule, "\n".join(walk.plan), finding, pairs.found())
 
 

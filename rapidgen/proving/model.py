@@ -1,6 +1,17 @@
 """What came out of a proof: of one case, and of the whole suite."""
 
+import re
 from dataclasses import dataclass, field
+
+
+def is_program(name: str) -> bool:
+    """Whether a name is that of a random motion program (`program/17`), and of no schedule."""
+    return re.fullmatch(r"program/\d{1,12}", name, re.ASCII) is not None
+
+
+def title(name: str) -> str:
+    """What a report calls a schedule or a program: `schedule 17~4`, `program/17`."""
+    return name if is_program(name) else f"schedule {name}"
 
 
 class Broken(Exception):
@@ -40,12 +51,18 @@ class Verdict:
 
 @dataclass(frozen=True, slots=True)
 class Finding:
-    """A schedule that broke the invariant; its name replays it exactly."""
+    """A schedule that broke the invariant, or a program that moved otherwise than in RAPID; its
+    name replays it exactly."""
 
     schedule: str
     detail: str
     plan: str
     log: tuple[str, ...] = ()
+
+    @property
+    def title(self) -> str:
+        """What a report calls it."""
+        return title(self.schedule)
 
 
 @dataclass(slots=True)
@@ -59,6 +76,8 @@ class Proof:
     """What the settings assume other than by default, by name."""
     findings: list[Finding] = field(default_factory=list)
     schedules: int = 0
+    programs: int = 0
+    """Random motion programs that were tried."""
     curve: list[tuple[int, int]] = field(default_factory=list)
     """How many schedules had met how many pairs of statements, where there was a new one."""
     elapsed: float = 0.0

@@ -201,16 +201,20 @@ def by_hand(bench: Bench, program: Sequence[RawOrder]) -> System:
     """The controller of a driver within a program that makes these moves, in RAPID's own words."""
     config: RobotConfig = replace(bench.config, call_main=False)
     system = make_system(config, build(config))
-    moves = "\n".join(f"        {_statement(bench, order)}" for order in program)
-    # Time to put the robot where it begins.
-    lines = ("MODULE hand", "    PROC main()", "        WaitTime 1;", moves, "        Stop;")
-    text = "\n".join((*lines, "    ENDPROC", "ENDMODULE", ""))
-    module = ModuleFile("hand", "hand.mod", text.encode())
+    module = ModuleFile("hand", "hand.mod", in_rapid(bench, program).encode())
     tasks = tuple(
         replace(task, modules=(*task.modules, module)) if task.name == bench.group.task else task
         for task in system.tasks
     )
     return in_its_cell(replace(system, tasks=tasks), config)
+
+
+def in_rapid(bench: Bench, program: Sequence[RawOrder]) -> str:
+    """A module whose `main` makes these moves."""
+    moves = "\n".join(f"        {_statement(bench, order)}" for order in program)
+    # Time to put the robot where it begins.
+    lines = ("MODULE hand", "    PROC main()", "        WaitTime 1;", moves, "        Stop;")
+    return "\n".join((*lines, "    ENDPROC", "ENDMODULE", ""))
 
 
 def _statement(bench: Bench, order: RawOrder) -> str:

@@ -73,6 +73,7 @@ def as_json(report: Proof) -> dict[str, Json]:
             for outcome in report.outcomes
         ],
         "schedules": report.schedules,
+        "programs": report.programs,
         "pairs": [list(point) for point in report.curve],
         "findings": [{"schedule": f.schedule, "detail": f.detail} for f in report.findings],
     }
@@ -109,7 +110,7 @@ def write_junit(report: Proof, path: Path) -> None:
             suite,
             "testcase",
             classname=f"{report.name}.exploration",
-            name=f"schedule {finding.schedule}",
+            name=finding.title,
         )
         failure = ElementTree.SubElement(case, "failure", message=_xml(finding.detail))
         failure.text = _xml("\n".join((finding.plan, *finding.log)))
@@ -129,7 +130,7 @@ def write_html(report: Proof, path: Path) -> None:
     )
     details = "".join(_details(o) for o in report.outcomes if o.series or not o.passed)
     findings = "".join(
-        f"<h3>schedule {f.schedule}</h3><p>{html.escape(f.detail)}</p>"
+        f"<h3>{f.title}</h3><p>{html.escape(f.detail)}</p>"
         f"<pre>{html.escape(chr(10).join((f.plan, *f.log)))}</pre>"
         for f in report.findings
     )
@@ -139,13 +140,14 @@ def write_html(report: Proof, path: Path) -> None:
 <style>{_STYLE}</style>
 <h1>{html.escape(report.name)}: {verdict}</h1>
 <p>BUILD_ID {html.escape(report.build_id)} · {len(report.outcomes)} cases ·
-{report.schedules} schedules explored · on the virtual controller; no real controller was asked.</p>
+{report.schedules} schedules explored · {report.programs} programs beside the same in RAPID ·
+on the virtual controller; no real controller was asked.</p>
 <p>{html.escape(_versions())}</p>
 {_coverage(report)}
 {_pairs(report)}
 <p><input id="search" type="search" placeholder="search cases" aria-label="search cases"></p>
 {tables}
-{"<h2>Schedules that broke the invariant</h2>" + findings if findings else ""}
+{"<h2>Schedules and programs that did not hold</h2>" + findings if findings else ""}
 {details}
 <script>{_SEARCH}</script>
 </html>

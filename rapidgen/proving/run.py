@@ -16,10 +16,11 @@ from rapidgen.proving.behaviour import Behaviour
 from rapidgen.proving.bench import FAILURES, Bench, add_lines
 from rapidgen.proving.blame import blamed
 from rapidgen.proving.campaign import Campaign, Limits, Progress, Workload
-from rapidgen.proving.explore import Explored, explore, ground_of
+from rapidgen.proving.explore import Explored, Recording, explore, ground_of
 from rapidgen.proving.guide import Guide
 from rapidgen.proving.identity import identity
-from rapidgen.proving.model import Finding, Proof, Verdict
+from rapidgen.proving.likeness import liken, name_of, takes_programs
+from rapidgen.proving.model import Finding, Proof, Verdict, is_program
 from rapidgen.proving.plan import Ground, drawn, named
 from rapidgen.proving.report import series
 from rapidgen.proving.results import Results
@@ -80,6 +81,7 @@ def prove(
     config: RobotConfig,
     *,
     seeds: int = 200,
+    programs: int = 0,
     jobs: int | None = None,
     hire: Callable[["DriverUnderTest"], Workers] | None = None,
     only: Sequence[str] = (),
@@ -91,15 +93,18 @@ def prove(
     results: Path | None = None,
     resume: bool = False,
 ) -> Proof:
-    """Run the suite (`cases`, or `only` those named) and, without `only`, the exploration.
+    """Run the suite (`cases`, or `only` those named) and, without `only`, the exploration of
+    `seeds` schedules and so many random motion `programs`, each beside the same one in RAPID.
 
     The answers to any `strength` open questions meet in some setting (0: the default alone);
     `assuming`: in that one only. `progress(what, done, total)` is called for every piece of work.
     `hire`: who works, by default `jobs` processes of this machine.
     Results are kept in a file, in which `resume` finds those that are known already.
     A KeyboardInterrupt ends the run; the report has what it had seen, and says so. Raises
-    DiagnosticError RG805, WorkersLost.
+    DiagnosticError RG805, RG810, WorkersLost.
     """
+    if programs:
+        takes_programs(config)
     driver = DriverUnderTest.of(config)
     started = time.monotonic()
     report = Proof(config.name, driver.system.build_id)
@@ -119,6 +124,10 @@ def prove(
                 for outcome in report.outcomes:
                     add_lines(report.lines, outcome.lines)
                 _explored(report, campaign, seeds, progress)
+            for tried in campaign.run(likenesses(programs)):
+                report.programs += 1
+                if tried.finding is not None:
+                    report.findings.append(tried.finding)
         except KeyboardInterrupt:
             report.broken_off = True
     report.left = campaign.left
@@ -182,6 +191,19 @@ def schedules(seeds: int, guide: Guide) -> Workload[str, Explored]:
     )
 
 
+def likenesses(programs: int) -> Workload[str, Explored]:
+    """Random programs by number."""
+    return Workload(
+        "programs",
+        programs,
+        program,
+        name_of,
+        lambda name: name,
+        EXPLORED,
+        lambda tried: tried.finding is not None,
+    )
+
+
 def _explained(report: Proof, workers: Workers, progress: Progress | None) -> list[Verdict]:
     """The outcomes; those that broke under a hostile setting alone name what is to blame."""
     broken = [verdict for verdict in report.outcomes if not verdict.passed]
@@ -236,6 +258,12 @@ def schedule(driver: DriverUnderTest, name: str) -> Explored:
     return in_a_fork(lambda: explore(driver.config, driver.system, name))
 
 
+def program(driver: DriverUnderTest, name: str) -> Explored:
+    """One random program. Of one that moved as in RAPID no story is kept."""
+    tried = in_a_fork(lambda: liken(driver.config, driver.system, name))
+    return tried if tried.finding is not None else replace(tried, plan="")
+
+
 def minimised(driver: DriverUnderTest, finding: Finding) -> Finding:
     """The same finding in the smallest schedule that has it."""
     name = named(finding.schedule)
@@ -283,7 +311,14 @@ def _verdict(case: Behaviour, bench: Bench) -> Verdict:
     )
 
 
-def replay(config: RobotConfig, name: str, trace: TextIO | None = None) -> Explored:
-    """One schedule again, exactly; every statement of RAPID goes to `trace`."""
+def replay(
+    config: RobotConfig,
+    name: str,
+    trace: TextIO | None = None,
+    record: Recording | None = None,
+) -> Explored:
+    """One schedule or random program again, exactly; every statement of RAPID goes to `trace`."""
     driver = DriverUnderTest.of(config)
-    return explore(driver.config, driver.system, name, trace=trace)
+    if is_program(name):
+        return liken(driver.config, driver.system, name, trace, record)
+    return explore(driver.config, driver.system, name, trace=trace, record=record)

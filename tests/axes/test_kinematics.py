@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import yourdfpy
 
-from rapidgen.axes import frames
+from rapidgen.axes import frames, numeric
 from rapidgen.axes.kinematics import Kinematics, quarter
 from rapidgen.axes.wrist import BRANCHES
 from rapidgen.config import load_config, shipped_names
@@ -285,6 +285,17 @@ def test_home_of_an_irb_140():
     turned = frames.from_rpy(*map(math.radians, (180, 60, 180)))
     assert frames.angle_between(q, turned) < 1e-9
     assert own.matches(home, (0, 0, 0, 0), "quarter")
+
+
+def test_endlessly_many_postures_of_a_pose_are_compared_all_at_once(monkeypatch):
+    """A tool straight down on axis 1: axes 1 and 6 turn about one line, most starts arrive."""
+    calls = []
+    wrapped = numeric._wrapped
+    monkeypatch.setattr(numeric, "_wrapped", lambda *a: calls.append(1) or wrapped(*a))
+    own = Kinematics.of(load_config("irb14050").groups[0])
+    near = tuple((j.lower + j.upper) / 2 for j in own.group.joints)
+    list(own.found(((0.0, 0.0, 0.05), (0.0, 1.0, 0.0, 0.0)), near))
+    assert len(calls) < 10_000  # 5,926 starts
 
 
 def test_a_singular_arm_is_no_end_of_a_search():

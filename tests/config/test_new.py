@@ -1,6 +1,7 @@
 """`rapidgen new`: what it writes loads, or it says exactly what is missing and leaves nothing."""
 
 import json
+import math
 
 import pytest
 
@@ -113,7 +114,7 @@ def test_arguments_of_a_macro(tmp_path):
 
 def test_what_cannot_be_known_is_open_in_the_file(tmp_path):
     (tmp_path / "r.urdf").write_text(
-        f'<robot name="r">{chain(names=(1, 2, 7, 3, 4, 5, 6))}</robot>'
+        f'<robot name="irb">{chain(names=(1, 2, 7, 3, 4, 5, 6))}</robot>'
     )
     path = tmp_path / "cell.yaml"
     open_lines = ["RG022"] * 8  # seven axes and the coupling
@@ -141,6 +142,97 @@ def test_axes_are_said_on_the_command_line(tmp_path):
     assert codes(path, urdf=tmp_path / "r.urdf", joint=["joint_1=rax_1"]) == (["RG020"], 2)
 
 
+def test_what_is_no_axis_of_the_arm_tells_the_others(tmp_path):
+    path, urdf = tmp_path / "cell.yaml", tmp_path / "r.urdf"
+    urdf.write_text(f'<robot name="r">{chain(names=(1, 2, 7, 3, 4, 5, 6))}</robot>')
+    new(path, urdf=urdf, joint=["joint_7=eax_a"], coupling=0)
+    seven = ["rax_1", "rax_2", "rax_3", "rax_4", "rax_5", "rax_6", "eax_a"]
+    assert axes_of(path) == seven
+
+
+def test_a_joint_that_cannot_move_is_no_axis_where_six_others_are(tmp_path):
+    path, urdf = tmp_path / "cell.yaml", tmp_path / "r.urdf"
+    stuck = chain().replace('lower="-1" upper="1"', 'lower="0" upper="0"')
+    seven = chain(names=range(1, 8))
+    place = seven.index('lower="-1"', seven.index("joint_6"))
+    after = seven[place:].replace('lower="-1" upper="1"', 'lower="0" upper="0"', 1)
+    urdf.write_text(f'<robot name="r">{seven[:place]}{after}</robot>')
+    new(path, urdf=urdf, coupling=0)
+    joints = load_config(path).groups[0].joints
+    assert [(j.name, j.axis) for j in joints][-2:] == [("joint_5", "rax_5"), ("joint_7", "rax_6")]
+    # All of them stuck is an export without ranges, not an arm without axes.
+    urdf.write_text(f'<robot name="r">{stuck}</robot>')
+    new(path, urdf=urdf, coupling=0, range_=["-90..90", "joint_6=-300..300"], force=True)
+    ends = [j.upper for j in load_config(path).groups[0].joints]
+    assert ends == pytest.approx([math.pi / 2] * 5 + [math.pi / 0.6])
+
+
+SCARA = (
+    '<robot name="scara"><link name="base"/><link name="l1"/><link name="l2"/><link name="l3"/>'
+    '<joint name="a" type="continuous"><parent link="base"/><child link="l1"/>'
+    '<axis xyz="0 0 1"/></joint>'
+    '<joint name="b" type="continuous"><parent link="l1"/><child link="l2"/>'
+    '<origin xyz="0.29 0 0.2"/><axis xyz="0 0 1"/></joint>'
+    '<joint name="c" type="prismatic"><parent link="l2"/><child link="l3"/>'
+    '<origin xyz="{x} {y} 0"/><axis xyz="0 0 -1"/><limit lower="0" upper="0.1"/></joint></robot>'
+)
+
+
+def test_a_scara_whose_export_ends_at_the_quill_is_known_by_its_two_arms(tmp_path):
+    path, urdf = tmp_path / "cell.yaml", tmp_path / "r.urdf"
+    urdf.write_text(SCARA.format(x=0.26, y=0))  # 290 and 260 mm: an IRB 920T-6/0.55
+    new(path, urdf=urdf, speed=100)
+    group = load_config(path).groups[0]
+    assert "IRB 920T-6/0.55" in path.read_text()
+    assert [round(math.degrees(j.upper)) for j in group.joints[:2]] == [140, 150]
+    assert group.joints[2].sign == -1
+    assert next((kept.axis, kept.must_stand) for kept in group.kept) == ("rax_4", False)
+    urdf.write_text(SCARA.format(x=0, y=0.26))  # bent where the file says 0
+    new(path, urdf=urdf, speed=100, force=True)
+    offset = next(line for line in path.read_text().splitlines() if line.startswith("  b:"))
+    assert "offset: 90" in offset
+    urdf.write_text(SCARA.format(x=0.31, y=0))  # nobody's: two ranges are open
+    assert codes(path, urdf=urdf, speed=100, force=True) == (["RG022"] * 4, 1)
+    new(path, urdf=urdf, speed=100, range_=["-120..120"], force=True)
+
+
+@pytest.mark.parametrize("words", ["90", "b=90..", "-90..-90", "joint_9=0..1", "nan..nan"])
+def test_a_range_has_two_ends_and_a_joint_that_exists(tmp_path, words):
+    (tmp_path / "r.urdf").write_text(SCARA.format(x=0.31, y=0))
+    made = codes(tmp_path / "cell.yaml", urdf=tmp_path / "r.urdf", speed=100, range_=[words])
+    assert made == (["RG020"], 2)
+    assert not (tmp_path / "cell.yaml").exists()
+
+
+@pytest.mark.parametrize(
+    ("name", "mesh", "count", "word"),
+    [
+        ("iiwa14", "", 7, "'iiwa14'"),
+        ("kukaIiwa7", "", 7, "'kuka'"),
+        ("arm", "kinova_description", 6, "'kinova'"),
+        ("schunk_lwa4p", "", 6, "'schunk'"),
+        ("leg", "", 8, "nothing says ABB"),
+    ],
+)
+def test_another_makers_robot_is_told_as_such(tmp_path, name, mesh, count, word):
+    path, urdf = tmp_path / "cell.yaml", tmp_path / "r.urdf"
+    joints = chain(names=range(1, count + 1))
+    shape = f'<link name="m"><visual><geometry><mesh filename="package://{mesh}/m.stl"/>'
+    shape = f"{shape}</geometry></visual></link>" if mesh else ""
+    urdf.write_text(f'<robot name="{name}">{joints}{shape}</robot>')
+    with pytest.raises(DiagnosticError) as caught:
+        new(path, urdf=urdf, coupling=0)
+    assert [d.code for d in caught.value.diagnostics] == ["RG059"]
+    assert word in caught.value.diagnostics[0].message
+    assert not path.exists()
+
+
+def test_an_arm_of_abb_is_one_whatever_its_neighbours_are_called(tmp_path):
+    text = (URDFS / "irb120.urdf").read_text().replace('"irb120"', '"ur5"')
+    (tmp_path / "ur5.urdf").write_text(text)
+    new(tmp_path / "cell.yaml", urdf=tmp_path / "ur5.urdf")
+
+
 @pytest.fixture
 def person(monkeypatch):
     """Somebody who answers; what was asked."""
@@ -163,18 +255,17 @@ def person(monkeypatch):
 
 def test_a_person_is_asked_for_what_is_open(tmp_path, person, capsys):
     (tmp_path / "r.urdf").write_text(
-        f'<robot name="r">{chain(names=(1, 2, 7, 3, 4, 5, 6))}</robot>'
+        f'<robot name="irb">{chain(names=(1, 2, 7, 3, 4, 5, 6))}</robot>'
     )
-    axes = ("rax_1", "rax_2", "eax_a", "rax_3", "axis 4", "rax_4", None, None)
-    asked = person(*axes, "0")
+    asked = person("axis 1", None, None, "eax_a", "0")
     new(tmp_path / "cell.yaml", urdf=tmp_path / "r.urdf")
-    # What is usual comes first: behind rax_4 rax_5 and rax_6 are left.
+    # What is usual comes first; where one is no axis of the arm the other six are told by that.
     joints = load_config(tmp_path / "cell.yaml").groups[0].joints
     assert [(j.name[-1], j.axis) for j in joints] == [
         ("1", "rax_1"), ("2", "rax_2"), ("3", "rax_3"), ("4", "rax_4"), ("5", "rax_5"),
         ("6", "rax_6"), ("7", "eax_a"),
     ]  # fmt: skip
-    assert len(asked) == 9
+    assert len(asked) == 5
     told = capsys.readouterr().err
     assert "| ?      joint_7" in told
     assert "one of rax_1" in told

@@ -2,9 +2,10 @@
 
     make foreign PROGRAM=descriptions FOREIGN="FOLDER FOLDER ..." [QUICK=1]
 
-A person who gives at most three answers is played: a coupling (that of the family by its name,
-else 0), a speed, a macro, arguments of xacro. What is built is booted on the virtual controller and
-every joint of every group is moved there. The table says why the others are none.
+A person who gives at most three answers is played: a coupling (0), one speed and one range for all
+axes of which nothing says one, arguments of xacro and of its macros. What is built is booted on the
+virtual controller and every joint of every group is moved there. The table says why the others are
+none, and what had to be answered.
 """
 
 import os
@@ -13,14 +14,14 @@ import sys
 import tempfile
 from collections import Counter
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from rapidgen.config import load_config
 from rapidgen.config.described import Answers
 from rapidgen.config.model import RobotConfig
 from rapidgen.config.scaffold import from_urdf, write_new
-from rapidgen.diagnostics import DiagnosticError, Severity
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
 from rapidgen.generate import build, make_system
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.model import Broken
@@ -36,6 +37,9 @@ BROKEN = {
     "RG060": "no XML",
     "RG061": "xacro cannot expand it",
 }
+_LACKS = re.compile(
+    r"argument '(?P<argument>\w+)' has no value|^macro '\w+' needs a value for '(?P<macro>\w+)'"
+)
 
 
 @dataclass(frozen=True)
@@ -80,35 +84,41 @@ def tried(path: Path, folders: list[Path], quick: bool) -> Outcome:
                 break
             except DiagnosticError as fault:
                 wrong = [d for d in fault.diagnostics if d.severity is Severity.ERROR]
-                more = _answer(wrong, answers)
-                if more is None or len(said) == MOST_ANSWERS:
+                if len(said) == MOST_ANSWERS:
                     return _refused(path, wrong, len(said))
-                answers = more
-                said.append(wrong[0].message)
+                lacking = _LACKS.search(wrong[0].message)
+                more = _answer(wrong, answers)
+                if lacking:
+                    given = macro_arguments if lacking["macro"] else arguments
+                    given[lacking["macro"] or lacking["argument"]] = ""
+                    said.append("argument")
+                elif more is not None:
+                    answers, what = more
+                    said.append(what)
+                else:
+                    return _refused(path, wrong, len(said))
         config = load_config(cell, package_paths=folders)
         if quick:
-            return Outcome(path.name, "built", len(said))
-        return Outcome(path.name, *_moved(config, len(said)))
+            return Outcome(path.name, "built", len(said), ", ".join(said))
+        end, note = _moved(config)
+        return Outcome(path.name, end, len(said), note or ", ".join(said))
 
 
-def _answer(wrong, answers: Answers) -> Answers | None:
-    open_lines = [d.message for d in wrong if d.code == "RG022"]
-    if len(open_lines) < len(wrong):
+def _answer(wrong: list[Diagnostic], answers: Answers) -> tuple[Answers, str] | None:
+    """What one more answer settles, and what it is about."""
+    lines = [d.message for d in wrong if d.code == "RG022"]
+    if len(lines) < len(wrong):
         return None
-    if any("coupling" in line for line in open_lines) and answers.coupling is None:
-        return _with(answers, coupling=0.0)
-    if any(line.endswith("speed' is open") for line in open_lines) and answers.speed is None:
-        return _with(answers, speed=90.0)
+    if any("coupling" in line for line in lines) and answers.coupling is None:
+        return replace(answers, coupling=0.0), "coupling"
+    if any(line.endswith("speed' is open") for line in lines) and answers.speed is None:
+        return replace(answers, speed=90.0), "speed"
+    if any(line.endswith("lower' is open") for line in lines) and not answers.ranges:
+        return replace(answers, ranges={"": (-90.0, 90.0)}), "range"
     return None
 
 
-def _with(answers: Answers, **more) -> Answers:
-    from dataclasses import replace
-
-    return replace(answers, **more)
-
-
-def _refused(path: Path, wrong, answers: int) -> Outcome:
+def _refused(path: Path, wrong: list[Diagnostic], answers: int) -> Outcome:
     code = wrong[0].code
     kinds = {**NO_ROBOT, **BROKEN}
     if code == "RG022":
@@ -117,21 +127,21 @@ def _refused(path: Path, wrong, answers: int) -> Outcome:
     return Outcome(path.name, kinds.get(code, code), answers, wrong[0].message)
 
 
-def _moved(config: RobotConfig, answers: int) -> tuple[str, int, str]:
+def _moved(config: RobotConfig) -> tuple[str, str]:
     try:
         bench = Bench(config, make_system(config, build(config)))
     except (DiagnosticError, Broken) as fault:
-        return "not booted", answers, str(fault)[:200]
+        return "not booted", str(fault)[:200]
     try:
         for number in range(len(config.groups)):
             own = bench.of_group(number)
             own.moves_through(own.motion(), own.wave(3, duration=1.0))
         bench.healthy()
     except Broken as fault:
-        return "not moved", answers, str(fault)[:200]
+        return "not moved", str(fault)[:200]
     finally:
         bench.close()
-    return "moved", answers, ""
+    return "moved", ""
 
 
 def main(arguments: list[str]) -> int:
@@ -151,6 +161,8 @@ def main(arguments: list[str]) -> int:
     rightly = {*NO_ROBOT.values(), *BROKEN.values()}
     arms = [o for o in outcomes if o.end not in rightly]
     good = [o for o in arms if o.end in ("moved", "built")]
+    asked = Counter(word for o in good for word in o.note.split(", ") if o.answers)
+    print(f"answered: {dict(asked)}")
     print(f"{len(good)} of {len(arms)} with an arm: {100 * len(good) / max(1, len(arms)):.0f} %")
     return 0
 

@@ -2,6 +2,7 @@
 
 import threading
 import time
+from functools import partial
 
 import pytest
 
@@ -80,6 +81,41 @@ def test_running_in_pieces_changes_nothing() -> None:
         return seen
 
     assert order(1) == order(13) == order(100)
+
+
+def test_who_only_looks_changes_nothing() -> None:
+    def run(looks: bool) -> tuple[list[tuple[str, int]], list[int], list[int]]:
+        scheduler = Scheduler(seed=3, schedule="random", quantum=2 * MS)
+        turns, seen, asked = [], [], []
+
+        def look() -> None:
+            seen.append(scheduler.now)
+            scheduler.look_after(MS // 3, look)
+
+        def body(name: str) -> None:
+            for _ in range(20):
+                process = processes[name]
+                process.charge(MS)
+                turns.append((name, scheduler.now))
+
+        def stop() -> bool:
+            asked.append(scheduler.now)
+            return False
+
+        processes = {name: Process(scheduler, name) for name in "ab"}
+        for name, process in processes.items():
+            process.launch(partial(body, name))
+        if looks:
+            look()
+        scheduler.after(5 * MS, lambda: None)
+        assert scheduler.advance(stop=stop) == "idle"
+        assert scheduler.advance(until=scheduler.now + MS) == "time"
+        return turns, asked, seen
+
+    turns, asked, seen = run(looks=True)
+    assert (turns, asked, []) == run(looks=False)
+    assert seen == sorted(seen)
+    assert len(seen) > 100
 
 
 def test_a_wait_set_wakes_in_order() -> None:

@@ -4,23 +4,32 @@ The cases run once on the driver as it is, with coverage; a mutant is then judge
 that execute its statement, those that have noticed most around it for their time first.
 """
 
+import hashlib
 import math
 import os
 import signal
 from collections import Counter
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import partial
+from pathlib import Path
 
+from pydantic import TypeAdapter
+
+from rapidgen.config.model import RobotConfig
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.proving.behaviour import Behaviour
 from rapidgen.proving.bench import FAILURES, Bench, with_module
+from rapidgen.proving.campaign import Workload
 from rapidgen.proving.run import Starter
 from rapidgen.proving.settings import Setting
-from rapidgen.proving.workers import Local, each, in_a_fork
+from rapidgen.proving.suite import CASES
+from rapidgen.proving.workers import Workers, each, in_a_fork
 from rapidgen.rapid import parse
 from rapidgen.runtime.errors import FatalError
+from rapidgen.system.model import System
+from tests.proving.mutation import Mutant
 
 PATIENCE = (2.0, 12.0)
 """A case has this many s of CPU, or so many times what it takes on the driver as it is, whatever
@@ -33,99 +42,223 @@ NEAR = 12
 """Lines: what a case has noticed this near to a mutant counts more than what it has elsewhere."""
 
 
+BEHIND = 16
+"""Mutants that may be under way: what comes of these is not known to the next one."""
+_CASES = {case.name: case for case in CASES}
+
+
 class _Hung(Exception):
     pass
 
 
 @dataclass(frozen=True, slots=True)
 class Noticed:
-    """What became of a mutant: `by` names the case that noticed it, empty: none did.
+    """What became of a mutant at `path` and `line`: `by` names the case that noticed it, empty:
+    none did.
 
-    `tried`: the cases that were; `left`: how many more execute it and were not.
+    `tried`: the cases that were; `left`: how many more execute it and were not tried; `elapsed`:
+    s of CPU.
     """
 
+    path: str
+    line: int
     by: str
-    seconds: float
-    tried: tuple[str, ...]
+    elapsed: float = 0.0
+    tried: tuple[str, ...] = ()
     left: int = 0
 
 
-class Judge:
-    """Judges mutants of one system under one setting."""
+VERDICTS = TypeAdapter(Noticed)
 
-    def __init__(
-        self,
-        config,
-        system,
-        cases: Sequence[Behaviour],
-        setting: Setting | None = None,
-        jobs: int = 1,
-    ) -> None:
-        """Run all cases once. Raises ValueError when one does not hold without a mutation."""
-        chosen = setting if setting is not None else Setting()
+
+@dataclass(frozen=True, slots=True)
+class Learned:
+    """How many mutants each case has noticed: near to one, and elsewhere."""
+
+    near: dict[str, int] = field(default_factory=dict)
+    elsewhere: dict[str, int] = field(default_factory=dict)
+
+
+class Learning:
+    """What the verdicts so far say about a mutant that comes next."""
+
+    def __init__(self, names: Collection[str]) -> None:
+        self._names = frozenset(names)
         self._noticed: list[tuple[str, int, str]] = []
-        self._cases = {case.name: case for case in cases}
-        starter = Starter(config, system, replace(chosen, coverage=True))
-        with Local((starter, cases), jobs) as workers:
-            outcomes = list(each(workers, range(len(cases)), _as_it_is))
-        starter.close()
-        for outcome in outcomes:
-            if not outcome.passed:
-                raise ValueError(f"{outcome.case} does not hold: {outcome.detail}")
-        self._usual = {o.case: o.elapsed for o in outcomes}
-        self._lines = {
-            o.case: {(p, n) for p, lines in o.lines.items() for n, hits in lines.items() if hits}
-            for o in outcomes
-        }
-        self._worth = _worth(self._lines)
-        self._bench = Bench(config, system, chosen)
+
+    def learn(self, verdict: Noticed) -> None:
+        """A mutant was noticed by this case: it may well notice the next one, too."""
+        name = verdict.by.removesuffix(HANGS).removesuffix(FAILS)
+        if name in self._names:
+            self._noticed.append((verdict.path, verdict.line, name))
+
+    def about(self, mutant: Mutant) -> Learned:
+        """What counts for this mutant."""
+        near: Counter[str] = Counter()
+        elsewhere: Counter[str] = Counter()
+        for path, line, name in self._noticed:
+            is_near = path == mutant.path and abs(line - mutant.line) <= NEAR
+            (near if is_near else elsewhere)[name] += 1
+        return Learned(dict(near), dict(elsewhere))
+
+
+@dataclass(frozen=True, slots=True)
+class Question:
+    """A mutant to be judged with `budget` s of CPU; `already` did not notice it."""
+
+    mutant: Mutant
+    budget: float = math.inf
+    already: tuple[str, ...] = ()
+    learned: Learned = field(default_factory=Learned)
+
+
+@dataclass(frozen=True, slots=True)
+class Grounds:
+    """What every worker has: a system, its cases by name, and what these do with it as it is."""
+
+    config: RobotConfig
+    system: System
+    cases: tuple[str, ...]
+    setting: Setting
+    text: str
+    """Of the program that judges; another one is refused."""
+    usual: dict[str, float] = field(default_factory=dict)
+    """s of CPU of each case: how long a mutant is waited for."""
+    costs: dict[str, int] = field(default_factory=dict)
+    """Statements that each case executes: what is cheap is tried first, on any machine."""
+    lines: dict[str, set[tuple[str, int]]] = field(default_factory=dict)
+    """What each case executes."""
+    kept: "list[Starter | Judge]" = field(default_factory=list)
+    """What a worker keeps between two pieces."""
+
+
+def grounds(
+    config: RobotConfig,
+    system: System,
+    cases: Sequence[Behaviour],
+    hire: Callable[[Grounds], Workers],
+    setting: Setting | None = None,
+) -> Grounds:
+    """Run all cases once. Raises ValueError when one does not hold without a mutation."""
+    names = tuple(case.name for case in cases)
+    bare = Grounds(config, system, names, setting or Setting(), _own_text())
+    with hire(bare) as workers:
+        outcomes = list(each(workers, names, _as_it_is))
+    for outcome in outcomes:
+        if not outcome.passed:
+            raise ValueError(f"{outcome.case} does not hold: {outcome.detail}")
+    usual = {o.case: o.elapsed for o in outcomes}
+    lines = {
+        o.case: {(p, n) for p, lines in o.lines.items() for n, hits in lines.items() if hits}
+        for o in outcomes
+    }
+    costs = {o.case: 1 + sum(sum(own.values()) for own in o.lines.values()) for o in outcomes}
+    return replace(bare, usual=usual, costs=costs, lines=lines, kept=[])
+
+
+def _own_text() -> str:
+    folder = Path(__file__).parent
+    texts = [(folder / name).read_bytes() for name in ("judging.py", "mutation.py")]
+    return hashlib.sha256(b"\0".join(texts)).hexdigest()
+
+
+def _same_text(given: Grounds) -> None:
+    """Refuse to work for a checkout of another state. Raises RuntimeError."""
+    if given.text != _own_text():
+        raise RuntimeError("this worker's checkout is not that of whoever asks")
+
+
+def _as_it_is(given: Grounds, name: str):
+    _same_text(given)
+    if not given.kept:
+        setting = replace(given.setting, coverage=True)
+        given.kept.append(Starter(given.config, given.system, setting))
+    # Plots and the log are of no use here.
+    return replace(given.kept[0].attempt(_CASES[name]), series=(), log=())
+
+
+def judged(given: Grounds, question: Question) -> Noticed:
+    """A piece of work: the verdict on one mutant."""
+    _same_text(given)
+    if not given.kept:
+        given.kept.append(Judge(given))
+    return given.kept[0].judge(question)
+
+
+def verdicts(
+    questions: Sequence[Question], learning: Learning, key: Callable[[int], str]
+) -> Workload[Question, Noticed]:
+    """Mutants in their order; each is asked about with what was learned from all but the last
+    few before it, whoever works and however many do. `key` of a question's number."""
+
+    def item(number: int) -> Question:
+        question = questions[number]
+        return replace(question, learned=learning.about(question.mutant))
+
+    def take(verdict: Noticed) -> Noticed:
+        learning.learn(verdict)
+        return verdict
+
+    numbers = {id(question.mutant): number for number, question in enumerate(questions)}
+    return Workload(
+        "mutants",
+        len(questions),
+        judged,
+        item,
+        lambda question: key(numbers[id(question.mutant)]),
+        VERDICTS,
+        lambda _: False,
+        needs=lambda number: max(0, number - BEHIND),
+        take=take,
+    )
+
+
+class Judge:
+    """Judges mutants of one system in copies of a booted controller."""
+
+    def __init__(self, given: Grounds) -> None:
+        self._usual, self._costs, self._lines = given.usual, given.costs, given.lines
+        self._worth = _worth(given.lines)
+        self._names = given.cases
+        self._bench = Bench(given.config, given.system, given.setting)
         self._bench.compile()
 
-    def learn(self, path: str, line: int, case: str) -> None:
-        """A mutant there was noticed by this case: it may well notice the next one, too."""
-        name = case.removesuffix(HANGS).removesuffix(FAILS)
-        if name in self._cases:
-            self._noticed.append((path, line, name))
-
-    def concerned(self, mutant) -> list[Behaviour]:
+    def concerned(self, mutant: Mutant, learned: Learned) -> list[Behaviour]:
         """The cases that execute the mutant's statement, in the order to be tried."""
         place = (mutant.path, mutant.statement)
-        names = [n for n in self._cases if not mutant.statement or place in self._lines[n]]
+        names = [n for n in self._names if not mutant.statement or place in self._lines[n]]
         worth = {name: self._worth[name].get(mutant.path, 1.0) for name in names}
-        for path, line, name in self._noticed:
-            if name in worth:
-                near = path == mutant.path and abs(line - mutant.line) <= NEAR
-                worth[name] += 50 if near else 0.05
-        names.sort(key=lambda n: -worth[n] / self._usual[n])
-        return [self._cases[name] for name in names]
+        for name in names:
+            worth[name] += 50 * learned.near.get(name, 0) + 0.05 * learned.elsewhere.get(name, 0)
+        names.sort(key=lambda n: -worth[n] / self._costs[n])
+        return [_CASES[name] for name in names]
 
-    def judge(self, mutant, budget: float = math.inf, already: Collection[str] = ()) -> Noticed:
-        """Try one case after another until one notices it, or `budget` s of CPU are spent.
-
-        `already`: cases that have been tried, and did not notice it.
-        """
+    def judge(self, question: Question) -> Noticed:
+        """Try one case after another until one notices it, or its budget is spent."""
         started = _spent()
-        by, tried, left = in_a_fork(partial(self._try, mutant, budget, already))
-        self.learn(mutant.path, mutant.line, by)
-        return Noticed(by, _spent() - started, tried, left)
+        by, tried, left = in_a_fork(partial(self._try, question))
+        mutant = question.mutant
+        return Noticed(mutant.path, mutant.line, by, _spent() - started, tried, left)
 
     def close(self) -> None:
         """Give the controller back."""
         self._bench.close()
 
-    def _try(
-        self, mutant, budget: float, already: Collection[str]
-    ) -> tuple[str, tuple[str, ...], int]:
+    def _try(self, question: Question) -> tuple[str, tuple[str, ...], int]:
         """Who notices the mutant, who was tried, and how many were left out."""
-        started = _spent()
+        started, mutant = _spent(), question.mutant
         try:
             exchange(self._bench, mutant.path, mutant.text)
         except DiagnosticError:
             return "(not loaded)", (), 0
-        concerned = [case for case in self.concerned(mutant) if case.name not in already]
+        concerned = [
+            case
+            for case in self.concerned(mutant, question.learned)
+            if case.name not in question.already
+        ]
         tried: tuple[str, ...] = ()
         for case in concerned:
-            if _spent() - started >= budget:
+            if _spent() - started >= question.budget:
                 return "", tried, len(concerned) - len(tried)
             tried = (*tried, case.name)
             try:
@@ -159,12 +292,6 @@ def _worth(reached: Mapping[str, set[tuple[str, int]]]) -> dict[str, dict[str, f
         for path, line in places:
             own[path] = own.get(path, 0.0) + 1 / common[path, line]
     return found
-
-
-def _as_it_is(context: tuple[Starter, Sequence[Behaviour]], number: int):
-    starter, cases = context
-    # Plots and the log are of no use here.
-    return replace(starter.attempt(cases[number]), series=(), log=())
 
 
 def _spent() -> float:

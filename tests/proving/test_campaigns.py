@@ -4,6 +4,7 @@ import io
 import json
 import os
 import signal
+from dataclasses import replace
 
 import pytest
 
@@ -13,6 +14,7 @@ from rapidgen.config import load_config
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.proving.campaign import Limits
 from rapidgen.proving.model import Broken
+from rapidgen.proving.programs import in_rapid
 from rapidgen.proving.report import as_json
 from rapidgen.proving.results import Results
 from rapidgen.proving.run import prove
@@ -131,11 +133,12 @@ def test_results_are_the_same_whatever_the_workers_and_where_it_was_broken_off(t
     assert told(again) == told(report)
 
 
-def test_schedules_are_the_same_whatever_the_workers(tmp_path):
+def test_schedules_and_programs_are_the_same_whatever_the_workers(tmp_path):
     found = [
         prove(
             SIX_AXES,
             seeds=10,
+            programs=2,
             jobs=jobs,
             cases=False,
             strength=0,
@@ -145,6 +148,7 @@ def test_schedules_are_the_same_whatever_the_workers(tmp_path):
     ]
     assert told(found[0]) == told(found[1])
     assert found[0].curve[-1][1] > 20
+    assert found[0].programs == 2
     assert (tmp_path / "1.jsonl").read_bytes() == (tmp_path / "3.jsonl").read_bytes()
 
 
@@ -161,6 +165,29 @@ def test_the_first_failure_ends_it(tmp_path, monkeypatch, capsys):
     found = json.loads(capsys.readouterr().out)
     assert [outcome["passed"] for outcome in found["outcomes"]] == [False]
     assert found["left"] == 2
+
+
+def test_a_program_that_moves_otherwise_is_found_and_replayed(monkeypatch, capsys):
+    monkeypatch.setattr("rapidgen.proving.programs.in_rapid", _slower)
+    words = ["test", "irb120", "--case", "hello", "--quick", "--seeds", "0", "--programs", "1"]
+    assert main([*words, "--jobs", "1"]) == 1
+    told = capsys.readouterr().out
+    assert "s when written in RAPID" in told
+    assert "rapidgen test irb120 --replay program/0 --record story.mcap" in told
+    assert main(["test", "irb120", "--replay", "program/0"]) == 1
+    assert "program/0: a program took" in capsys.readouterr().out
+    monkeypatch.undo()
+    assert main(["test", "irb120", "--replay", "program/0"]) == 0
+
+
+def _slower(bench, program):
+    return in_rapid(bench, [replace(order, speed=order.speed / 2) for order in program])
+
+
+def test_a_basic_driver_takes_no_programs(capsys):
+    basic = "robots/examples/irb120_basic-rw6.yaml"
+    assert main(["test", basic, "--programs", "1"]) == 2
+    assert "RG810" in capsys.readouterr().err
 
 
 def _ill(bench):

@@ -3,6 +3,7 @@
 import io
 import re
 from dataclasses import replace
+from functools import partial
 
 import pytest
 
@@ -17,6 +18,8 @@ from rapidgen.proving.plan import drawn, named
 from rapidgen.proving.run import DriverUnderTest, minimised
 from rapidgen.proving.smaller import smaller
 from rapidgen.rapid import check, parse
+from rapidgen.view.recording.reader import RecordingFile
+from rapidgen.view.recording.writer import record
 from tests.proving.defective import CAPACITY, DEFECTS, FOLDER, small_driver, with_defect
 
 SIX_AXES = load_config("irb120")
@@ -122,12 +125,17 @@ def test_the_small_driver_is_rapid(defect):
 
 
 @pytest.mark.parametrize("seed", ["3", "4~1", "5/steps=0,2/turns/calm"])
-def test_a_schedule_is_the_same_when_it_is_traced(seed):
+def test_a_schedule_is_the_same_when_it_is_traced_and_recorded(seed, tmp_path):
     system = make_system(SIX_AXES, build(SIX_AXES))
-    story = io.StringIO()
-    traced = explore(SIX_AXES, system, seed, trace=story)
-    assert traced == explore(SIX_AXES, system, seed)
+    story, path = io.StringIO(), tmp_path / "story.mcap"
+    watched = explore(SIX_AXES, system, seed, trace=story, record=partial(record, path=path))
+    told = io.StringIO()
+    assert watched == explore(SIX_AXES, system, seed, trace=told)
+    assert story.getvalue() == told.getvalue()
+    assert watched == explore(SIX_AXES, system, seed)
     assert re.search(r" T_ROB1 +ROS_motion/", story.getvalue())
+    with RecordingFile(path) as recording:
+        assert recording.end > 1
 
 
 def test_every_step_alone_leaves_a_good_driver_good():
@@ -137,14 +145,18 @@ def test_every_step_alone_leaves_a_good_driver_good():
 
 
 def test_replay_tells_the_story(tmp_path, capsys):
-    trace = tmp_path / "trace.txt"
-    assert main(["test", "irb120", "--replay", "3", "--trace", str(trace)]) == 0
+    trace, recording = tmp_path / "trace.txt", tmp_path / "story.mcap"
+    files = ["--trace", str(trace), "--record", str(recording)]
+    assert main(["test", "irb120", "--replay", "3", *files]) == 0
     out = capsys.readouterr().out
     assert "connect" in out
     assert "schedule 3: the invariant held" in out
     assert "ROS_motionServer/" in trace.read_text(encoding="utf-8")
-    assert main(["test", "irb120", "--replay", "3", "--trace", str(tmp_path / "no" / "f")]) == 2
-    assert "RG803" in capsys.readouterr().err
+    with RecordingFile(recording) as opened:
+        assert opened.end > 1
+    for option in ("--trace", "--record"):
+        assert main(["test", "irb120", "--replay", "3", option, str(tmp_path / "no" / "f")]) == 2
+        assert "RG803" in capsys.readouterr().err
 
 
 def test_a_schedule_is_made_smaller_as_long_as_the_same_demand_does_not_hold():

@@ -1,8 +1,8 @@
 """The arms of a description: which joints are an arm's axes, what carries it, what hangs on it."""
 
 import re
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 
 from rapidgen.config.axis_sets import ROBOT_AXES
 from rapidgen.config.geometry import IDENTITY, Line, apply, from_rpy, times
@@ -14,10 +14,17 @@ from rapidgen.diagnostics import Diagnostic, Span, error, refusal
 
 MOST_MOVING = 120
 _MAKERS = re.compile(
-    r"(?<![a-z0-9])(kuka|kr_?\d+|iiwa|fanuc|lrmate|m\d+i[abd]|ur\d+e?|motoman|yaskawa|panda|fr3|franka|staubli|"
-    r"tx2?_?\d+|kinova|gen3|jaco|xarm\d?|denso|vs_?\d{3}|nachi|comau|kawasaki|doosan|hyundai)(?![a-z0-9])",
+    r"(?<![a-z0-9])(kuka|kr_?\d+\w*|lwr_?\d*|lbr\w*|iiwa\d*|fanuc\w*|lrmate\w*|m\d+i[abd]\w*|crx?\d+i\w*|"
+    r"ur\d+e?|motoman|yaskawa|mh\d+|sia\d+\w?|panda|fr3|franka|staubli|[tr]x2?_?\d{2,3}l?|kinova|kortex|"
+    r"gen3|jaco\w*|mico\w*|[jm]\d[ns]\ds\d+|movo|xarm\w*|lite_?6|denso|vs_?\d{3,4}|nachi|comau|kawasaki|"
+    r"rs0?\d{2}[nl]|doosan|hyundai|mecademic|meca_?500\w*|puma_?\d*|schunk|lwa\w*|baxter|sawyer|interbotix|"
+    r"[prvw]x\d{3}s?|phantomx|pincher|open_?manipulator\w*|qarm|al5d|widowx|dobot|niryo|igus|aubo|elfin|"
+    r"jaka|techman|tm\d+|flexiv|rizon\w*|robonaut|r2[bc]\w*|valkyrie|atlas|pr2|fetch|tiago|nao|"
+    r"anymal|shadow(?:_?hand)?|robotiq|so_?10[01])(?![a-z0-9])",
     re.IGNORECASE,
 )
+_ABB = re.compile(r"abb|irb|crb|yumi|gofa|swifti", re.IGNORECASE)
+_WORDS = re.compile(r"[/\\. -]|(?<=[a-z])(?=[A-Z])")
 _DELTA = re.compile(r"irb[_ -]?(340|360|390)", re.IGNORECASE)
 
 
@@ -42,7 +49,17 @@ class Cell:
     graph: Graph
     arms: tuple[Arm, ...]
     positioners: tuple[tuple[UrdfJoint, ...], ...] = ()
-    names: tuple[str, ...] = field(default=())
+    names: tuple[str, ...] = ()
+    """What the robot and its file are called."""
+    around: tuple[str, ...] = ()
+    """The folders that the file lies in, the packages that its meshes come from."""
+    is_claimed: bool = False
+    """Something says that it is a robot of ABB: a name in it, a folder, or a person."""
+
+
+def says_abb(*texts: str) -> bool:
+    """Whether a name or a text speaks of ABB or of one of its robots."""
+    return any(map(_ABB.search, texts))
 
 
 def lines_of(graph: Graph, joints: Sequence[UrdfJoint]) -> list[Line]:
@@ -57,9 +74,12 @@ def lines_of(graph: Graph, joints: Sequence[UrdfJoint]) -> list[Line]:
     return [found[joint.name] for joint in joints]
 
 
-def read_cell(graph: Graph, names: tuple[str, ...]) -> Cell:
-    """The arms of a checked description, and the positioners beside them."""
-    moving = [j for j in graph.robot.joints if j.is_actuated]
+def read_cell(graph: Graph, names: tuple[str, ...], said: Mapping[str, str]) -> Cell:
+    """The arms of a checked description, and the positioners beside them.
+
+    `said` are the axes of joints that a person named, "" of one that is to be ignored.
+    """
+    moving = [j for j in graph.robot.joints if j.is_actuated and said.get(j.name) != ""]
     if len(moving) > MOST_MOVING:
         raise refusal(
             "RG043",
@@ -70,7 +90,7 @@ def read_cell(graph: Graph, names: tuple[str, ...]) -> Cell:
     arms: list[Arm] = []
     rest: list[tuple[UrdfJoint, ...]] = []
     for chain in graph.chains(moving):
-        arm = _arm(graph, chain, names)
+        arm = _arm(graph, chain, names, said)
         if arm is None:
             rest.append(chain)
         elif arm.joints not in [other.joints for other in arms]:
@@ -94,15 +114,25 @@ def _behind(graph: Graph, arm: Arm, moving: Sequence[UrdfJoint]) -> tuple[UrdfJo
     )
 
 
-def _arm(graph: Graph, chain: Sequence[UrdfJoint], names: tuple[str, ...]) -> Arm | None:
+def _arm(
+    graph: Graph, chain: Sequence[UrdfJoint], names: tuple[str, ...], said: Mapping[str, str]
+) -> Arm | None:
     sound = [j for j in chain if j.kind not in ("floating", "planar")]
-    for count in (7, 6, 4):
+    for count in (7, 6, 4, 3):
         for begin in range(len(sound) - count + 1):
             window = tuple(sound[begin : begin + count])
             found = align(lines_of(graph, window), *names)
             if found:
                 return Arm(window, found.axes, found, tuple(sound[:begin]))
-    return _by_order(sound)
+    inner = [j for j in sound if not said.get(j.name, "").startswith("eax")]
+    # A joint that cannot move is no axis where the others are an arm.
+    able = _by_order([j for j in inner if not j.is_stuck])
+    arm = able if able and all(able.axes) else _by_order(inner)
+    if arm is None:
+        return None
+    behind = sound.index(arm.joints[-1])
+    under = (j for j in sound[:behind] if j not in arm.joints and not j.is_stuck)
+    return replace(arm, under=tuple(under))
 
 
 def _by_order(chain: Sequence[UrdfJoint]) -> Arm | None:
@@ -130,12 +160,12 @@ def no_robot(cell: Cell, place: Span | None) -> Iterator[Diagnostic]:
     """Why a description holds no robot that a driver could be made for (RG059)."""
     graph = cell.graph
     said = " ".join(cell.names)
-    maker = _MAKERS.search(re.sub(r"[/\\.]", " ", said))
-    if maker and not re.search(r"abb|irb|yumi|gofa", said, re.IGNORECASE):
+    maker = _other_maker(cell)
+    if maker:
         yield error(
             "RG059",
             place,
-            f"'{maker[0]}' is no robot of ABB",
+            f"'{maker}' is no robot of ABB",
             "the driver is RAPID for ABB controllers; other makers' controllers do not run it",
         )
     elif _DELTA.search(said) or _is_parallel(graph):
@@ -154,6 +184,15 @@ def no_robot(cell: Cell, place: Span | None) -> Iterator[Diagnostic]:
             "left for an arm",
             "take the <mimic> out where the joint is an axis",
         )
+    elif cell.arms and not (cell.is_claimed or any(all(arm.axes) for arm in cell.arms)):
+        most = max(len(arm.joints) for arm in cell.arms)
+        yield error(
+            "RG059",
+            place,
+            f"{most} joints in one chain are no arm of ABB that is known, and nothing says ABB",
+            "where it is one, say its axes: --joint NAME=rax_1 for each; of a cell give the arm's "
+            "end: --tip LINK",
+        )
     elif not cell.arms:
         count = sum(len(chain) for chain in cell.positioners)
         yield error(
@@ -167,6 +206,23 @@ def no_robot(cell: Cell, place: Span | None) -> Iterator[Diagnostic]:
             if count
             else "give the top-level file of the robot",
         )
+
+
+def _other_maker(cell: Cell) -> str:
+    """What names another maker: the robot or its file, else folders and the packages of meshes.
+
+    Not where that says ABB, or where an arm lies as one of ABB does.
+    """
+    if any(arm.alignment for arm in cell.arms) or says_abb(*cell.names):
+        return ""
+    hit = _MAKERS.search(_words(cell.names))
+    if not hit and not says_abb(*cell.around):
+        hit = _MAKERS.search(_words(cell.around))
+    return hit[0] if hit else ""
+
+
+def _words(names: Iterable[str]) -> str:
+    return " ".join(" ".join(_WORDS.split(name)) for name in names)
 
 
 def _arms_mimic(cell: Cell) -> UrdfJoint | None:

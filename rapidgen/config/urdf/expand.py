@@ -235,7 +235,8 @@ def _translate(request: Request, fault: BaseException, at: Path) -> Diagnostic:
     hint = ""
     if type(inner).__name__ == "ArgException":
         wanted, text = text, f"the argument '{text}' has no value"
-        hint = f"add\n  urdf:\n    args: {{{wanted}: VALUE}}"
+        lines = f"urdf:\n  args: {{{wanted}: VALUE}}"
+        hint = f"--arg {wanted}=VALUE for `new`, in a configuration\n{lines}"
     return error("RG061", place, f"xacro cannot expand {name}: {text}", hint)
 
 

@@ -41,11 +41,11 @@ class Graph:
         )
 
     def tip_link(self, joint: UrdfJoint) -> str:
-        """The flange behind a joint: `tool0` or `flange` over fixed joints, else its link."""
+        """The flange behind a joint: `tool0` or `flange` over joints that stand, else its link."""
         found, queue = [joint.child], [joint.child]
         while queue:
             for fixed in self.below(queue.pop()):
-                if fixed.kind == "fixed" and fixed.child not in found:
+                if (fixed.kind == "fixed" or fixed.is_stuck) and fixed.child not in found:
                     found.append(fixed.child)
                     queue.append(fixed.child)
         for ending in ("tool0", "flange"):

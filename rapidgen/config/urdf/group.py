@@ -160,7 +160,7 @@ def _map(
             return found
         _complete(draft, mapping)
     mapped = {joint.name for joint in draft.joints}
-    left = [j for j in candidates if j.name not in mapped]
+    left = [j for j in candidates if j.name not in mapped and not j.is_stuck]
     if left:
         return [*found, unmapped(graph, left, place)]
     return [*found, *_order(draft, graph, place)]
@@ -289,7 +289,11 @@ def _ignored(path: Sequence[UrdfJoint], draft: GroupDraft) -> tuple[UrdfJoint, .
     """Joints of the arm that move by themselves and drive no axis."""
     axes = {joint.name: joint.axis for joint in draft.joints}
     arm = dropwhile(lambda joint: not axes.get(joint.name, "").startswith("rax"), path)
-    return tuple(joint for joint in arm if joint.is_actuated and joint.name not in axes)
+    return tuple(
+        joint
+        for joint in arm
+        if joint.is_actuated and joint.name not in axes and not joint.is_stuck
+    )
 
 
 def chain(graph: Graph, draft: GroupDraft, tip: str) -> list[ChainLink]:

@@ -68,7 +68,7 @@ def paste(graph: Graph, joints: Sequence[UrdfJoint], *, ignore: Sequence[str] = 
     """
     axes: dict[str, str] = {}
     signs: dict[str, str] = {}
-    for arm in read_cell(graph, ()).arms:
+    for arm in read_cell(graph, (), {}).arms:
         axes.update({j.name: axis for j, axis in zip(arm.joints, arm.axes, strict=True)})
         if arm.alignment:
             for j, way in zip(arm.joints, arm.alignment.signs, strict=True):
@@ -96,7 +96,7 @@ def _shape(
 ) -> Diagnostic | None:
     """Too many, too few, or branching: which pitfall it is."""
     own = {joint.name for joint in joints}
-    arms = [a for a in read_cell(graph, ()).arms if own >= {j.name for j in a.joints}]
+    arms = [a for a in read_cell(graph, (), {}).arms if own >= {j.name for j in a.joints}]
     if len(arms) > 1:
         tips = [graph.tip_link(arm.joints[-1]) for arm in arms]
         shown = ", ".join(tips[:6]) + (", ..." if len(tips) > 6 else "")

@@ -61,6 +61,11 @@ class UrdfJoint:
         """Moves by itself: neither fixed nor a mimic."""
         return self.kind != "fixed" and not self.mimic
 
+    @property
+    def is_stuck(self) -> bool:
+        """Moves by itself, in a range of nothing: a joint kept for its place, or no range yet."""
+        return self.is_actuated and self.lower is not None and self.lower == self.upper
+
     def moved(self, amount: float) -> tuple[Vector, Vector]:
         """xyz and rpy of the joint turned by `amount` (rad), as one fixed step."""
         step = _moved(_matrix(self.xyz, self.rpy), self.axis, amount, slides=False)

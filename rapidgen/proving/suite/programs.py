@@ -47,19 +47,23 @@ def like_rapid(bench: Bench, count: int, chance: random.Random) -> None:
     """So many programs by lot beside the same ones in RAPID (benchmarks/program_campaign.py)."""
     client = Programmer(bench)
     for _ in range(count):
-        program = orders(bench, 8, chance)
-        home, since = bench.position, bench.now
-        client.takes("a program", program)
-        mine = _moved(bench, program, since)
-        with bench.beside(by_hand(bench, program)) as other:
-            other.motion_group.jump(home)
-            theirs = _moved(other, program, 0.5)
-        if abs(mine[0] - theirs[0]) > 0.02 * theirs[0]:
-            raise Broken(f"a program took {mine[0]:.3f} s, {theirs[0]:.3f} s when written in RAPID")
-        for one, way in ((mine[1], theirs[1]), (theirs[1], mine[1])):
-            far = farthest(bench, one, way)
-            if far > _SAME:
-                raise Broken(f"a program is {far * 1000:.3f} mm off the way of the same in RAPID")
+        one_like_rapid(client, bench, orders(bench, 8, chance))
+
+
+def one_like_rapid(client: Programmer, bench: Bench, program: list[RawOrder]) -> None:
+    """A program beside the same one in RAPID. Raises Broken, as an expectation of `bench` does."""
+    home, since = bench.position, bench.now
+    client.takes("a program", program)
+    mine = _moved(bench, program, since)
+    with bench.beside(by_hand(bench, program)) as other:
+        other.motion_group.jump(home)
+        theirs = _moved(other, program, 0.5)
+    if abs(mine[0] - theirs[0]) > 0.02 * theirs[0]:
+        raise Broken(f"a program took {mine[0]:.3f} s, {theirs[0]:.3f} s when written in RAPID")
+    for one, way in ((mine[1], theirs[1]), (theirs[1], mine[1])):
+        far = farthest(bench, one, way)
+        if far > _SAME:
+            raise Broken(f"a program is {far * 1000:.3f} mm off the way of the same in RAPID")
 
 
 def _moved(bench: Bench, program: list[RawOrder], since: float) -> tuple[float, list[Position]]:

@@ -55,8 +55,7 @@ class Source:
     def lines(self) -> list[int]:
         """Offset of each line. Ends of line: LF, CRLF or CR."""
         if not self._lines:
-            self._lines.append(0)
-            text, at = self.text, 0
+            found, text, at = [0], self.text, 0
             while at < len(text):
                 lf, cr = text.find("\n", at), text.find("\r", at)
                 if cr != -1 and (lf == -1 or cr < lf):
@@ -65,7 +64,8 @@ class Source:
                     at = lf + 1
                 else:
                     break
-                self._lines.append(at)
+                found.append(at)
+            self._lines = found
         return self._lines
 
     def position(self, offset: int) -> tuple[int, int]:

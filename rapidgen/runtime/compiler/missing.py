@@ -38,9 +38,12 @@ def _suspects(program: Program, module: LoadedModule) -> set[str]:
     for text in {t.lower() for t in set(tokens) if t[0].isalpha()}:
         if text.upper() in KEYWORDS:
             continue
-        routine = program.find_routine(module, text)
-        if routine is None or routine.missing:
+        symbol = program.find(module, text)
+        routine = program.routine(symbol)
+        if symbol is None or (routine is not None and routine.missing):
             unknown.add(text)
+    for record in module.tree.records:
+        unknown.difference_update(c.name.lower() for c in record.components)
     for declared in module.tree.routines:
         unknown.difference_update(d.name.lower() for d in declared.data)
         unknown.difference_update(p.name.lower() for p in declared.parameters)

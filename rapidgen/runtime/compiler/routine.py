@@ -1,6 +1,7 @@
 """One routine: RAPID tree to Python function."""
 
 from collections.abc import Callable
+from functools import lru_cache
 from types import CodeType
 
 from rapidgen.rapid.syntax import nodes as n
@@ -15,6 +16,12 @@ from rapidgen.runtime.compiler.symbols import CannotCompile, Routine
 from rapidgen.runtime.compiler.variables import declare, header
 from rapidgen.runtime.compiler.writer import CodeLine
 from rapidgen.runtime.values import NUM, Value
+
+
+@lru_cache(maxsize=4096)
+def _code(text: str, file: str) -> CodeType:
+    """CPython's code; controllers that are booted anew with the same modules share it."""
+    return compile(text, file, "exec", dont_inherit=True)
 
 
 class RoutineCompiler:
@@ -83,7 +90,7 @@ class RoutineCompiler:
             written.text = f"global {', '.join(sorted(unit.globals_written))}"
         text, tokens, refunds, synced = w.render()
         try:
-            code = compile(text, self.file, "exec", dont_inherit=True)
+            code = _code(text, self.file)
         except (SyntaxError, RecursionError) as error:
             # CPython nests 20 loops and 100 levels of indentation, not more.
             raise CannotCompile(

@@ -31,7 +31,8 @@ class Statements:
         """Are told a task's name and the error before its handler is executed."""
         self.failures: list[Callable[[str, FatalError], None]] = []
         """Are told a task's name and the error that has stopped it."""
-        self.breakpoints: dict[tuple[str, str, int], list[WaitingAction]] = {}
+        self.breakpoints: dict[tuple[str, str], dict[int, list[WaitingAction]]] = {}
+        """By task and module, then line."""
 
     def before(
         self,
@@ -43,8 +44,9 @@ class Statements:
         action: Callable[[], None],
     ) -> None:
         """Let `action` be due when a statement of `task` is reached for the `count`-th time."""
-        key = (task.lower(), module.lower(), line)
-        self.breakpoints.setdefault(key, []).append(WaitingAction(count, action))
+        key = (task.lower(), module.lower())
+        lines = self.breakpoints.setdefault(key, {})
+        lines.setdefault(line, []).append(WaitingAction(count, action))
         for program in programs:
             if program.name.lower() == key[0]:
                 program.trace_from_now()
@@ -53,8 +55,14 @@ class Statements:
         self, task: str, module: LoadedModule, node: n.Statement
     ) -> Iterator[Callable[[], None]]:
         """Actions that a statement brings which is about to be executed, one after the other."""
+        lines = self.breakpoints.get((task.lower(), module.name.lower()))
+        if not lines:
+            return
         line = module.tree.source.line(node.first)
-        for waiting in self.breakpoints.get((task.lower(), module.name.lower(), line), ()):
+        for waiting in tuple(lines.get(line, ())):
             waiting.left -= 1
             if waiting.left == 0:
+                lines[line].remove(waiting)
+                if not lines[line]:
+                    del lines[line]
                 yield waiting.action

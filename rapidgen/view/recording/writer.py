@@ -1,8 +1,8 @@
 """Recording a virtual controller while it runs.
 
-It samples from an event of the controller's own clock, so that a recording of the virtual clock is
-the same whatever the machine does; positions are worked out afterwards, from the formulas of the
-motion. The controller's times do not change.
+It looks when the controller's own clock has come that far, so that a recording of the virtual clock
+is the same whatever the machine does; positions are worked out afterwards, from the formulas of the
+motion. What the controller does, and when, does not change: a schedule is the same when recorded.
 """
 
 import json
@@ -131,7 +131,7 @@ class RecordingWriter:
             self._new_sources()
             self._write_snapshot()
             self._next_snapshot = self._scheduler.now + m.SNAPSHOT_EVERY_NS
-        self._scheduler.after(TICK_NS, self._tick)
+        self._scheduler.look_after(TICK_NS, self._tick)
 
     def _samples(self) -> None:
         """Positions since the last look."""
