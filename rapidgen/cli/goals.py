@@ -114,7 +114,7 @@ def read_named(
             raise typer.BadParameter(f"'{part}' is not NAME=VALUE", param_hint=option)
         name = hit[1]
         if name not in kinds:
-            mend = suggest(name, kinds) or f"its joints are: {', '.join(kinds)}"
+            mend = suggest(name, list(kinds)) or f"its joints are: {', '.join(kinds)}"
             raise typer.BadParameter(f"there is no joint '{name}': {mend}", param_hint=option)
         if name in seen:
             raise typer.BadParameter(f"'{name}' is there twice", param_hint=option)

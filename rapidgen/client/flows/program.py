@@ -113,7 +113,7 @@ def _check_steps(group: Group, by: Mapping[str, float]) -> None:
             raise InvalidProgram.because(
                 "RG670",
                 f"'{name}' cannot be jogged by {step!r}",
-                suggest(name, kinds)
+                suggest(name, list(kinds))
                 or "by at most 0.2 rad or 0.1 m, by the joint's name or by x, y, z",
             )
     turned = [name for name in by if name in group.names]

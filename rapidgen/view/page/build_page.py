@@ -1,8 +1,8 @@
 """The page from its sources: `make page`, and the hook that puts it into sdist and wheel.
 
 Node.js is that of the group `build` (a wheel brings it), else the system's. A release has the page
-(`.ci/release` looks), and an sdist carries it. Who installs a clone without Node.js has all
-but the page, and is told so when it is asked for (RG920).
+(`.ci/release` looks), and an sdist carries it. Who installs a clone where there is no Node.js has
+all but the page, and is told so when it is asked for (RG920).
 """
 
 import os
