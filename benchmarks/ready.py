@@ -1,9 +1,10 @@
 """How long a server of somebody else's takes to be ready, against `import jinja2, pydantic`.
 
-    python benchmarks/ready.py [TIMES]
+    python benchmarks/ready.py [TIMES [MODULE...]]
 
 Wall seconds from the start of `rapidgen sim server.mod` to its line `ready`: the program serves a
 socket as soon as it runs. The two take turns, medians are compared; the first turn does not count.
+With modules of somebody's server, those in a guessed cell instead.
 """
 
 import os
@@ -26,13 +27,15 @@ SERVER = """MODULE server
   ENDPROC
 ENDMODULE
 """
+OWN: list[Path] = []
 ENVIRONMENT = {k: v for k, v in os.environ.items() if k != "PYTHONDONTWRITEBYTECODE"}
 
 
-def ready(path: Path) -> float:
+def ready(*paths: Path | str) -> float:
     """Seconds to the line."""
     began = time.perf_counter()
-    words = [sys.executable, "-m", "rapidgen.cli", "sim", str(path), "--ports", "auto"]
+    words = [sys.executable, "-m", "rapidgen.cli", "sim", *map(str, paths), "--ports", "auto"]
+    words += [] if paths[0] in OWN else ["--cell", "guess"]
     with subprocess.Popen(
         words, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, env=ENVIRONMENT
     ) as sim:
@@ -51,15 +54,20 @@ def imports() -> float:
     return time.perf_counter() - began
 
 
-def main(times: int) -> None:
+def main(times: int, modules: list[str]) -> None:
     """Print both medians and the ratio."""
+    if modules:
+        found = [ready(*modules) for _ in range(times + 1)][1:]
+        print(f"ready {statistics.median(found):.3f} s")
+        return
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "server.mod"
         path.write_text(SERVER, encoding="utf-8")
+        OWN.append(path)
         pairs = [(ready(path), imports()) for _ in range(times + 1)][1:]
     servers, others = (statistics.median(column) for column in zip(*pairs, strict=True))
     print(f"ready {servers:.3f} s, imports {others:.3f} s, ratio {servers / others:.2f}")
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]) if len(sys.argv) > 1 else 15)
+    main(int(sys.argv[1]) if len(sys.argv) > 1 else 15, sys.argv[2:])

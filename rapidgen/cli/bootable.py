@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from rapidgen.controller.answering import Said
     from rapidgen.controller.booting import Bootable
     from rapidgen.controller.guessing import Named
+    from rapidgen.controller.surroundings import Guessed
 
 
 def chosen(
@@ -91,17 +92,26 @@ def _table(title: str, rows: "Sequence[Named]") -> str:
     return f"{title}:\n{''.join(lines)}"
 
 
-def answers_told(answers: "Iterable[Said]") -> str:
-    """What guessed inputs became, and dialogs were answered, because a program waited for it."""
-    counted = Counter(answers)
-    if not counted:
-        return ""
-    given = (
-        f"{name} = {value if isinstance(value, str) else f'{value:g}'}"
-        + (f" ({count} times)" if count > 1 else "")
-        for (name, value), count in counted.items()
+def guessed_told(guessed: "Guessed") -> str:
+    """What guessed inputs became, how dialogs were answered, and where the guessed robot did not
+    go as programmed."""
+    why = "guessed, because the program waited for it"
+    other = "the guessed robot did not come there as programmed (`--robot` chooses another)"
+    again = "stopped behind an answer that was guessed, and started from main again"
+    return (
+        _counted(why, " = ", guessed.answered)
+        + _counted(again, ": ", guessed.stopped)
+        + _counted(other, ": ", guessed.missed)
     )
-    return f"guessed, because the program waited for it: {', '.join(given)}\n"
+
+
+def _counted(title: str, between: str, said: "Iterable[Said]") -> str:
+    given = [
+        f"{name}{between}{value if isinstance(value, str) else f'{value:g}'}"
+        + (f" ({count} times)" if count > 1 else "")
+        for (name, value), count in Counter(said).items()
+    ]
+    return f"{title}: {', '.join(given)}\n" if given else ""
 
 
 def _refuse_unloadable(found: "Bootable") -> None:

@@ -77,7 +77,7 @@ def run(
     line for each TPWrite. Ends when main of every task has returned; exit code 1 when a task
     stopped with an error, on a deadlock, and at the limits of time, statements and memory.
     """
-    from rapidgen.cli.bootable import answers_told, chosen
+    from rapidgen.cli.bootable import chosen, guessed_told
     from rapidgen.cli.memory import at_most
     from rapidgen.cli.observed import Observed, Outputs
     from rapidgen.controller.controller import VirtualController
@@ -117,7 +117,7 @@ def run(
         observed = Observed(controller, wanted)
         controller.start_program()
         wrong = _run(controller, max_time, max_statements, cell)
-        sys.stderr.write(answers_told(controller.answered))
+        sys.stderr.write(guessed_told(controller.guessed))
         observed.write()
     if wrong:
         raise DiagnosticError(wrong, exit_code=1)
@@ -166,7 +166,9 @@ def _run(
     controller: "VirtualController", max_time: float, max_statements: int, cell: str
 ) -> list[Diagnostic]:
     """Run to the end; what went wrong."""
-    ended = controller.run(max_time=max_time, max_statements=max_statements)
+    from rapidgen.controller.passes import run_through
+
+    ended = run_through(controller, max_time=max_time, max_statements=max_statements)
     found = [
         _fault(task.name, task.fault, cell)
         for task in controller.tasks.values()

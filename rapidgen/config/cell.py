@@ -23,6 +23,7 @@ from rapidgen.config.schema import (
     SignalKeys,
     ToolDataKeys,
     ToolKeys,
+    Vector,
     WorkObjectDataKeys,
     WorkObjectKeys,
 )
@@ -72,6 +73,37 @@ class ReactionKeys(Part):
 
 
 @dataclass(frozen=True)
+class SeenKeys(Part):
+    """A result that a camera's job finds in an image."""
+
+    name: Annotated[str, Rule("Name of the result.")] = ""
+    position: Annotated[Vector, Rule("Where it is in the camera's frame, mm.")] = field(
+        default_factory=lambda: [0.0, 0.0, 0.0]
+    )
+    angle: Annotated[float, Rule("Turn about the frame's z, deg.")] = 0.0
+    type: Annotated[float, Rule("`type` of the cameratarget.")] = 0.0
+    values: Annotated[list[float], Rule("`val1` and on.", max_length=5)] = field(
+        default_factory=list
+    )
+    texts: Annotated[list[str], Rule("`string1` and `string2`.", max_length=2)] = field(
+        default_factory=list
+    )
+
+
+@dataclass(frozen=True)
+class CameraKeys(Part):
+    """A camera of integrated vision: what it is said to see, no picture is looked at."""
+
+    images: Annotated[
+        list[list[SeenKeys]],
+        Rule("The results of each image, in turn; behind the last the first again."),
+    ] = field(default_factory=list)
+    parameters: Annotated[
+        dict[str, float], Rule("What CamGetParameter reads, and CamSetParameter writes, by name.")
+    ] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
 class CellKeys(Part):
     """What stands around a controller."""
 
@@ -95,6 +127,9 @@ class CellKeys(Part):
         dict[Identifier, list[ReactionKeys]],
         Rule("What answers the program: a gripper's sensor, a conveyor, a door."),
     ] = field(default_factory=dict)
+    cameras: Annotated[dict[Identifier, CameraKeys], Rule("Cameras by name.")] = field(
+        default_factory=dict
+    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,6 +142,7 @@ class CellDescription:
     work_objects: tuple[WorkObject, ...] = ()
     loads: Mapping[str, Load] = field(default_factory=dict)
     devices: Mapping[str, Sequence[ReactionKeys]] = field(default_factory=dict)
+    cameras: Mapping[str, CameraKeys] = field(default_factory=dict)
 
 
 def load_cell(path: Path) -> CellDescription:
@@ -141,6 +177,7 @@ def load_cell(path: Path) -> CellDescription:
         ),
         {name: load_of(load, ("loads", name), report) for name, load in keys.loads.items()},
         keys.devices,
+        keys.cameras,
     )
     if any(d.severity is Severity.ERROR for d in report.found):
         raise DiagnosticError(few(report.found))

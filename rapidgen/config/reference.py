@@ -28,7 +28,14 @@ SECTIONS = (
     schema.NetworkKeys,
     schema.SignalKeys,
 )
-CELL_SECTIONS = (cell.CellKeys, cell.CellRobotKeys, cell.CellSignalKeys, cell.ReactionKeys)
+CELL_SECTIONS = (
+    cell.CellKeys,
+    cell.CellRobotKeys,
+    cell.CellSignalKeys,
+    cell.ReactionKeys,
+    cell.CameraKeys,
+    cell.SeenKeys,
+)
 
 
 def json_schema() -> Members:
@@ -92,6 +99,8 @@ def _key_of(part: type) -> str:
         cell.CellRobotKeys: "`robots.TASK`",
         cell.CellSignalKeys: "`signals.NAME`",
         cell.ReactionKeys: "`devices.NAME` (a list of these)",
+        cell.CameraKeys: "`cameras.NAME`",
+        cell.SeenKeys: "`cameras.NAME.images` (a list of lists of these)",
         schema.GroupKeys: "`groups.NAME`",
         schema.JointKeys: "`joints.NAME`",
         schema.ChainStepKeys: "`chain` (a list of these)",

@@ -11,7 +11,7 @@ from rapidgen.config import from_manifest, load_config
 from rapidgen.config.model import GroupConfig, RobotConfig
 from rapidgen.controller.mechanics import DEFAULT_ROBOT, mechanics
 from rapidgen.controller.starts import in_front, stands, start_of, usual_start
-from rapidgen.controller.surroundings import Surroundings, furnish
+from rapidgen.controller.surroundings import Surroundings, cameras_of, furnish
 from rapidgen.diagnostics import Diagnostic, refusal, suggest
 from rapidgen.system.model import System
 
@@ -190,13 +190,19 @@ def _surrounded(found: Bootable, cell: "CellDescription | None", wishes: Wishes)
     inputs = [name.casefold() for name, keys in cell.signals.items() if keys.kind.endswith("I")]
     return replace(
         found,
-        system=furnish(found.system, cell, guessed.data if guessed is not None else ()),
+        system=furnish(found.system, cell)
+        if guessed is None
+        else furnish(found.system, cell, guessed.data, guessed.routines),
         surroundings=Surroundings(
             dict(_starts(found.groups, cell.robots, wishes.start, usual=usual)),
             tuple(reaction for rows in cell.devices.values() for reaction in rows),
             frozenset(inputs if guessed is not None else ()),
             guessed.polled if guessed is not None else (),
+            guessed.flags if guessed is not None else (),
+            guessed.heard if guessed is not None else None,
+            cameras_of(cell, is_guess=guessed is not None),
             is_guess=guessed is not None,
+            is_any_robot=guessed is not None and not wishes.robot and not found.system.robot_types,
         ),
         guessed=guessed,
     )

@@ -19,6 +19,7 @@ from rapidgen.controller.system_signals import SystemSignals
 from rapidgen.controller.thread import ControllerThread
 from rapidgen.controller.views import Signals, TaskView
 from rapidgen.machine.arc_equipment import ArcEquipment
+from rapidgen.machine.cameras import cameras
 from rapidgen.machine.costs import Costs
 from rapidgen.machine.files import FileSystem
 from rapidgen.machine.io import IOSystem
@@ -161,8 +162,11 @@ class VirtualController:
         self.meetings = Meetings()
         self.arcs = {t.name: ArcEquipment(self.io, system.arc, t.name) for t in system.tasks}
         """What tasks weld with: whether `gas` flows, an `arc` burns, and with which `data`."""
-        self.hands = Hands(self.scheduler, self.io, calibrated=self.dialect.hands_calibrated)
+        calibrated = self.dialect.hands_calibrated or surroundings.is_guess
+        self.hands = Hands(self.scheduler, self.io, calibrated=calibrated)
         """The hands of a YuMi: `hands["L"].part = 12.0` puts something between the fingers."""
+        self.cameras = cameras(system.cameras, surroundings.cameras)
+        """By lower-case name."""
         self.configuration = SystemParameters(system, tuple(robots))
         self.options = Options(
             accounting="statement" if tracing or switch_at_pers else accounting,
@@ -195,7 +199,7 @@ class VirtualController:
         self.operation.power_up()
         loaded = sum(len(spec.modules) for spec in system.tasks)
         _LOG.info("%s: %d tasks, %d modules loaded", system.name, len(system.tasks), loaded)
-        self.answered = settle(self, surroundings)
+        self.guessed = settle(self, surroundings)
         if faults is not None:
             schedule_faults(faults, self)
         if autostart:

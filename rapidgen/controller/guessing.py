@@ -4,20 +4,25 @@ A public program seldom has its controller's configuration beside it. The type o
 the parameter that it is an argument of; where it is only read, its first letters tell as ABB's
 examples name signals (di, do, gi, go, ai, ao), and what is compared with 0 or 1 is a digital input.
 Tools have the load of tool0 and are the flange; a work object is a table in front of the robot; a
-mechanical unit has no axes. Data of other types are what RAPID makes of a declaration without a
-value: 0, FALSE, an empty text; but a target is where the robot stands at first, `v25` is a speed of
-25 mm/s and `z5` a zone of 5 mm. What has no type that could be told stays unknown.
+mechanical unit has no axes, a camera sees one thing in its middle. Data of other types are what
+RAPID makes of a declaration without a value: 0, FALSE, an empty text; but a target is where the
+robot stands at first, `v25` is a speed of 25 mm/s and `z5` a zone of 5 mm. What has no type that
+could be told stays unknown.
 """
 
 import re
-from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Collection, Iterable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 from typing import Literal, cast
 
-from rapidgen.config.cell import CellDescription, CellSignalKeys
+from rapidgen.config.cell import CameraKeys, CellDescription, CellSignalKeys, SeenKeys
 from rapidgen.config.model import Load, Placement, Tool, WorkObject
+from rapidgen.controller.absent import absent
+from rapidgen.controller.conversing import Heard, heard
+from rapidgen.controller.flags import Flag, flags
 from rapidgen.controller.polling import Polled, polled
+from rapidgen.controller.uses import passed, read, scoped
 from rapidgen.diagnostics import Span
 from rapidgen.rapid import Dialect, parse
 from rapidgen.rapid.binding import (
@@ -28,14 +33,13 @@ from rapidgen.rapid.binding import (
     TypeSymbol,
     constant,
     installed_objects,
-    match,
 )
-from rapidgen.rapid.binding.expressions import declared_type, type_of
+from rapidgen.rapid.binding.expressions import declared_type
 from rapidgen.rapid.binding.names import called
 from rapidgen.rapid.binding.types import NUMBER
 from rapidgen.rapid.builtins.signatures import type_class
 from rapidgen.rapid.syntax import nodes as n
-from rapidgen.rapid.syntax.walk import children, walk
+from rapidgen.rapid.syntax.walk import walk
 from rapidgen.system.model import System
 
 Kind = Literal["DI", "DO", "GI", "GO", "AI", "AO"]
@@ -45,11 +49,11 @@ _LOAD = Load(0.001, (0.0, 0.0, 0.000001))
 """That of tool0 [3HAC16581-1 tooldata]: a tool without any is refused by moves."""
 _DIONUM = frozenset(("high", "low", "edge"))
 _DATA = frozenset({"tooldata", "wobjdata", "loaddata"})
+_MADE = frozenset(("mecunit", "cameradev"))
 _NUM = re.compile(r"n[A-Z_\d]|num[A-Z_\d]|reg\d")
 """Names that programmers give to numbers: nCount."""
 _NUMBERED = re.compile(r"[vz](\d{1,4})", re.I)
-_RULED: Mapping[str, str] = {"AND": "bool", "OR": "bool", "XOR": "bool", "DIV": "num", "MOD": "num"}
-"""What operands are by their operator alone."""
+_NOTHING: Mapping[str, str] = {"num": "0", "dnum": "0", "bool": "FALSE", "string": '""'}
 _ORDER = frozenset(("<", ">", "<=", ">="))
 _ALIASIO = 2
 _Use = tuple[n.Name, str, int]
@@ -76,9 +80,16 @@ class Guess:
     polled: tuple[Polled, ...] = ()
     """Comparisons of guessed inputs in loops."""
     data: tuple[tuple[str, str, str], ...] = ()
-    """Type, name and initial value (empty: none is given) of data that no description has."""
+    """Kind and type (`VAR num`), name and initial value (empty: none is given) of data that no
+    description has."""
     units: tuple[str, ...] = ()
     """Mechanical units."""
+    routines: str = ""
+    """Declarations of routines that are in no file and do nothing."""
+    flags: tuple[Flag, ...] = ()
+    """Data that programs look at and do not set."""
+    heard: Heard = field(default_factory=Heard)
+    """What programs listen for at their sockets."""
 
 
 def guess(
@@ -95,7 +106,9 @@ def guess(
     found: dict[str, Named] = {}
     assigned: set[str] = set()
     looked_at: list[Polled] = []
+    tasks: list[list[ModuleScope]] = []
     known = [(signal.name, f"signal{signal.type.lower()}") for signal in system.signals]
+    known += [(camera, "cameradev") for camera in system.cameras]
     known += [(f"{task.name}Id", "taskid") for task in system.tasks]
     known += [(unit, "mecunit") for unit in (*units, "ROB_ID")]
     for spec in system.tasks:
@@ -105,6 +118,7 @@ def guess(
             task.add(parse(f.data, path=f.path, dialect=dialect), installed=f.installed or f.shared)
             for f in spec.modules
         ]
+        tasks.append(scopes)
         for scope in scopes:
             looked_at += polled(scope, spec.entry)
             assigned |= _assigned(scope)
@@ -131,24 +145,74 @@ def guess(
             if kind == "wobjdata"
         ),
         loads={name: _LOAD for name, kind in made.items() if kind == "loaddata"},
+        cameras={
+            name: CameraKeys([[SeenKeys(name)]])
+            for name in (*system.cameras, *(n for n, kind in made.items() if kind == "cameradev"))
+        },
     )
     named = [one for one in found.values() if _can_be_made(one.type)]
     unknown = [one for one in found.values() if not _can_be_made(one.type)]
     inputs = {name.casefold() for name, keys in cell.signals.items() if keys.kind[1] == "I"}
     rows = dict.fromkeys(row for row in looked_at if row.signal in inputs)
-    data = tuple((one.type, one.name, _value(one, stands)) for one in named if _is_plain(one.type))
+    kept = {name for scopes in tasks for scope in scopes for name in _persistent(scope)}
+    initial = {word for scopes in tasks for scope in scopes for word in _in_initial_values(scope)}
+    data = tuple(_declaration(one, stands, initial, kept) for one in named if _is_plain(one.type))
     made_units = tuple(one.name for one in named if one.type == "mecunit")
-    return Guess(cell, tuple(named), tuple(unknown), tuple(rows), data, made_units)
+    made |= {signal.name.casefold(): f"signal{signal.type.lower()}" for signal in system.signals}
+    kinds = {name.casefold(): kind for name, kind in made.items()}
+    stubs = {one.name.casefold(): one for scopes in tasks for one in absent(scopes, kinds)}
+    named += [Named(s.name, f"func {s.type}" if s.type else "proc", s.span) for s in stubs.values()]
+    looked = tuple(
+        flag
+        for spec, scopes in zip(system.tasks, tasks, strict=True)
+        for flag in flags(spec, scopes, kinds)
+    )
+    listens = heard((scope for scopes in tasks for scope in scopes), stands)
+    routines = "".join(s.stub(stands.get(s.type, "")) for s in stubs.values())
+    names = tuple(named), tuple(unknown)
+    return Guess(cell, *names, tuple(rows), data, made_units, routines, looked, listens)
 
 
 def _can_be_made(kind: str) -> bool:
-    return kind.startswith("signal") or kind in _DATA or kind == "mecunit" or _is_plain(kind)
+    return kind.startswith("signal") or kind in _DATA or kind in _MADE or _is_plain(kind)
 
 
 def _is_plain(kind: str) -> bool:
     """Of a predefined type that any module may declare."""
-    ours = kind.startswith("signal") or kind in _DATA or kind in ("mecunit", "taskid")
+    ours = kind.startswith("signal") or kind in _DATA or kind in ("mecunit", "taskid", "cameradev")
     return not ours and type_class(kind) is not None
+
+
+def _declaration(
+    one: Named, stands: Mapping[str, str], initial: Collection[str], kept: Collection[str]
+) -> tuple[str, str, str]:
+    """What an initial value is made of is a constant, where its value is known; what only a
+    persistent may be is one."""
+    value = _value(one, stands)
+    if one.name.casefold() in initial:
+        value = value or _NOTHING.get(one.type, "")
+        return f"{'CONST' if value else 'VAR'} {one.type}", one.name, value
+    return f"{'PERS' if one.name.casefold() in kept else 'VAR'} {one.type}", one.name, value
+
+
+def _persistent(module: ModuleScope) -> Iterator[str]:
+    """Names that stand where only a persistent may."""
+    for node, scope in scoped(module):
+        if isinstance(node, n.FunctionCall | n.ProcedureCall):
+            routine = called(scope.find(node.name))
+            if isinstance(routine, RoutineSymbol):
+                for one, _, mode in passed(node.arguments, routine, scope):
+                    if isinstance(one, n.Name) and mode == "PERS":
+                        yield one.name.casefold()
+
+
+def _in_initial_values(module: ModuleScope) -> Iterator[str]:
+    """Names in the initial values of a module's data."""
+    for declared in module.tree.data:
+        if declared.initial is not None:
+            for node in walk(declared.initial):
+                if isinstance(node, n.Name):
+                    yield node.name.casefold()
 
 
 def _value(one: Named, stands: Mapping[str, str]) -> str:
@@ -177,20 +241,12 @@ def _undeclared(module: ModuleScope) -> Iterator[Named]:
     """Every use of a datum that nobody declares, in a module."""
     if not module.tree.name:
         return
-    stack: list[tuple[n.Node, Scope]] = [(d, module) for d in reversed(module.tree.declarations)]
-    while stack:
-        node, scope = stack.pop()
+    for node, scope in scoped(module):
         for name, kind, sure in _uses(node, scope):
             # A signal may have the name of a type: SENSOR.
             if isinstance(scope.find(name.name), TypeSymbol | None):
                 at = module.tree.source.span(name.first, name.first)
                 yield Named(name.name, kind, at, sure)
-        inside = scope
-        if isinstance(node, n.RoutineDeclaration):
-            inside = module.routine(node)
-        elif isinstance(node, n.For) and not isinstance(scope, ModuleScope):
-            inside = scope.loop(node)
-        stack += [(child, inside) for child in reversed(list(children(node)))]
 
 
 def _uses(node: n.Node, scope: Scope) -> Iterator[_Use]:
@@ -202,22 +258,30 @@ def _uses(node: n.Node, scope: Scope) -> Iterator[_Use]:
             return
         routine = called(scope.find(node.name))
         if isinstance(routine, RoutineSymbol):
-            for name, kind in _arguments(node.arguments, routine, scope):
+            for name, kind, _ in passed(node.arguments, routine, scope):
+                if not isinstance(name, n.Name):
+                    continue
                 # A signal stands for its value where a number is wanted.
                 if kind in ("", "num", "dnum"):
                     found = _read_as(name.name, node) or kind
                     yield name, found, 1 if found else 0
                 else:
                     yield name, kind, 2
+        elif routine is None:
+            for argument in node.arguments:
+                if isinstance(argument.value, n.Name):
+                    # What is only given to routines in no file may as well be a number.
+                    found = _read_as(argument.value.name, node)
+                    yield argument.value, found or "num", 1 if found else 0
         return
-    for read, kind in _read(node, scope):
-        if isinstance(read, n.Name):
+    for one, kind in read(node, scope):
+        if isinstance(one, n.Name):
             # What compares is a number where nothing else tells.
             plain = kind or (
                 "num" if isinstance(node, n.Binary) and node.operator in _ORDER else ""
             )
-            found = _read_as(read.name, node) or plain.replace(NUMBER, "num")
-            yield read, found, 1 if found else 0
+            found = _read_as(one.name, node) or plain.replace(NUMBER, "num")
+            yield one, found, 1 if found else 0
 
 
 def _aliased(node: n.FunctionCall | n.ProcedureCall, scope: Scope) -> Iterator[_Use]:
@@ -230,41 +294,6 @@ def _aliased(node: n.FunctionCall | n.ProcedureCall, scope: Scope) -> Iterator[_
             yield n.Name(node.first, node.last, given), kind, 2
         elif isinstance(values[0], n.Name):
             yield values[0], kind, 2
-
-
-def _read(node: n.Node, scope: Scope) -> Iterator[tuple[n.Expression, str]]:
-    """Expressions in a node, and what they are by what stands beside them."""
-    match node:
-        case n.Binary():
-            ruled = _RULED.get(node.operator, "")
-            yield node.left, ruled or type_of(node.right, scope) or ""
-            yield node.right, ruled or type_of(node.left, scope) or ""
-        case n.Unary():
-            yield node.operand, "bool" if node.operator == "NOT" else "num"
-        case n.Branch() | n.CompactIf() | n.While():
-            yield node.condition, "bool"
-        case n.Assignment():
-            yield node.value, declared_type(node.target, scope) or ""
-            yield node.target, type_of(node.value, scope) or ""
-        case n.Test():
-            values = [value for case in node.cases for value in case.values]
-            yield node.subject, next(filter(None, (type_of(v, scope) for v in values)), "")
-        case n.For():
-            yield from ((end, "num") for end in (node.start, node.end))
-        case n.Index():
-            yield from ((index, "num") for index in node.indices)
-
-
-def _arguments(
-    arguments: list[n.Argument], routine: RoutineSymbol, scope: Scope
-) -> Iterator[tuple[n.Name, str]]:
-    parameters = routine.parameters or ()
-    for pair in match(parameters, arguments, lambda _, alternatives: alternatives[0]).pairs:
-        value = pair.argument.value
-        if isinstance(value, n.Name) and pair.parameter >= 0:
-            wanted = parameters[pair.parameter]
-            kind = (routine.module or scope.module).base(wanted.type) or ""
-            yield value, "" if kind == "anytype" or wanted.dimensions else kind
 
 
 def _read_as(name: str, node: n.Node) -> str:

@@ -98,7 +98,7 @@ def configured(
     system: System, robots: Sequence[GroupConfig], io: IOSystem
 ) -> dict[str, tuple[Type, Value]]:
     """Objects that a configuration predefines, by lower-case name: signals, mechanical units,
-    taskids."""
+    taskids, cameras."""
     found: dict[str, tuple[Type, Value]] = {}
     for task in system.tasks:
         found[f"{task.name.lower()}id"] = _named("taskid", task.name)
@@ -106,6 +106,8 @@ def configured(
         for unit in (group.mechanical_unit, *group.external_units):
             if unit:
                 found[unit.lower()] = _named("mecunit", unit)
+    for camera in system.cameras:
+        found[camera.lower()] = _named("cameradev", camera)
     for signal in io.signals.values():
         kind = find_type(f"signal{signal.spec.type.lower()}")
         if kind is not None:

@@ -6,8 +6,13 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Protocol
 
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, error, suggest
+from rapidgen.machine.cameras import Camera, Seen
 from rapidgen.machine.io import Awaited, IOSystem
 from rapidgen.machine.log import EventLog
+from rapidgen.machine.meetings import Meetings
+from rapidgen.machine.network.interface import Network
+from rapidgen.machine.network.memory import MemoryNetwork
+from rapidgen.machine.network.sockets import SocketTable
 from rapidgen.machine.operator import Operator
 from rapidgen.machine.scheduler import S, Scheduler
 from rapidgen.motion.system import MotionSystem
@@ -17,7 +22,10 @@ from rapidgen.system.model import ModuleFile, SignalSpec, System
 if TYPE_CHECKING:
     from rapidgen.config.cell import CellDescription, ReactionKeys
     from rapidgen.controller.answering import Said
+    from rapidgen.controller.conversing import Heard
+    from rapidgen.controller.flags import Flag
     from rapidgen.controller.polling import Polled
+    from rapidgen.controller.views import TaskView
 
 GUESSED = 49_910
 """Event: an input that nobody drives became what a program waits for. The number is ours."""
@@ -38,8 +46,28 @@ class Surroundings:
     """Inputs that nobody drives, lower case: they become what somebody waits for."""
     polled: "tuple[Polled, ...]" = ()
     """Where programs look for them in loops."""
+    flags: "tuple[Flag, ...]" = ()
+    """Data that programs look at and do not set."""
+    heard: "Heard | None" = None
+    """What programs listen for at sockets that nobody else is at."""
+    cameras: Mapping[str, Camera] = field(default_factory=dict)
+    """What cameras see, by lower-case name."""
     is_guess: bool = False
     """Whether dialogs are answered that nobody else is there for, and I/O units are as named."""
+    is_any_robot: bool = False
+    """Whether the robots are a guess: places that they do not reach do not stop the program."""
+
+
+@dataclass(frozen=True, slots=True)
+class Guessed:
+    """What happened because a cell is a guess; both grow while programs run."""
+
+    answered: "list[Said]" = field(default_factory=list)
+    """Signals and dialogs, and what they became because a program waited for it."""
+    missed: "list[Said]" = field(default_factory=list)
+    """Places of moves to where the robot does not come as programmed, and how it went there."""
+    stopped: "list[Said]" = field(default_factory=list)
+    """Where a program stopped behind an answer and was started from main again, and why."""
 
 
 class Booted(Protocol):
@@ -52,17 +80,26 @@ class Booted(Protocol):
     io: IOSystem
     operator: Operator
     motion: MotionSystem
+    network: Network
+    sockets: SocketTable
+    meetings: Meetings
     scheduler: Scheduler
     rapid_tasks: dict[str, Task]
 
+    def task(self, name: str) -> "TaskView":
+        """One task."""
+
 
 def furnish(
-    system: System, cell: "CellDescription", data: Iterable[tuple[str, str, str]] = ()
+    system: System,
+    cell: "CellDescription",
+    data: Iterable[tuple[str, str, str]] = (),
+    routines: str = "",
 ) -> System:
-    """`system` with the signals and the data of `cell` that it does not have itself, and with
-    further `data` (type, name, initial value or nothing).
+    """`system` with the signals and the data of `cell` that it does not have itself, with further
+    `data` (kind and type, name, initial value or nothing) and the declarations of `routines`.
 
-    The data are those of an installed module: a program's own hide them. Raises DiagnosticError
+    They are those of an installed module: a program's own hide them. Raises DiagnosticError
     RG434 for a device that names a signal which nobody has.
     """
     known = {signal.name.casefold() for signal in system.signals}
@@ -76,7 +113,9 @@ def furnish(
         for name, keys in cell.signals.items()
         if name.casefold() not in known
     )
-    system = replace(system, signals=(*system.signals, *signals))
+    seen = {name.casefold() for name in system.cameras}
+    cameras = (*system.cameras, *(name for name in cell.cameras if name.casefold() not in seen))
+    system = replace(system, signals=(*system.signals, *signals), cameras=cameras)
     faults = list(_nameless(system, cell))
     if faults:
         raise DiagnosticError(faults)
@@ -84,8 +123,9 @@ def furnish(
         f"    TASK PERS {kind} {name} := {value};\n" for kind, name, value in _data(cell)
     )
     text += "".join(
-        f"    VAR {kind} {name}{' := ' if value else ''}{value};\n" for kind, name, value in data
+        f"    {kind} {name}{' := ' if value else ''}{value};\n" for kind, name, value in data
     )
+    text += routines
     if not text:
         return system
     module = ModuleFile(
@@ -96,6 +136,32 @@ def furnish(
     )
     tasks = (replace(task, modules=(module, *task.modules)) for task in system.tasks)
     return replace(system, tasks=tuple(tasks))
+
+
+def cameras_of(cell: "CellDescription", *, is_guess: bool) -> dict[str, Camera]:
+    """The cameras of a cell, by lower-case name; a new set for each controller."""
+    return {
+        name.casefold(): Camera(
+            name,
+            [
+                [
+                    Seen(
+                        one.name,
+                        (one.position[0], one.position[1], one.position[2]),
+                        one.angle,
+                        one.type,
+                        tuple(one.values),
+                        tuple(one.texts),
+                    )
+                    for one in image
+                ]
+                for image in keys.images
+            ],
+            {parameter.casefold(): value for parameter, value in keys.parameters.items()},
+            is_guess,
+        )
+        for name, keys in cell.cameras.items()
+    }
 
 
 def _data(cell: "CellDescription") -> Iterator[tuple[str, str, str]]:
@@ -123,10 +189,11 @@ def _nameless(system: System, cell: "CellDescription") -> Iterator[Diagnostic]:
                     )
 
 
-def settle(controller: Booted, around: Surroundings) -> "list[Said]":
+def settle(controller: Booted, around: Surroundings) -> Guessed:
     """Put the robots where they start, let devices watch their signals, and guessed inputs become
-    what a program waits for; the list grows by each of these answers (signal or dialog, value)."""
-    answered: list[Said] = []
+    what a program waits for."""
+    guessed = Guessed()
+    answered = guessed.answered
     for name, posture in around.starts.items():
         controller.motion.group(name).jump(posture)
     for reaction in around.reactions:
@@ -150,7 +217,13 @@ def settle(controller: Booted, around: Surroundings) -> "list[Said]":
         from rapidgen.controller.polling import Buttons
 
         Buttons(controller, around.polled, answered)
-    controller.io.any_unit = around.is_guess
+    if around.flags and controller.scheduler.clock == "virtual":
+        from rapidgen.controller.flags import Flags
+
+        Flags(controller, around.flags, answered)
+    controller.io.any_unit = controller.meetings.any_task = around.is_guess
+    if around.is_any_robot:
+        controller.motion.on_missed = lambda place, how: guessed.missed.append((place, how))
     # Beside a real clock a person sits, who answers by the control port.
     if (
         around.is_guess
@@ -160,7 +233,11 @@ def settle(controller: Booted, around: Surroundings) -> "list[Said]":
         from rapidgen.controller.answering import Chooser
 
         Chooser(controller.operator, controller.scheduler, answered)
-    return answered
+    if around.heard is not None and isinstance(controller.network, MemoryNetwork):
+        from rapidgen.controller.conversing import Partner
+
+        Partner(controller, around.heard, answered)
+    return guessed
 
 
 def _watch(controller: Booted, reaction: "ReactionKeys") -> None:

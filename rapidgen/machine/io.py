@@ -12,7 +12,7 @@ from typing import Final, Literal
 
 from rapidgen.machine.log import EventLog
 from rapidgen.machine.scheduler import S, Scheduler, Timer, WaitSet
-from rapidgen.system.model import CrossConnection, SignalSpec, System
+from rapidgen.system.model import CrossConnection, SignalSpec, SignalType, System
 
 # How a status is spelled in SYSSIG_OUT. First of each row: the name used by `report`. "Error",
 # "TaskExecuting" are seen in public cfg files; the other spellings are remembered or taken from
@@ -148,6 +148,10 @@ class Awaited:
         return f"{self.signal.name} {self.relation} {self.value:g}; {now}"
 
 
+_GROUP_BITS: Final = 32
+"""Of a group signal that is made up."""
+
+
 @dataclass(frozen=True, slots=True)
 class _Output:
     status: str
@@ -203,6 +207,13 @@ class IOSystem:
     def get(self, name: str) -> Signal | None:
         """The signal of that name, or None."""
         return self.signals.get(name.lower())
+
+    def made_up(self, name: str, kind: SignalType) -> Signal | None:
+        """A signal that a program names by a text, in a guessed cell; None elsewhere."""
+        if not self.any_unit or not name:
+            return None
+        made = Signal(SignalSpec(name, kind, size=_GROUP_BITS if kind[0] == "G" else 1))
+        return self.signals.setdefault(name.lower(), made)
 
     def __getitem__(self, name: str) -> Signal:
         return self.signals[name.lower()]

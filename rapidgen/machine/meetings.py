@@ -33,3 +33,5 @@ class Meetings:
         """WaitSyncTask and its like: by point and members."""
         self.moves: dict[tuple[frozenset[str], float], Gathering] = {}
         """Moves of one \\ID: by partners and \\ID."""
+        self.any_task = False
+        """Whether tasks that are named and not there are left out (a guessed cell)."""

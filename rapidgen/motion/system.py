@@ -1,6 +1,6 @@
 """All motion groups of one controller, and which task moves which."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 
 from rapidgen.config.model import GroupConfig
 from rapidgen.machine.io import IOSystem
@@ -32,6 +32,9 @@ class MotionSystem:
         self.zones = WorldZones(scheduler, self.groups.values())
         self._tasks = {g.config.task.lower(): g for g in self.groups.values()}
         self._moving = set(self._tasks)
+        self.on_missed: Callable[[str, str], None] | None = None
+        """The robots are a guess: who is told (place in the program, how it went there) of targets
+        that they do not reach as programmed. None: such a target stops the program."""
 
     @property
     def settings(self) -> MotionSettings:

@@ -5,6 +5,7 @@ from types import FrameType
 from typing import Literal, Protocol, TypeAlias
 
 from rapidgen.machine.arc_equipment import ArcEquipment
+from rapidgen.machine.cameras import Camera
 from rapidgen.machine.costs import Costs
 from rapidgen.machine.files import FileSystem
 from rapidgen.machine.io import IOSystem
@@ -81,6 +82,8 @@ class Host(Protocol):
     meetings: Meetings
     arcs: dict[str, ArcEquipment]
     """What tasks weld with."""
+    cameras: dict[str, Camera]
+    """By lower-case name."""
     hands: Hands
     """The hands of a YuMi."""
 

@@ -1,11 +1,12 @@
 """Signals as RAPID variables: those that a program declares and AliasIO connects."""
 
 from functools import partial
-from typing import TypeAlias
+from typing import TypeAlias, get_args
 
 from rapidgen.machine.io import Signal
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.values import register_type
+from rapidgen.system.model import SignalType
 
 
 class SignalAlias:
@@ -13,7 +14,7 @@ class SignalAlias:
 
     __slots__ = ("target", "type")
 
-    def __init__(self, type: str) -> None:
+    def __init__(self, type: SignalType) -> None:
         self.type = type
         self.target: Signal | None = None
 
@@ -33,5 +34,5 @@ class SignalAlias:
 AnySignal: TypeAlias = Signal | SignalAlias
 """What a VAR signalxx argument is: both have `.signal` and `.value`."""
 
-for _type in ("DI", "DO", "GI", "GO", "AI", "AO"):
+for _type in get_args(SignalType):
     register_type(f"signal{_type}", partial(SignalAlias, _type), "semivalue")

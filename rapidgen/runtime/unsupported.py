@@ -120,12 +120,6 @@ _GROUPS: Final[tuple[tuple[str, str], ...]] = (
     ("UIMsgWrite is written, not shown: nothing is there to take away", "UIMsgWriteAbort"),
     ("its values are in no public source", "GetModalPayLoadMode"),
     (
-        "there is no camera",
-        """CamLoadJob CamStartLoadJob CamWaitLoadJob CamSetProgramMode CamSetRunMode CamReqImage
-        CamGetResult CamGetParameter CamSetParameter CamSetExposure CamFlush CamGetName
-        CamNumberOfResults""",
-    ),
-    (
         "spot welding is not simulated",
         "SpotL SpotJ",
     ),

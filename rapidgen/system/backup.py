@@ -72,6 +72,7 @@ def read_backup(folder: Path | str, *, notes: list[Diagnostic] | None = None) ->
         home=home if home.is_dir() else None,
         robot_types=_robot_types(folder, collected),
         arc=() if proc is None else arc_signals(proc),
+        cameras=_cameras(folder, collected),
     )
     return with_cfg(found, sys_cfg, eio_cfg)
 
@@ -80,6 +81,13 @@ def _robot_types(folder: Path, notes: list[Diagnostic]) -> tuple[tuple[str, str]
     moc = _further(folder, "MOC", notes)
     robots = moc.instances("ROBOT") if moc is not None else ()
     return tuple((robot.text("Name"), robot.text("use_robot_type")) for robot in robots)
+
+
+def _cameras(folder: Path, notes: list[Diagnostic]) -> tuple[str, ...]:
+    """COM_APP instances of type CAMERA, as a backup of a controller with a camera has one [cfg]."""
+    sio = _further(folder, "SIO", notes)
+    rows = () if sio is None else sio.instances("COM_APP")
+    return tuple(row.text("Name") for row in rows if row.text("Type").upper() == "CAMERA")
 
 
 def backup_cfg(folder: Path, robotware: tuple[int, int], notes: list[Diagnostic]) -> ControllerCfg:

@@ -160,3 +160,5 @@ class System:
     """(mechanical unit, -use_robot_type of MOC), where a backup tells them."""
     arc: tuple[ArcSignals, ...] = ()
     """Of PROC.cfg, where a backup has it."""
+    cameras: tuple[str, ...] = ()
+    """Names of cameras: COM_APP of SIO.cfg, or of a cell."""

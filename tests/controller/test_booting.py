@@ -105,7 +105,13 @@ def test_what_a_program_waits_for_on_a_guessed_input_comes_half_a_second_later(t
     )
     with VirtualController.from_files([path], cell="guess", cycle="once") as controller:
         assert controller.run(max_time=60) == "finished"
-        assert controller.answered == [("diA", 1), ("diA", 0), ("giB", 7), ("giB", 2), ("diA", 1)]
+        assert controller.guessed.answered == [
+            ("diA", 1),
+            ("diA", 0),
+            ("giB", 7),
+            ("giB", 2),
+            ("diA", 1),
+        ]
         assert controller.now == pytest.approx(2.0, abs=0.25)
         said = [event.texts for event in controller.log if event.code == GUESSED]
         assert said[0] == ("diA becomes 1",)
@@ -182,7 +188,7 @@ def test_a_guessed_input_that_is_looked_at_in_a_loop_is_pressed(tmp_path):
     )
     with VirtualController.from_files([path], cell="guess", cycle="once") as controller:
         assert controller.run(max_time=20) == "finished"
-        assert controller.answered[:2] == [("DI_1", 1), ("start", 1)]
+        assert controller.guessed.answered[:2] == [("DI_1", 1), ("start", 1)]
         assert controller.signals["DI_1"] == 0, "a button is let go"
 
 
@@ -233,7 +239,7 @@ def test_dialogs_of_a_guessed_cell_get_their_default_and_then_each_choice_in_tur
     with VirtualController.from_files([path], cell="guess", cycle="once") as controller:
         assert controller.run(max_time=60) == "finished"
         assert controller.task("T_ROB1")["asks:sum"] == 13178
-        assert controller.answered == [
+        assert controller.guessed.answered == [
             ("TPReadFK 'Where?'", "left"),
             ("TPReadFK 'Where?'", "right"),
             ("TPReadNum 'How many?'", "1"),
@@ -249,7 +255,7 @@ def test_a_script_of_answers_is_all_that_is_answered(tmp_path):
     )
     with VirtualController.from_files([path], cell="guess", cycle="once", answers=[]) as controller:
         assert controller.run(max_time=60) == "deadlock"
-        assert controller.answered == []
+        assert controller.guessed.answered == []
 
 
 def test_plain_data_that_nobody_declares_are_what_their_use_says(tmp_path):

@@ -22,9 +22,11 @@ from pathlib import Path
 from rapidgen.controller import VirtualController
 from rapidgen.controller.booting import Wishes, load_target
 from rapidgen.controller.controller import Cycle
+from rapidgen.controller.passes import run_through
 from rapidgen.controller.tracing import Coverage
 from rapidgen.diagnostics import DiagnosticError, Severity
 from rapidgen.rapid import check
+from tests.foreign.called import lines_called
 from tests.foreign.programs import Program, programs
 
 ROBOTS = (
@@ -48,6 +50,8 @@ class Outcome:
     end: str
     reached: int = 0
     lines: int = 0
+    called: int = 0
+    """Lines of the routines that anything calls."""
     notes: tuple[str, ...] = ()
 
     @property
@@ -85,8 +89,11 @@ def cycles(program: Program, robot: str, cycle: Cycle) -> Outcome:
         covered = Coverage(controller)
         controller.operator.attach()
         controller.start_program()
-        ended = controller.run(max_time=_TIME, max_statements=_STATEMENTS)
-        lines = [hits for file in covered.lines().values() for hits in file.values()]
+        ended = run_through(controller, max_time=_TIME, max_statements=_STATEMENTS)
+        by_file = covered.lines()
+        lines = [hits for file in by_file.values() for hits in file.values()]
+        called = lines_called(controller)
+        count = sum(1 for f, rows in by_file.items() for line in rows if line in called.get(f, ()))
         faults = [f"{t.name}: {t.fault}" for t in controller.tasks.values() if t.fault is not None]
         waits = controller.where()
         guessed = found.guessed
@@ -95,9 +102,12 @@ def cycles(program: Program, robot: str, cycle: Cycle) -> Outcome:
             notes.append(
                 "in no module: " + ", ".join(f"{u.type} {u.name}" for u in guessed.unknown[:5])
             )
-        asked = any(isinstance(answer, str) for _, answer in controller.answered)
+        asked = any(isinstance(answer, str) for _, answer in controller.guessed.answered)
         end = _end(ended, faults, waits, asked=asked)
-        return Outcome(end, sum(1 for hits in lines if hits), len(lines), tuple(notes))
+        if controller.guessed.missed:
+            notes.append(f"the guessed robot missed {len(set(controller.guessed.missed))} places")
+        reached = sum(1 for hits in lines if hits)
+        return Outcome(end, reached, len(lines), max(reached, count), tuple(notes))
 
 
 def _end(ended: str, faults: Sequence[str], waits: Sequence[str], *, asked: bool) -> str:
@@ -125,20 +135,23 @@ def best(program: Program, robots: Sequence[str]) -> tuple[str, Outcome]:
 def main(folder: Path, robots: Sequence[str]) -> None:
     """Print one paragraph for each program, and the sums."""
     ends: Counter[str] = Counter()
-    shares: list[float] = []
+    shares: list[tuple[float, float]] = []
     for program in programs(folder):
         backup = program.is_backup
         robot, outcome = best(program, ("",) if backup else ("", *robots))
         ends[("backups: " if backup else "mains: ") + outcome.end.split(" (")[0]] += 1
         if not backup:
-            shares.append(outcome.share)
+            shares.append((outcome.share, outcome.reached / max(1, outcome.called)))
         print(f"{program.name}: {robot}: {outcome.end} {outcome.reached} of {outcome.lines} lines")
         for note in outcome.notes:
             print(f"    {note}", flush=True)
     for end, count in sorted(ends.items()):
         print(f"{count:5} {end}")
     if shares:
-        print(f"median of the lines of mains: {statistics.median(shares):.0%}")
+        all_lines, called = (statistics.median(column) for column in zip(*shares, strict=True))
+        print(
+            f"median of the lines of mains: {all_lines:.0%}, of those that are called {called:.0%}"
+        )
 
 
 if __name__ == "__main__":

@@ -108,6 +108,7 @@ def test_array_parameters_have_three_dimensions_at_most():
         ("DebugBreak;", "since"),
         ("UnpackRawBytes r, 1, s \\ASCII:=4;", "until"),
         ("UnpackRawBytes r, 1, s \\UTF8Encoding:=4;", "since"),
+        ("UnpackRawBytes r, 1, s \\ISOLatin1Encoding:=4;", "since"),
         ("SearchL \\PStop, di, p, p, v100, tool0;", "until"),
         ("StopMove;", "always"),
         ("PackRawBytes s, r, 1 \\ASCII;", "always"),

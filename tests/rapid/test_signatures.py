@@ -86,7 +86,7 @@ def test_marks_behind_headers():
     assert signatures.routine("CopyRawBytes").marks == {"index": ("fromindex", "toindex")}
     since = signatures.routine("DnumToStr")
     assert (since.since, since.until, since.marks, since.checked) == ((5, 12), None, {}, True)
-    assert not signatures.routine("CamGetResult").checked
+    assert not signatures.routine("SpotL").checked
 
 
 def test_names_behind_marks_are_parameters():

@@ -63,6 +63,9 @@ class SocketTable:
         self._owners: dict[SocketDevice, str] = {}
         self.listeners: list[Callable[[SocketNews], None]] = []
         """Are told what connections do, at the moment when the program notices it."""
+        self.on_awaited: Callable[[Endpoint | None, int, int], None] | None = None
+        """Is told that a program is about to wait: for a client of a listener, for so many bytes
+        (0: any) of a connection, or, without an endpoint, for a server at a port."""
 
     @property
     def full(self) -> bool:

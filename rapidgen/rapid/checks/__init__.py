@@ -168,6 +168,8 @@ def _installed(system: System) -> Iterator[tuple[str, str]]:
                 yield unit, "mecunit"
     for task in system.tasks:
         yield f"{task.name}Id", "taskid"
+    for camera in system.cameras:
+        yield camera, "cameradev"
 
 
 def _unreadable(module: Module) -> bool:

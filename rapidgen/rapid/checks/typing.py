@@ -260,7 +260,10 @@ class TypeChecker:
                     "RG318",
                     f"the index {value:g} is outside the array of {size:g}",
                     index,
+                    # Two controllers' backups hold such a module, so controllers load it.
+                    notes=("the error comes when it is executed",),
                     related=self.declared(symbol) if symbol else (),
+                    severity=Severity.WARNING,
                 )
 
     def constant(self, node: Expression) -> Value | None:

@@ -3,6 +3,7 @@
 from collections.abc import Callable
 
 from rapidgen.machine.log import Event
+from rapidgen.rapid.numbers import single as as_num
 from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.signals import AnySignal
@@ -73,7 +74,8 @@ def i_timer(
     shortest = SHORTEST_SINGLE_TIMER if single or safe else SHORTEST_TIMER
     if task.controller.dialect.shortest_timer == "any":
         shortest = _FINEST_TIMER
-    if not seconds >= shortest:
+    # 0.01 as a num is a little less.
+    if not seconds >= min(shortest, as_num(shortest)):
         raise RapidError("ERR_ARGVALERR", f"the shortest time is {shortest} s")
     order = _order(task, interrupt, single, safe)
     scheduler = task.scheduler

@@ -139,6 +139,8 @@ def alias_io(task: Task, source: Ref | AnySignal, target: SignalAlias) -> None:
     if isinstance(given, str) and not task.controller.dialect.alias_by_name:
         raise FatalError(40_214, "AliasIO takes a signal", f"'{given}' is a text")
     found = task.controller.io.get(given) if isinstance(given, str) else given.signal
+    if found is None and isinstance(given, str) and isinstance(target, SignalAlias):
+        found = task.controller.io.made_up(given, target.type)
     if found is None:
         raise RapidError("ERR_ALIASIO_DEF", f"no signal '{given}'")
     if not isinstance(target, SignalAlias):

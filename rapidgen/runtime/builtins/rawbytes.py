@@ -72,6 +72,7 @@ def unpack_raw_bytes(
     float4: bool | None,
     ascii_: float | None,
     utf8: float | None,
+    latin1: float | None,
 ) -> None:
     """Read one value out of a container."""
     value = target_of(argument)
@@ -86,7 +87,9 @@ def unpack_raw_bytes(
         value.set(float_from(raw, index, network=bool(network)))
     elif hex1:
         value.set(raw.take(index, 1)[0])
-    elif (characters := ascii_ if ascii_ is not None else utf8) is not None:
+    elif (
+        characters := next((n for n in (ascii_, utf8, latin1) if n is not None), None)
+    ) is not None:
         count = whole(characters, "ERR_ARGVALERR")
         text = value.type.kind == "string"
         # No characters: motion_program_exec reads wobj0's empty name so [code].
@@ -97,6 +100,10 @@ def unpack_raw_bytes(
         value.set(data.decode(known, errors="replace") if text else data[0])
     else:
         raise _no_format("UnpackRawBytes")
+
+
+def _first(*lengths: float | None) -> float | None:
+    return next((length for length in lengths if length is not None), None)
 
 
 def _unsigned_long(task: Task, value: int) -> float:

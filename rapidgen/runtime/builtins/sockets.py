@@ -152,6 +152,7 @@ def socket_accept(
             accepted.append(endpoint)
         return endpoint is not None
 
+    _tell_awaited(task, listener)
     try:
         there = task.wait_for(
             try_it,
@@ -189,6 +190,7 @@ def socket_connect(
         raise RapidError("ERR_SOCK_UNSPEC", "close the socket and create it again")
     network = task.controller.network
     again = task.controller.dialect.failed_connect == "again"
+    _tell_awaited(task, None, port=_port(port))
     try:
         endpoint = socket.endpoint = network.connect(address, _port(port))
         there = task.wait_for(
@@ -295,6 +297,11 @@ def _receive(task: Task, given: Arguments, endpoint: Endpoint, *, exact: bool) -
         given["NoRecBytes"].set(len(received))
 
 
+def _tell_awaited(task: Task, endpoint: Endpoint | None, *, port: int = 0, count: int = 0) -> None:
+    if task.controller.sockets.on_awaited is not None:
+        task.controller.sockets.on_awaited(endpoint, port, count)
+
+
 def _wait_for_bytes(
     task: Task, given: Arguments, endpoint: Endpoint, limit: int, *, exact: bool
 ) -> bytes:
@@ -307,6 +314,7 @@ def _wait_for_bytes(
         result = network.receive(endpoint, limit, exact=exact)
         return result is not None
 
+    _tell_awaited(task, endpoint, count=limit if exact else 0)
     try:
         there = task.wait_for(
             try_it,
@@ -365,6 +373,8 @@ def socket_peek(task: Task, socket: SocketDevice) -> int:
         raise _lost(task, socket, fault) from fault
     if waiting == b"" and not socket.udp:
         raise _lost(task, socket, NetworkFault(NetworkReason.CLOSED, "the peer has closed"))
+    if not waiting:
+        _tell_awaited(task, endpoint)
     return len(waiting or b"")
 
 

@@ -58,12 +58,15 @@ def moving_group(task: Task) -> MotionGroup:
 def named_group(task: Task, reference: Value, name: str | None) -> MotionGroup:
     """The group of \\TaskRef or \\TaskName, else the task's own.
 
-    ERR_TASKNAME: no such task; ERR_NOT_MOVETASK: it moves nothing.
+    ERR_TASKNAME: no such task, which in a guessed cell is the own one; ERR_NOT_MOVETASK: it moves
+    nothing.
     """
     wanted = name if reference is None else reference.value
     if wanted is None:
         return group_of(task)
     if wanted.lower() not in (known.lower() for known in task.controller.tasks):
+        if task.controller.meetings.any_task:
+            return group_of(task)
         raise RapidError("ERR_TASKNAME", wanted)
     motion = task.controller.motion
     group = motion.of_task(wanted)

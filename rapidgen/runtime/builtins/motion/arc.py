@@ -12,8 +12,8 @@ from rapidgen.motion.moves import From, PathEvent
 from rapidgen.runtime.builtins.io import fitting
 from rapidgen.runtime.builtins.motion.access import data_of, group_of, moving_group
 from rapidgen.runtime.builtins.motion.moves import move_abs_j, move_ext_j
-from rapidgen.runtime.builtins.motion.request import bind, cartesian_move, joint_move
-from rapidgen.runtime.builtins.motion.together import together
+from rapidgen.runtime.builtins.motion.ordering import bind, order
+from rapidgen.runtime.builtins.motion.request import cartesian_move, joint_move
 from rapidgen.runtime.builtins.motion.triggers import prepared
 from rapidgen.runtime.motion_faults import NOT_SIMULATED, planned
 from rapidgen.runtime.registry import Arguments, by_name
@@ -69,8 +69,7 @@ def weld(task: Task, name: str, given: Arguments) -> None:
             events.append(PathEvent(From.MIDDLE, 0.0, arc.put_out))
     at_weld_speed = welds and not begins
     speed = {"V": given["Weld"].weld_speed if at_weld_speed else None, "T": given["Time"]}
-    group, move = cartesian_move(task, {**given, **speed}, tuple(events))
-    group.move(task, together(task, group, move, given["ID"]))
+    order(task, {**given, **speed}, cartesian_move, tuple(events))
     if welds and stops and begins:
         since = (task.scheduler.now - opened[0]) / S if opened else 0.0
         _ignite(task, seam, data, since)

@@ -23,10 +23,13 @@ _REFUSED = 49_910
 def _members(task: Task, tasks: Ref) -> frozenset[str]:
     """Lower-case names of a task list; rows with an empty name are none [code].
 
-    ERR_TASKNAME: an unknown task, or the own one is not in its list.
+    ERR_TASKNAME: an unknown task, or the own one is not in its list; in a guessed cell unknown
+    tasks are left out.
     """
     members = frozenset(entry.taskname.lower() for entry in tasks.get().values()) - {""}
     known = {t.name.lower() for t in task.controller.rapid_tasks.values()}
+    if task.controller.meetings.any_task:
+        return members & known | {task.name.lower()}
     if task.name.lower() not in members or not members <= known:
         raise RapidError("ERR_TASKNAME", ", ".join(sorted(members - known)) or task.name)
     return members

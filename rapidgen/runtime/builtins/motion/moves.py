@@ -12,7 +12,7 @@ from math import inf
 
 from rapidgen.axes.kinematics import Posture
 from rapidgen.motion.group import MotionGroup
-from rapidgen.motion.moves import FINE, Carrier, From, JointMove, MoveSpeed, PathEvent
+from rapidgen.motion.moves import FINE, Carrier, From, JointMove, Move, MoveSpeed, PathEvent
 from rapidgen.runtime.builtins.io import fitting
 from rapidgen.runtime.builtins.motion.access import data_of, here, moving_group
 from rapidgen.runtime.builtins.motion.arguments import (
@@ -23,7 +23,8 @@ from rapidgen.runtime.builtins.motion.arguments import (
     time_of,
     zone_of,
 )
-from rapidgen.runtime.builtins.motion.request import bind, cartesian_move, joint_move
+from rapidgen.runtime.builtins.motion.ordering import bind, order
+from rapidgen.runtime.builtins.motion.request import cartesian_move, joint_move
 from rapidgen.runtime.builtins.motion.targets import carrier_of
 from rapidgen.runtime.builtins.motion.together import together
 from rapidgen.runtime.compiler.symbols import Routine
@@ -36,8 +37,14 @@ from rapidgen.runtime.task.task import Task
 
 
 @by_name("MoveAbsJ", cost="move")
-@planned
 def move_abs_j(task: Task, _name: str, given: Arguments) -> None:
+    """All axes to where a jointtarget says."""
+    order(task, given, absolute_move)
+
+
+def absolute_move(
+    task: Task, given: Arguments, _events: tuple[PathEvent, ...] = ()
+) -> tuple[MotionGroup, Move]:
     """Displacement does not count here, offsets of external axes do (S4 datasys 2-MoveAbsJ-3)."""
     group = moving_group(task)
     modal, data = group.modal, data_of(task, group)
@@ -51,8 +58,7 @@ def move_abs_j(task: Task, _name: str, given: Arguments) -> None:
     group.planner.tool = carrier.tool
     target = target_of(given["ToJointPos"], group.map, group.path_target, offsets)
     speed = speed_of(given["Speed"], given["V"], modal)
-    move = _joint_move(task, group, given, group.with_active(target), speed, carrier)
-    group.move(task, together(task, group, move, given["ID"]))
+    return group, _joint_move(task, group, given, group.with_active(target), speed, carrier)
 
 
 @by_name("MoveExtJ", cost="move")

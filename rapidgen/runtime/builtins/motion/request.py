@@ -1,8 +1,5 @@
 """Move instructions to robtargets: one place where RAPID's arguments become a Move."""
 
-from collections.abc import Callable
-from typing import TypeAlias
-
 from rapidgen.motion.group import MotionGroup
 from rapidgen.motion.moves import FINE, CartesianMove, JointMove, Move, PathEvent
 from rapidgen.runtime.builtins.motion.access import data_of, geometry_of, here, moving_group
@@ -13,14 +10,12 @@ from rapidgen.runtime.builtins.motion.targets import (
     external_posture,
     joints_for,
 )
-from rapidgen.runtime.builtins.motion.together import together
-from rapidgen.runtime.motion_faults import planned
-from rapidgen.runtime.registry import Arguments, by_name
+from rapidgen.runtime.registry import Arguments
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.values import Value
 
 
-def _common(task: Task, group: MotionGroup, given: Arguments) -> dict[str, Value]:
+def common(task: Task, group: MotionGroup, given: Arguments) -> dict[str, Value]:
     """What every move to a robtarget has. Without a `Zone` (searches) it ends in a stop point."""
     tool = given["Tool"].get()
     work_object = given["WObj"].get() if given["WObj"] is not None else None
@@ -40,19 +35,19 @@ def _common(task: Task, group: MotionGroup, given: Arguments) -> dict[str, Value
 
 
 def joint_move(
-    task: Task, given: Arguments, events: tuple[PathEvent, ...] = ()
+    task: Task, given: Arguments, events: tuple[PathEvent, ...] = (), *, checked: bool = True
 ) -> tuple[MotionGroup, Move]:
-    """To a robtarget with all axes together."""
+    """To a robtarget with all axes together; not `checked`: in the nearest configuration."""
     group = moving_group(task)
     kinematics = geometry_of(group)
-    common = _common(task, group, given)
+    shared = common(task, group, given)
     target = given["ToPoint"]
     near = external_posture(group, target.extax, data_of(task, group).external_offset)
-    flange = common["carrier"].at(near).flange(frame(target))
-    wanted = configuration_of(target.robconf) if group.modal.check_joint else None
+    flange = shared["carrier"].at(near).flange(frame(target))
+    wanted = configuration_of(target.robconf) if checked and group.modal.check_joint else None
     check = group.settings.configuration_check
     posture = joints_for(kinematics, flange, near, wanted, check, group.path_target)
-    return group, JointMove(target=posture, events=events, **common)
+    return group, JointMove(target=posture, events=events, **shared)
 
 
 def cartesian_move(
@@ -61,13 +56,13 @@ def cartesian_move(
     """To a robtarget on a line, or on the circle through `CirPoint`."""
     group = moving_group(task)
     kinematics = geometry_of(group)
-    common = _common(task, group, given)
+    shared = common(task, group, given)
     target, via = given["ToPoint"], given.get("CirPoint")
     wanted = configuration_of(target.robconf) if group.modal.check_linear else None
     external = external_posture(group, target.extax, data_of(task, group).external_offset)
     if kinematics.seventh >= 0:
         # The seventh axis goes straight to where it is at the end, with the arm angle there.
-        flange = common["carrier"].at(external).flange(frame(target))
+        flange = shared["carrier"].at(external).flange(frame(target))
         check, ends = group.settings.configuration_check, group.path_target
         external = joints_for(kinematics, flange, external, wanted, check, ends)
     return group, CartesianMove(
@@ -78,23 +73,5 @@ def cartesian_move(
         singularities=group.modal.singularities,
         circle=group.modal.circle,
         events=events,
-        **common,
+        **shared,
     )
-
-
-Maker: TypeAlias = Callable[[Task, Arguments, tuple[PathEvent, ...]], tuple[MotionGroup, Move]]
-"""joint_move or cartesian_move."""
-
-
-def bind(
-    name: str,
-    make: Maker,
-    events_of: Callable[[Task, Arguments], tuple[PathEvent, ...]] = lambda _task, _given: (),
-) -> None:
-    """Bind a move instruction to what makes its move and its events on the path."""
-
-    @by_name(name, cost="move")
-    @planned
-    def execute(task: Task, _name: str, given: Arguments) -> None:
-        group, move = make(task, given, events_of(task, given))
-        group.move(task, together(task, group, move, given.get("ID")))

@@ -1,0 +1,119 @@
+"""Routines that programs call and that are in no file, as stubs: a guess.
+
+Public modules call what stayed on the controller. A stub takes the arguments of its first call, by
+their types, does nothing, and gives what RAPID makes of a declaration without a value: 0, FALSE, an
+empty text; where a robot stands for a target. A call whose arguments have no type that could be
+told, or a type of the program's own, gets no stub, and the task stops there as before.
+"""
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+from rapidgen.controller.uses import passed, read, scoped
+from rapidgen.diagnostics import Span
+from rapidgen.rapid.binding import ModuleScope, RoutineSymbol, Scope, constant
+from rapidgen.rapid.binding.expressions import declared_type, type_of
+from rapidgen.rapid.binding.names import called
+from rapidgen.rapid.binding.types import NUMBER, degree, element
+from rapidgen.rapid.builtins.signatures import type_class
+from rapidgen.rapid.syntax import nodes as n
+from rapidgen.rapid.syntax.lexer import KEYWORDS
+from rapidgen.runtime import unsupported
+
+_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,31}")
+_Call = n.ProcedureCall | n.FunctionCall | n.LateCall
+
+
+@dataclass(frozen=True, slots=True)
+class Absent:
+    """A routine that is called and in no file; `type` is what it gives, empty for a procedure."""
+
+    name: str
+    type: str
+    parameters: tuple[str, ...]
+    span: Span
+
+    def stub(self, value: str) -> str:
+        """Its declaration, which does nothing and gives `value` (empty: that of its type)."""
+        head = f"{self.name}({','.join(self.parameters)})"
+        if not self.type:
+            return f"    PROC {head}\n    ENDPROC\n"
+        initial = f" := {value}" if value else ""
+        return (
+            f"    FUNC {self.type} {head}\n"
+            f"        VAR {self.type} nothing{initial};\n"
+            f"        RETURN nothing;\n"
+            f"    ENDFUNC\n"
+        )
+
+
+def absent(modules: Sequence[ModuleScope], types: Mapping[str, str]) -> Iterator[Absent]:
+    """What the modules of a task call and none of them declares, each once, where a stub can be
+    made. `types` are those of names that nobody declares, by lower-case name."""
+    told: set[str] = set()
+    for module in modules:
+        if not module.tree.name:
+            continue
+        kinds: dict[int, str] = {}
+        for node, scope in scoped(module):
+            # What stands around a call comes before it.
+            kinds.update((id(e), kind) for e, kind in _wanted(node, scope))
+            name = _unknown(node, scope)
+            if not name or name.casefold() in told:
+                continue
+            assert isinstance(node, _Call)
+            given = kinds.get(id(node), "").replace(NUMBER, "num")
+            parameters = _parameters(node.arguments, scope, types)
+            is_function = isinstance(node, n.FunctionCall)
+            if parameters is None or (is_function and type_class(given) is None):
+                continue
+            told.add(name.casefold())
+            at = module.tree.source.span(node.first, node.first)
+            yield Absent(name, given if is_function else "", parameters, at)
+
+
+def _wanted(node: n.Node, scope: Scope) -> Iterator[tuple[n.Expression, str]]:
+    yield from read(node, scope)
+    if isinstance(node, n.ProcedureCall | n.FunctionCall):
+        routine = called(scope.find(node.name))
+        if isinstance(routine, RoutineSymbol):
+            yield from ((e, kind) for e, kind, _ in passed(node.arguments, routine, scope))
+
+
+def _unknown(node: n.Node, scope: Scope) -> str:
+    """The name of a routine that a node calls and nobody has; empty: it calls none, or a known."""
+    name: object = ""
+    if isinstance(node, n.LateCall):
+        name = constant(node.procedure, scope)
+    elif isinstance(node, n.ProcedureCall | n.FunctionCall):
+        name = node.name
+    if not isinstance(name, str) or _NAME.fullmatch(name) is None or name.upper() in KEYWORDS:
+        return ""
+    known = scope.find(name) is not None or name.lower() in unsupported.option_routines()
+    return "" if known else name
+
+
+def _parameters(
+    arguments: Sequence[n.Argument], scope: Scope, types: Mapping[str, str]
+) -> tuple[str, ...] | None:
+    """Declarations of parameters that take these arguments; None: a type is not known."""
+    found = []
+    for i, argument in enumerate(arguments, 1):
+        if argument.kind == "switch":
+            found.append(f"\\switch {argument.name}")
+            continue
+        value = argument.value
+        kind = None if value is None else type_of(value, scope) or declared_type(value, scope)
+        if not kind and isinstance(value, n.Name):
+            kind = types.get(value.name.casefold(), "")
+        kind = (kind or "").replace(NUMBER, "num")
+        kept = type_class(element(kind))
+        if kept is None:
+            return None
+        mode = "" if kept == "value" else "VAR "
+        dimensions = "{" + ",".join("*" * degree(kind)) + "}" if degree(kind) else ""
+        optional = "" if argument.kind == "required" else "\\"
+        name = argument.name or f"given{i}"
+        found.append(f"{optional}{mode}{element(kind)} {name}{dimensions}")
+    return tuple(found)

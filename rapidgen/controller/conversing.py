@@ -1,0 +1,184 @@
+"""The other end of a program's sockets in a guessed cell: nobody is there, so somebody is made up
+who says what the program listens for.
+
+What that is its texts tell: words that it compares with a text, numbers that it tests, the
+characters that it looks for between them, values that it makes of a text. Each is said when the
+program has waited for bytes for half a second, one after the other and each twice; then nobody
+answers any more, and the program waits as before. What it sends is taken and not understood.
+"""
+
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import partial
+from typing import TYPE_CHECKING, Final, Protocol
+
+from rapidgen.controller.uses import scoped
+from rapidgen.machine.network.interface import Endpoint, Network, NetworkFault
+from rapidgen.machine.network.sockets import SocketTable
+from rapidgen.machine.scheduler import S, Scheduler
+from rapidgen.rapid.binding import ModuleScope, Scope, constant
+from rapidgen.rapid.binding.expressions import declared_type, type_of
+from rapidgen.rapid.syntax import nodes as n
+
+if TYPE_CHECKING:
+    from rapidgen.controller.answering import Said
+
+_THOUGHT: Final = 0.5
+"""Seconds that a program waits."""
+_WAYS: Final = 3
+_MOST: Final = 60
+_NUMBERS: Final = "1", "2", "3", "100", "0", "0", "0", "1", "0", "0"
+"""What follows a word or a number: more values than most take."""
+_VALUES: Mapping[str, str] = {
+    "num": "1",
+    "dnum": "1",
+    "bool": "TRUE",
+    "pos": "[100,0,100]",
+    "orient": "[1,0,0,0]",
+    "pose": "[[100,0,100],[1,0,0,0]]",
+}
+_LAST: Final = re.compile("exit|quit|close|stop|end|bye", re.I)
+"""Words that may end a conversation are said behind the others."""
+_SEARCHING: Final = frozenset(("strfind", "strmatch", "strmemb"))
+_COMPARING: Final = frozenset(("=", "<>"))
+
+
+@dataclass(frozen=True, slots=True)
+class Heard:
+    """What a program listens for."""
+
+    words: tuple[str, ...] = ()
+    """What a whole message is compared with."""
+    beginnings: tuple[str, ...] = ()
+    """What parts of one are compared with."""
+    numbers: tuple[int, ...] = ()
+    separators: tuple[str, ...] = ()
+    values: tuple[str, ...] = ()
+    """Whole values in a text."""
+
+    def messages(self) -> list[bytes]:
+        """What is said, in turn."""
+        marks = self.separators or (" ",)
+        tail = "".join(self.separators)
+        texts = []
+        for first in (*map(str, self.numbers), *self.beginnings):
+            texts += [mark.join((first, *_NUMBERS)) + mark + tail for mark in marks[:_WAYS]]
+        whole = (*map(str, self.numbers), *self.words)
+        texts += sorted(whole, key=lambda word: _LAST.search(word) is not None)
+        said = [text.encode("latin-1", "replace") for text in (*self.values, *texts)]
+        said += [number.to_bytes(4, "little") + bytes(8) for number in self.numbers if number >= 0]
+        return (said[:_MOST] or [b"1"]) * 2
+
+
+def heard(modules: Iterable[ModuleScope], stands: Mapping[str, str]) -> Heard:
+    """What the modules of all tasks listen for; `stands` are values of targets."""
+    known = {**_VALUES, **stands}
+    scopes = list(modules)
+    received = {name for scope in scopes for name in _received(scope)}
+    words, parts = dict[str, None](), dict[str, None]()
+    marks, values, numbers = dict[str, None](), dict[str, None](), dict[int, None]()
+    for module in scopes:
+        for node, scope in scoped(module):
+            for whom, one in _compared(node, scope):
+                if isinstance(one, str) and one:
+                    whole = isinstance(whom, n.Name) and whom.name.casefold() in received
+                    mark = len(one) == 1 and not one.isalnum()
+                    (words if whole else marks if mark else parts)[one] = None
+                elif isinstance(one, int) and not isinstance(one, bool):
+                    numbers[one] = None
+            if isinstance(node, n.FunctionCall):
+                given = [a.value for a in node.arguments if a.value is not None]
+                found = constant(given[-1], scope) if given else None
+                if node.name.lower() in _SEARCHING and isinstance(found, str):
+                    marks.update(dict.fromkeys(found))
+                elif node.name.lower() == "strtoval" and len(given) > 1:
+                    kind = declared_type(given[1], scope) or ""
+                    if kind in known:
+                        values[known[kind]] = None
+    return Heard(tuple(words), tuple(parts), tuple(numbers), tuple(marks), tuple(values))
+
+
+def _received(module: ModuleScope) -> Iterator[str]:
+    """Texts that a module receives into."""
+    for node, _ in scoped(module):
+        if isinstance(node, n.ProcedureCall) and node.name.lower() == "socketreceive":
+            for argument in node.arguments:
+                if (argument.name or "").lower() == "str" and isinstance(argument.value, n.Name):
+                    yield argument.value.name.casefold()
+
+
+def _compared(node: n.Node, scope: Scope) -> Iterator[tuple[n.Expression, object]]:
+    """What text or number is compared, and with which constant."""
+    if isinstance(node, n.Binary) and node.operator in _COMPARING:
+        for one, other in ((node.left, node.right), (node.right, node.left)):
+            if constant(one, scope) is None and type_of(one, scope) in ("string", "num", "byte"):
+                yield one, constant(other, scope)
+    elif isinstance(node, n.Test):
+        for case in node.cases:
+            yield from ((node.subject, constant(value, scope)) for value in case.values)
+
+
+class Conversing(Protocol):
+    """A controller whose programs use sockets."""
+
+    network: Network
+    sockets: SocketTable
+    scheduler: Scheduler
+
+
+class Partner:
+    """Connects where a program listens, listens where one connects, and speaks where one waits."""
+
+    def __init__(self, controller: Conversing, what: Heard, said: "list[Said]") -> None:
+        self._network = controller.network
+        self._scheduler = controller.scheduler
+        self._said = said
+        self._left = what.messages()
+        self._ends: dict[Endpoint, None] = {}
+        self._asked: set[Endpoint] = set()
+        controller.sockets.on_awaited = self._awaited
+
+    def _awaited(self, endpoint: Endpoint | None, port: int, count: int) -> None:
+        if not self._left:
+            return
+        if endpoint is None:
+            self._serve(port)
+        elif endpoint not in self._asked:
+            self._asked.add(endpoint)
+            wait = round(_THOUGHT * S)
+            self._scheduler.after(wait, partial(self._come, endpoint, count))
+
+    def _serve(self, port: int) -> None:
+        if port in self._network.listeners:
+            return
+        try:
+            listener = self._network.bind("", port)
+        except NetworkFault:
+            return
+        self._network.listen(listener)
+        listener.changed.add(partial(self._accept, listener))
+
+    def _accept(self, listener: Endpoint) -> None:
+        came = None if listener.closed else self._network.accept(listener)
+        if came is not None:
+            self._ends[came] = None
+
+    def _come(self, endpoint: Endpoint, count: int) -> None:
+        self._asked.discard(endpoint)
+        if endpoint.closed or not self._left:
+            return
+        if endpoint.peer is None:
+            self._ends[self._network.connect("127.0.0.1", endpoint.local[1])] = None
+            return
+        pairs = ((e, (e.local == endpoint.peer, e.peer == endpoint.local)) for e in self._ends)
+        mine = next((e for e, same in pairs if any(same) and not e.closed), None)
+        if mine is None or not mine.connected or mine.fault is not None:
+            return
+        message = self._left.pop(0)
+        if count:
+            message = message.ljust(count, b"0" if message[-1:].isdigit() else b"\0")[:count]
+        self._network.receive(mine, 1 << 16)
+        self._network.send(mine, message)
+        shown = message.decode("latin-1")
+        self._said.append(("SocketReceive", shown if shown.isprintable() else message.hex(" ")))

@@ -1,0 +1,39 @@
+"""Running a program in a guessed cell through: where it stops behind an answer that was made up, it
+is started from main again, as an operator would, and hears the next one."""
+
+from pathlib import Path
+from typing import Final, Literal
+
+from rapidgen.controller.controller import VirtualController
+
+_MOST: Final = 50
+"""Starts."""
+Ended = Literal["finished", "time", "statements", "deadlock", "paused"]
+
+
+def run_through(
+    controller: VirtualController, *, max_time: float, max_statements: int | None = None
+) -> Ended:
+    """`controller.run`, again and again while a task stops with an error and something was answered
+    since it was started; where that was is kept in `controller.guessed.stopped`.
+
+    `max_time` (s) is for all of it, `max_statements` for each start. The faults of the last start
+    are the tasks' own, as ever.
+    """
+    until = controller.now + max_time
+    guessed = controller.guessed
+    for _ in range(_MOST):
+        answers = len(guessed.answered)
+        left = until - controller.now
+        ended = controller.run(max_time=left, max_statements=max_statements)
+        faults = [task.fault for task in controller.tasks.values() if task.fault is not None]
+        if not faults or len(guessed.answered) == answers or controller.now >= until:
+            break
+        for fault in faults:
+            at = fault.span or (fault.stack[-1].span if fault.stack else None)
+            place = f"{Path(at.path).name}:{at.line}" if at is not None else ""
+            guessed.stopped.append((place, fault.arguments[0] if fault.arguments else str(fault)))
+        controller.pp_to_main()
+        if not controller.start_program():
+            break
+    return ended

@@ -1,0 +1,65 @@
+"""Cameras of integrated vision, as far as a file tells what they see: no picture is looked at.
+
+Each image that a program asks for is the next one of the description, and behind the last the first
+again. A result is what the camera's job would have found.
+"""
+
+from collections import deque
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+from rapidgen.machine.scheduler import WaitSet
+
+
+@dataclass(frozen=True, slots=True)
+class Seen:
+    """One result: place in the camera's frame (mm), turn about its z (deg), and what a job adds."""
+
+    name: str = ""
+    place: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    angle: float = 0.0
+    type: float = 0.0
+    values: tuple[float, ...] = ()
+    """Up to five."""
+    texts: tuple[str, ...] = ()
+    """Up to two."""
+
+
+@dataclass(slots=True)
+class Camera:
+    """A camera; `images` None: nothing tells what it sees."""
+
+    name: str
+    images: Sequence[Sequence[Seen]] | None = None
+    parameters: dict[str, float] = field(default_factory=dict)
+    """Numbers by lower-case name; programs write them, too."""
+    is_guess: bool = False
+    """Whether parameters that nobody described are 0."""
+    running: bool = True
+    """Run mode; in program mode jobs and parameters are changed."""
+    job: str = ""
+    changed: WaitSet = field(default_factory=WaitSet)
+    results: deque[tuple[int, Seen]] = field(default_factory=deque)
+    """Not fetched yet: scene, and what is in it."""
+    taken: int = 0
+    """Images so far."""
+    under_way: int = 0
+    """Images that were asked for and are not there yet."""
+
+    def look(self, scene: int, *, keep: bool) -> None:
+        """The next image is there: its results are those of `scene`, before which others go
+        unless they are kept."""
+        if not keep:
+            self.results.clear()
+        found = self.images[self.taken % len(self.images)] if self.images else ()
+        self.results.extend((scene, seen) for seen in found)
+        self.taken += 1
+        self.under_way -= 1
+        self.changed.notify()
+
+
+def cameras(
+    names: Sequence[str], described: Mapping[str, Camera] | None = None
+) -> dict[str, Camera]:
+    """By lower-case name: those of a configuration, and those that are described."""
+    return {name.lower(): (described or {}).get(name.lower(), Camera(name)) for name in names}

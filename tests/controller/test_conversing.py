@@ -1,0 +1,120 @@
+"""At the sockets of a guessed cell somebody is made up who says what the program listens for."""
+
+import pytest
+
+from rapidgen.controller import VirtualController
+from rapidgen.controller.booting import Wishes, load_target
+from rapidgen.controller.passes import run_through
+
+SERVER = """MODULE server
+ VAR socketdev s;
+ VAR socketdev c;
+ VAR string said;
+ VAR num code;
+ VAR bool ok;
+ PROC main()
+  SocketCreate s;
+  SocketBind s, "192.168.125.1", 5000;
+  SocketListen s;
+  SocketAccept s, c;
+  WHILE said <> "quit" DO
+   SocketReceive c \\Str:=said;
+   ok := StrToVal(StrPart(said, 1, 1), code);
+   IF StrPart(said, 1, 1) = "G" TPWrite "go";
+   IF ok THEN
+    TEST code
+    CASE 7:
+     TPWrite "seven";
+    ENDTEST
+   ENDIF
+   SocketSend c \\Str:="ok";
+  ENDWHILE
+  SocketClose c;
+  SocketClose s;
+ ENDPROC
+ENDMODULE
+"""
+CLIENT = """MODULE client
+ VAR socketdev s;
+ VAR string said;
+ PROC main()
+  SocketCreate s;
+  SocketConnect s, "10.0.0.7", 4000;
+  SocketSend s \\Str:="where";
+  SocketReceive s \\Str:=said \\ReadNoOfBytes:=12;
+  TPWrite "got " + ValToStr(StrLen(said));
+  SocketReceive s \\Str:=said \\Time:=WAIT_MAX;
+  SocketReceive s \\Str:=said \\Time:=WAIT_MAX;
+  SocketReceive s \\Str:=said \\Time:=WAIT_MAX;
+ ENDPROC
+ENDMODULE
+"""
+
+
+def run(tmp_path, text, **options):
+    path = tmp_path / "program.mod"
+    path.write_text(text)
+    shown: list[str] = []
+    with VirtualController.from_files([path], cycle="once", **options) as controller:
+        controller.operator.subscribe(lambda _task, line: shown.append(line))
+        ended = controller.run(max_time=120)
+        return ended, shown, controller.where(), controller
+
+
+def test_a_server_hears_its_words_and_numbers_and_the_end_last(tmp_path):
+    ended, shown, _, controller = run(tmp_path, SERVER, cell="guess")
+    assert ended == "finished"
+    assert shown == ["seven", "go", "seven"], "with more behind it, and alone"
+    said = [text for what, text in controller.guessed.answered if what == "SocketReceive"]
+    assert any(text.startswith("7 ") for text in said), "a number with more behind it"
+    assert said[-1] == "quit"
+
+
+def test_a_client_finds_somebody_who_answers_and_then_falls_silent(tmp_path):
+    ended, shown, where, _ = run(tmp_path, CLIENT, cell="guess")
+    assert shown == ["got 12"], "as many bytes as it reads"
+    assert ended == "deadlock"
+    assert "waits for bytes" in where[0]
+
+
+def test_what_stops_behind_such_an_answer_starts_from_main_and_hears_the_next(tmp_path):
+    path = tmp_path / "server.mod"
+    path.write_text(
+        SERVER.replace('"quit"', '"long" AND said <> "short"').replace(
+            "   SocketSend c", "   TPWrite said + StrPart(said, 5, 1);\n   SocketSend c"
+        )
+    )
+    shown: list[str] = []
+    with VirtualController.from_files([path], cell="guess", cycle="once") as controller:
+        controller.operator.subscribe(lambda _task, line: shown.append(line))
+        ended = run_through(controller, max_time=120)
+        assert ended == "finished"
+        assert ("server.mod:22", "ERR_OUTOFBND") in controller.guessed.stopped
+        assert "shortt" in shown, "the one behind that which stopped it"
+
+
+def test_a_program_that_stops_by_itself_is_not_started_again(tmp_path):
+    path = tmp_path / "wrong.mod"
+    path.write_text(
+        'MODULE wrong\n PROC main()\n  TPWrite StrPart("a", 5, 1);\n ENDPROC\nENDMODULE\n'
+    )
+    with VirtualController.from_files([path], cell="guess", cycle="once") as controller:
+        run_through(controller, max_time=120)
+        assert "ERR_OUTOFBND" in str(controller.task("T_ROB1").fault)
+        assert controller.guessed.stopped == []
+
+
+@pytest.mark.parametrize("text", [SERVER, CLIENT])
+def test_without_a_guess_nobody_is_there(tmp_path, text):
+    _, shown, _, controller = run(tmp_path, text)
+    assert shown == []
+    assert "ERR_SOCK" in str(controller.task("T_ROB1").fault)
+
+
+def test_on_real_sockets_nobody_is_made_up(tmp_path):
+    path = tmp_path / "server.mod"
+    path.write_text(SERVER)
+    found = load_target([path], Wishes(cell="guess"))
+    with VirtualController.boot(found, host="127.0.0.1", cycle="once") as controller:
+        controller.run(max_time=10)
+        assert controller.sockets.on_awaited is None

@@ -1,0 +1,144 @@
+"""What a guess makes up beside signals and data: routines in no file, and places out of reach."""
+
+import pytest
+
+from rapidgen.controller import VirtualController
+from rapidgen.controller.booting import Wishes, load_target
+
+
+def test_routines_in_no_file_do_nothing_and_are_told(tmp_path):
+    path = tmp_path / "calls.mod"
+    path.write_text(
+        "MODULE calls\n VAR num x := 5;\n VAR robtarget p;\n LOCAL VAR socketdev s;\n PROC main()\n"
+        "  closeGrip;\n  openPort s, 5;\n"
+        '  setThing 5, "a", di1 \\Fast;\n  setThing 6, "b", di1 \\Fast;\n'
+        '  IF isReady(x) THEN\n   TPWrite "ready";\n  ENDIF\n  x := 3 + countOf(strange{2});\n'
+        '  x := x + sizeOf("k");\n  p := lookUp(x);\n  MoveJ p, v100, fine, tool0;\n'
+        '  %"later"% 3;\n  TPWrite "x " + ValToStr(x);\n ENDPROC\nENDMODULE\n'
+    )
+    found = load_target([path], Wishes(cell="guess"))
+    assert found.guessed is not None
+    named = {one.name: one.type for one in found.guessed.named}
+    assert named == {
+        "di1": "signaldi",
+        "closeGrip": "proc",
+        "openPort": "proc",
+        "setThing": "proc",
+        "isReady": "func bool",
+        "sizeOf": "func num",
+        "lookUp": "func robtarget",
+        "later": "proc",
+    }, "what countOf takes is not known, so there is none"
+    shown: list[str] = []
+    with VirtualController.boot(found, cycle="once") as controller:
+        controller.operator.subscribe(lambda _task, text: shown.append(text))
+        controller.run(max_time=20)
+        assert "ERR_REFUNKFUN" in str(controller.task("T_ROB1").fault)
+    text = path.read_text().replace("  x := 3 + countOf(strange{2});\n", "")
+    path.write_text(text)
+    with VirtualController.from_files([path], cell="guess", cycle="once") as controller:
+        controller.operator.subscribe(lambda _task, text: shown.append(text))
+        start = controller.positions()
+        assert controller.run(max_time=20) == "finished"
+        assert shown == ["x 5"], "a function gives 0, FALSE, and where the robot stands"
+        assert controller.positions() == pytest.approx(start, abs=1e-5)
+
+
+def test_what_an_initial_value_is_made_of_is_guessed_as_a_constant(tmp_path):
+    path = tmp_path / "initial.mod"
+    path.write_text(
+        "MODULE initial\n VAR num count := nParts;\n VAR robtarget p := pHome;\n PROC main()\n"
+        "  MoveJ p, v100, fine, tool0;\n  TPWrite ValToStr(count);\n ENDPROC\nENDMODULE\n"
+    )
+    with VirtualController.from_files([path], cell="guess", cycle="once") as controller:
+        assert controller.run(max_time=20) == "finished"
+
+
+FAR = """MODULE far
+ CONST robtarget near := [[374,0,630],[0.707107,0,0.707107,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+ CONST robtarget turned := [[374,0,600],[0.707107,0,0.707107,0],[2,2,2,1],
+   [9E9,9E9,9E9,9E9,9E9,9E9]];
+ CONST robtarget away := [[9000,0,600],[0.707107,0,0.707107,0],[0,0,0,0],
+   [9E9,9E9,9E9,9E9,9E9,9E9]];
+ PROC main()
+  MoveJ near, v500, fine, tool0;
+  MoveL turned, v500, fine, tool0;
+  MoveLDO away, v500, fine, tool0, doThere, 1;
+  MoveAbsJ [[400,0,0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]], v500, fine, tool0;
+  MoveL near, v500, fine, tool0;
+  TPWrite "done";
+ ENDPROC
+ENDMODULE
+"""
+
+
+def test_a_guessed_robot_goes_where_it_can_and_tells_where_it_did_not(tmp_path):
+    path = tmp_path / "far.mod"
+    path.write_text(FAR)
+    with VirtualController.from_files([path], cell="guess", cycle="once") as controller:
+        assert controller.run(max_time=60) == "finished"
+        assert controller.guessed.missed == [
+            ("far.mod:9", "by its axes, in the nearest configuration"),
+            ("far.mod:10", "not at all"),
+            ("far.mod:11", "not at all"),
+        ]
+        assert controller.signals["doThere"] == 1, "what a move does on its way is done"
+
+
+def test_a_robot_that_somebody_chose_stops_where_it_does_not_come(tmp_path):
+    path = tmp_path / "far.mod"
+    path.write_text(FAR)
+    with VirtualController.from_files(
+        [path], cell="guess", robot="irb120", cycle="once"
+    ) as controller:
+        controller.run(max_time=60)
+        assert str(controller.task("T_ROB1").fault) == "Close to singularity"
+        assert controller.guessed.missed == []
+
+
+def test_what_only_a_persistent_may_be_is_guessed_as_one(tmp_path):
+    path = tmp_path / "locked.mod"
+    path.write_text(
+        'MODULE locked\n PROC main()\n  WaitTestAndSet gripLock;\n  TPWrite "mine";\n'
+        "  gripLock := FALSE;\n ENDPROC\nENDMODULE\n"
+    )
+    with VirtualController.from_files([path], cell="guess", cycle="once") as controller:
+        assert controller.run(max_time=20) == "finished"
+
+
+def test_a_guessed_cell_meets_no_tasks_that_are_in_no_file(tmp_path):
+    path = tmp_path / "left.mod"
+    path.write_text(
+        'MODULE left\n PERS tasks both{2} := [["T_ROB_L"],["T_ROB_R"]];\n VAR syncident sync1;\n'
+        " PROC main()\n  WaitSyncTask sync1, both;\n ENDPROC\nENDMODULE\n"
+    )
+    with VirtualController.from_files([path], cell="guess", cycle="once") as controller:
+        assert controller.run(max_time=20) == "finished"
+    with VirtualController.from_files([path], cycle="once") as controller:
+        controller.run(max_time=20)
+        assert "ERR_TASKNAME" in str(controller.task("T_ROB1").fault)
+
+
+def test_a_signal_that_a_program_names_by_a_text_is_made_up(tmp_path):
+    path = tmp_path / "alias.mod"
+    path.write_text(
+        "MODULE named\n VAR signaldo grip;\n PROC main()\n"
+        '  AliasIO "hand_" + ArgName(grip), grip;\n  SetDO grip, 1;\n ENDPROC\nENDMODULE\n'
+    )
+    with VirtualController.from_files([path], cell="guess", cycle="once") as controller:
+        assert controller.run(max_time=20) == "finished"
+        assert controller.signals["hand_grip"] == 1
+    with VirtualController.from_files([path], cycle="once") as controller:
+        controller.run(max_time=20)
+        assert "ERR_ALIASIO_DEF" in str(controller.task("T_ROB1").fault)
+
+
+def test_hands_of_a_guessed_cell_are_calibrated(tmp_path):
+    path = tmp_path / "grips.mod"
+    path.write_text("MODULE grips\n PROC main()\n  g_GripIn;\n ENDPROC\nENDMODULE\n")
+    for cell in ("guess", ""):
+        with VirtualController.from_files(
+            [path], cell=cell, robot="irb14000", cycle="once"
+        ) as controller:
+            controller.run(max_time=60)
+            assert (controller.task("T_ROB1").fault is None) is (cell == "guess")
