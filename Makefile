@@ -88,9 +88,10 @@ changelog: $(STAMP)
 unit: $(STAMP) $(PAGE)
 	$(BIN)/python -m pytest -n auto
 
-# The pictures of docs/develop/architecture.md and docs/start/robots.md, drawn again from the code.
+# The pictures of docs/develop/architecture.md (rooms, a trajectory's life) and docs/start/robots.md, drawn again from the code.
 picture: $(STAMP)
 	$(BIN)/python -m tests.docs.picture
+	$(BIN)/python -m tests.docs.life
 	$(BIN)/python -m tests.docs.robots_picture
 
 # Trials of programs that are no part of this project: FOREIGN is the folder that holds them,
