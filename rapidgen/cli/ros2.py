@@ -29,7 +29,7 @@ def ros2(
     are planned for together; PLACE is X,Y,Z or X,Y,Z,ROLL,PITCH,YAW, once for each.
     """
     from rapidgen.config import load_config, shipped_names
-    from rapidgen.ros.package import Member, ros2_cell, ros2_package, write
+    from rapidgen.ros.package import CellMember, ros2_cell, ros2_package, write
 
     places = [_place(text) for text in at or ()]
     if len(places) != (len(config) if len(config) > 1 else 0):
@@ -40,7 +40,7 @@ def ros2(
     if len(models) == 1:
         files = ros2_package(models[0], sources[0])
     else:
-        members = [Member(*one) for one in zip(models, sources, places, strict=True)]
+        members = [CellMember(*one) for one in zip(models, sources, places, strict=True)]
         files = ros2_cell(members, out.resolve().name.removesuffix("_rapidgen"))
     write(files, out)
     typer.echo(f"{len(files)} files in {out}")

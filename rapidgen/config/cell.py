@@ -108,6 +108,7 @@ class CameraKeys(Part):
     ] = field(default_factory=dict)
 
 
+@dataclass(frozen=True)
 class ThingKeys(Part):
     """Something that the page draws: it is looked at, nothing runs into it."""
 

@@ -22,7 +22,7 @@ _LONGEST: Final = 400
 
 
 @dataclass(frozen=True, slots=True)
-class Heard:
+class SocketPiece:
     """Bytes of a socket, or its beginning or end."""
 
     time: float
@@ -41,7 +41,7 @@ class Interpreter:
         default_factory=dict
     )
 
-    def lines(self, heard: Heard) -> Iterator[SpokenLine]:
+    def lines(self, heard: SocketPiece) -> Iterator[SpokenLine]:
         """The lines that a piece completes."""
         if heard.change in ("open", "close"):
             for way in ("in", "out"):
@@ -59,7 +59,7 @@ class Interpreter:
             yield _line(heard, "", _plain(heard.data))
 
 
-def _framed(heard: Heard, frame: Frame) -> SpokenLine:
+def _framed(heard: SocketPiece, frame: Frame) -> SpokenLine:
     name = _NAMES.get(frame.number, f"type {frame.number}")
     try:
         content = decode(frame)
@@ -90,7 +90,7 @@ def _plain(data: bytes) -> str:
     return text if text.isprintable() else data[: _LONGEST // 3].hex(" ")
 
 
-def _line(heard: Heard, name: str, text: str, *, fault: bool = False) -> SpokenLine:
+def _line(heard: SocketPiece, name: str, text: str, *, fault: bool = False) -> SpokenLine:
     return SpokenLine(
         time=heard.time,
         way=heard.change,

@@ -16,7 +16,7 @@ from rapidgen.axes.mapping import JointMap
 from rapidgen.cli.app import main
 from rapidgen.config import load_config, shipped_names
 from rapidgen.diagnostics import DiagnosticError
-from rapidgen.ros.package import Member, ros1_package, ros2_cell, ros2_package, write
+from rapidgen.ros.package import CellMember, ros1_package, ros2_cell, ros2_package, write
 from rapidgen.ros.package.urdf import draw
 
 
@@ -89,8 +89,10 @@ def cell(tmp_path):
     for name, model in (("left", "irb120"), ("right", "irb2400")):
         (tmp_path / f"{name}.yaml").write_text(f"name: {name}\nmodel: {model}\n")
     return [
-        Member(load_config(str(tmp_path / "left.yaml")), "left.yaml"),
-        Member(load_config(str(tmp_path / "right.yaml")), "right.yaml", (2, 0, 0.5, 0, 0, np.pi)),
+        CellMember(load_config(str(tmp_path / "left.yaml")), "left.yaml"),
+        CellMember(
+            load_config(str(tmp_path / "right.yaml")), "right.yaml", (2, 0, 0.5, 0, 0, np.pi)
+        ),
     ]
 
 

@@ -1,10 +1,10 @@
-"""A release has the page, or there is no release."""
+"""A release has the page, or there is no release; a clone without Node.js does without."""
 
 import importlib.util
 
 import pytest
 
-from tests.docs.tree import PACKAGE
+from tests.docs.tree import PACKAGE, ROOT
 
 
 @pytest.fixture
@@ -24,9 +24,17 @@ def initialized(hook, version):
     own.initialize(version, {})
 
 
-def test_a_wheel_without_the_page_is_not_built(hook, tmp_path):
-    with pytest.raises(SystemExit, match="needs Node"):
-        initialized(hook, "standard")
+def test_without_node_the_page_is_left_out_and_a_page_that_is_there_is_kept(hook, tmp_path, capsys):
     initialized(hook, "editable")
+    assert capsys.readouterr().err == ""
+    initialized(hook, "standard")
+    assert "the page of `rapidgen view` is left out" in capsys.readouterr().err
     (tmp_path / "index.html").write_text("built before")
     initialized(hook, "standard")
+    assert capsys.readouterr().err == ""
+
+
+def test_a_release_without_the_page_is_none():
+    told = (ROOT / ".ci" / "release").read_text(encoding="utf-8")
+    assert "grep -q rapidgen/view/assets/page.js || {" in told
+    assert (PACKAGE / "view" / "assets" / "page.js").is_file()

@@ -8,7 +8,7 @@ from rapidgen.machine.network.faulty import FaultyNetwork
 from rapidgen.machine.network.memory import MemoryNetwork
 from rapidgen.machine.network.rules import NetworkRule
 from rapidgen.machine.scheduler import S, Scheduler
-from rapidgen.view.conversation import Heard, Interpreter
+from rapidgen.view.conversation import Interpreter, SocketPiece
 from rapidgen.wire.simple_message import encode, messages
 from tests.view.bench import STATE, until
 
@@ -17,7 +17,7 @@ LISTED = "document.querySelector('.said').textContent"
 
 
 def heard(data, way="in"):
-    return Heard(1.0, way, "T_ROB1", "127.0.0.1:11000", "127.0.0.1:5", data)
+    return SocketPiece(1.0, way, "T_ROB1", "127.0.0.1:11000", "127.0.0.1:5", data)
 
 
 def names(*pieces):

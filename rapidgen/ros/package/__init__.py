@@ -3,6 +3,6 @@
 `urdf` draws the chain, `srdf` what planning needs, `files` puts a package together.
 """
 
-from rapidgen.ros.package.files import Member, ros1_package, ros2_cell, ros2_package, write
+from rapidgen.ros.package.files import CellMember, ros1_package, ros2_cell, ros2_package, write
 
-__all__ = ["Member", "ros1_package", "ros2_cell", "ros2_package", "write"]
+__all__ = ["CellMember", "ros1_package", "ros2_cell", "ros2_package", "write"]

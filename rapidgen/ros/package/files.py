@@ -21,7 +21,7 @@ _START_SHARE = 0.8
 
 
 @dataclass(frozen=True, slots=True)
-class Member:
+class CellMember:
     """A robot of a package."""
 
     config: RobotConfig
@@ -33,10 +33,10 @@ class Member:
 
 def ros2_package(config: RobotConfig, source: str) -> dict[str, str]:
     """Files by path of a ROS 2 package that starts the node, rviz and MoveIt for this robot."""
-    return _ros2([Member(config, source)], config.name, [""])
+    return _ros2([CellMember(config, source)], config.name, [""])
 
 
-def ros2_cell(members: Sequence[Member], name: str) -> dict[str, str]:
+def ros2_cell(members: Sequence[CellMember], name: str) -> dict[str, str]:
     """The same for several robots, each with a controller and a node of its own, in one MoveIt.
 
     Names of joints, links and planning groups begin with the robot's. Raises DiagnosticError where
@@ -56,10 +56,10 @@ def ros2_cell(members: Sequence[Member], name: str) -> dict[str, str]:
     return _ros2(members, name, names)
 
 
-def _ros2(members: Sequence[Member], called: str, names: Sequence[str]) -> dict[str, str]:
+def _ros2(members: Sequence[CellMember], called: str, names: Sequence[str]) -> dict[str, str]:
     name = package_name(called)
     placed = [
-        urdf.Placed(member.config, f"{one}_" if one else "", member.at)
+        urdf.PlacedRobot(member.config, f"{one}_" if one else "", member.at)
         for member, one in zip(members, names, strict=True)
     ]
     drawn = urdf.draw_cell(placed, called)

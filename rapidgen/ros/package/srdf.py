@@ -8,13 +8,13 @@ from collections.abc import Sequence
 from xml.etree import ElementTree as ET
 
 from rapidgen.config.model import GroupConfig
-from rapidgen.ros.package.urdf import Drawn, Placed, urdf_range
+from rapidgen.ros.package.urdf import Drawn, PlacedRobot, urdf_range
 
 TOGETHER = "robots"
 """The planning group of all others, where there are several: a plan for all arms at once."""
 
 
-def draw(robots: Sequence[Placed], drawn: Drawn, name: str) -> str:
+def draw(robots: Sequence[PlacedRobot], drawn: Drawn, name: str) -> str:
     """The text for the URDF that `drawn` is; planning groups are named as motion groups."""
     root = ET.Element("robot", name=name)
     for robot in robots:

@@ -19,7 +19,7 @@ _THICKNESS = 0.12
 
 
 @dataclass(frozen=True, slots=True)
-class Placed:
+class PlacedRobot:
     """A robot of a drawing: what its names begin with, and where its base is in the world."""
 
     config: RobotConfig
@@ -69,10 +69,10 @@ class Drawn:
 
 def draw(config: RobotConfig, name: str) -> Drawn:
     """The URDF of all groups of a configuration, in m and rad."""
-    return draw_cell([Placed(config)], name)
+    return draw_cell([PlacedRobot(config)], name)
 
 
-def draw_cell(robots: Sequence[Placed], name: str) -> Drawn:
+def draw_cell(robots: Sequence[PlacedRobot], name: str) -> Drawn:
     """The same of several robots in one world."""
     root = ET.Element("robot", name=name)
     ET.SubElement(root, "link", name=ROOT)

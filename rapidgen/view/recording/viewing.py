@@ -15,7 +15,7 @@ from rapidgen.view import messages as v
 from rapidgen.view import network_messages as n
 from rapidgen.view import program_messages as p
 from rapidgen.view.aspect import Aspect, Declined, Handler
-from rapidgen.view.conversation import Heard, Interpreter
+from rapidgen.view.conversation import Interpreter, SocketPiece
 from rapidgen.view.drawing import described
 from rapidgen.view.messages import Request, ToPage
 from rapidgen.view.recording import messages as m
@@ -160,13 +160,13 @@ class RecordedAspect:
 
     def _conversation(self, moment: Moment) -> n.Conversation:
         """What was said just before, where somebody wants to know."""
-        heard: deque[Heard] = deque(maxlen=_PIECES)
+        heard: deque[SocketPiece] = deque(maxlen=_PIECES)
         if self._listening:
             begin = max(self._file.begin, moment.time - _BACK)
             for at, frame in self._file.frames(begin, moment.time):
                 ends = (frame.task, frame.local, frame.peer)
                 data = base64.b64decode(frame.data)
-                heard.append(Heard(at, frame.change, *ends, data))
+                heard.append(SocketPiece(at, frame.change, *ends, data))
         interpreter = Interpreter()
         lines = tuple(line for piece in heard for line in interpreter.lines(piece))
         return n.Conversation(listening=self._listening, lines=lines, fresh=True)

@@ -9,7 +9,7 @@ from rapidgen.machine.network.interface import SocketAddress
 from rapidgen.machine.network.rules import NetworkRule
 from rapidgen.machine.network.sockets import SocketDevice, SocketNews
 from rapidgen.view.aspect import Declined, Handler
-from rapidgen.view.conversation import Heard, Interpreter
+from rapidgen.view.conversation import Interpreter, SocketPiece
 from rapidgen.view.messages import Request, ToPage
 from rapidgen.view.network_messages import (
     Afflict,
@@ -45,7 +45,7 @@ class ConnectionsAspect:
         self._told: tuple[ShownSocket, ...] = ()
         self._ailments: dict[SocketDevice, Ailment] = {}
         self._interpreter: Interpreter | None = None
-        self._heard: deque[Heard] = deque(maxlen=_KEPT)
+        self._heard: deque[SocketPiece] = deque(maxlen=_KEPT)
         self._count = 0
         self._latest: deque[Conversation] = deque(maxlen=_TOLD // 4)
         self._listened = False
@@ -78,7 +78,7 @@ class ConnectionsAspect:
             listening=self._interpreter is not None, lines=tuple(lines), missed=missed
         )
 
-    def _lines(self, piece: Heard) -> Iterator[SpokenLine]:
+    def _lines(self, piece: SocketPiece) -> Iterator[SpokenLine]:
         if self._interpreter is not None:
             yield from self._interpreter.lines(piece)
 
@@ -131,7 +131,9 @@ class ConnectionsAspect:
         peer = "" if news.peer is None else _text(news.peer)
         self._count += 1
         self._heard.append(
-            Heard(self._controller.now, news.change, news.task, _text(news.local), peer, news.data)
+            SocketPiece(
+                self._controller.now, news.change, news.task, _text(news.local), peer, news.data
+            )
         )
 
 
