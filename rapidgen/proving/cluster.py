@@ -20,7 +20,7 @@ from distributed.scheduler import KilledWorker
 from rapidgen.diagnostics import DiagnosticError, refusal
 from rapidgen.proving.engine import Engine, EngineLost
 from rapidgen.proving.identity import identity
-from rapidgen.proving.workers import Call, WorkersLost
+from rapidgen.proving.workers import Call, WorkersLost, raise_here
 from rapidgen.python310 import Self
 
 CONNECTS = 10
@@ -130,8 +130,7 @@ class Cluster:
             self._again(given)
             return []
         if not good:
-            assert isinstance(result, Exception)
-            raise result
+            raise_here(result)
         return [(given.piece.number, result)]
 
     def _fetched(self, given: _Given) -> tuple[bool, object]:

@@ -11,6 +11,7 @@ with it.
 import os
 import pickle
 import signal
+import traceback
 import warnings
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
@@ -18,7 +19,7 @@ from dataclasses import dataclass, replace
 from multiprocessing import get_context
 from multiprocessing.connection import Connection, wait
 from multiprocessing.process import BaseProcess
-from typing import Protocol, TypeVar, cast
+from typing import NoReturn, Protocol, TypeVar, cast
 
 from rapidgen.machine.files import remove_scratch_folders
 from rapidgen.python310 import Self
@@ -33,6 +34,13 @@ LOOK = 0.5
 
 class ForkFailed(Exception):
     """The copy ended without a result: killed, or by a fault of the interpreter."""
+
+
+class RaisedElsewhere(Exception):
+    """Why another process raised something: its text is the traceback from there."""
+
+    def __str__(self) -> str:
+        return f"\n{self.args[0]}"
 
 
 class WorkersLost(Exception):
@@ -170,7 +178,7 @@ class Local:
                 continue
             self._pieces[connection] = None
             if not good:
-                raise result
+                raise_here(result)
             found.append((piece.number, result))
         return found
 
@@ -234,7 +242,7 @@ def in_a_fork(function: Callable[[], R]) -> R:
         raise ForkFailed(f"status {status}")
     good, result = pickle.loads(data)
     if not good:
-        raise result
+        raise_here(result)
     answer: R = result
     return answer
 
@@ -252,7 +260,13 @@ def _outcome(function: Callable[[], object]) -> tuple[bool, object]:
     try:
         return True, function()
     except Exception as error:  # noqa: BLE001 - handed to whoever asked, who raises it
-        return False, error
+        return False, (error, traceback.format_exc())
+
+
+def raise_here(outcome: object) -> NoReturn:
+    """Raise what another process has raised, with where that was."""
+    error, where = cast(tuple[Exception, str], outcome)
+    raise error from RaisedElsewhere(where)
 
 
 def _answer(function: Callable[[], object], writing: int) -> None:

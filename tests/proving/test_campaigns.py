@@ -18,7 +18,7 @@ from rapidgen.proving.programs import in_rapid
 from rapidgen.proving.report import as_json
 from rapidgen.proving.results import Results
 from rapidgen.proving.run import prove
-from rapidgen.proving.workers import Call, Known, Local, WorkersLost, each, in_order
+from rapidgen.proving.workers import Call, Known, Local, WorkersLost, each, in_a_fork, in_order
 
 SIX_AXES = load_config("irb120")
 FEW = ("ping", "hello", "single-point")
@@ -73,9 +73,13 @@ def test_a_piece_that_ends_every_worker_ends_the_work():
         list(each(workers, range(3), killed))
 
 
-def test_what_a_piece_raises_is_raised():
-    with Local(None, 2) as workers, pytest.raises(ValueError, match="of the second"):
+def test_what_a_piece_raises_is_raised_with_where_that_was():
+    with Local(None, 2) as workers, pytest.raises(ValueError, match="of the second") as raised:
         list(each(workers, range(3), fails))
+    assert "in fails" in str(raised.value.__cause__)
+    with pytest.raises(ValueError, match="of the second") as raised:
+        in_a_fork(lambda: in_a_fork(lambda: fails(None, 1)))
+    assert "in fails" in str(raised.value.__cause__)
 
 
 def test_a_piece_may_depend_on_the_results_before_it():
