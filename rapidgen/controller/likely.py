@@ -9,7 +9,7 @@ from typing import Final
 from rapidgen.axes import frames
 from rapidgen.axes.frames import Pose
 from rapidgen.axes.kinematics import AxisConfiguration, Kinematics
-from rapidgen.axes.mapping import JointMap
+from rapidgen.axes.mapping import ABSENT, JointMap
 from rapidgen.config import shipped_names
 from rapidgen.config.compiled import shipped_groups
 from rapidgen.config.library import variants
@@ -91,10 +91,11 @@ def _reaches(group: GroupConfig, kinematics: Kinematics, aim: Aim, near: tuple[f
     if aim.flange is not None:
         found = kinematics.solutions(aim.flange, near)
         return kinematics.fitting(found, aim.configuration, "turn") is not None
-    wanted = JointMap.of(group).from_rapid(aim.axes, ())
+    # Of the axes beside the arm nothing is asked: they stay.
+    wanted = JointMap.of(group).from_rapid(aim.axes, (ABSENT,) * 6, near)
     return all(
         joint.lower - 1e-6 <= value <= joint.upper + 1e-6
-        for joint, value in zip(group.joints, wanted, strict=False)
+        for joint, value in zip(group.joints, wanted, strict=True)
         if joint.axis.startswith("rax")
     )
 

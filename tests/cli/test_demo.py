@@ -19,4 +19,5 @@ def test_it_says_each_step_and_what_comes_next(tmp_path, capsys, monkeypatch):
     # By the controller's clock nothing of the robot's is ahead of its command.
     difference = drawn[0].charts[-1]
     assert difference.title == "executed minus commanded"
-    assert max(abs(curve.values).max() for curve in difference.curves) < 1.0
+    # Degrees; a state that is a period late would be six of them off.
+    assert max(abs(curve.values).max() for curve in difference.curves) < 4.0

@@ -21,6 +21,7 @@ BEYOND = {
     "rapidgen.client.rws.": "web",
     "rapidgen.deploy.transports.rws": "web",
     "rapidgen.faces.rws.server": "web",
+    "rapidgen.faces.web_thread": "web",
     "rapidgen.proving.cluster": "cluster",
     "rapidgen.view.doorkeeper": "web",
     "rapidgen.view.drawn": "plot",

@@ -204,10 +204,12 @@ def test_finding_has_the_line_of_its_file(irb120, tmp_path):
 
 
 def test_names_that_do_not_fit(irb120):
-    names = ("joint_7", *irb120.names[1:5], irb120.names[1])
+    names = ("joint_7", *irb120.names[1:5], "joint_8")
     with pytest.raises(InvalidTrajectory) as error:
         check_trajectory(Trajectory([0], [HOME], names), irb120)
     assert codes(error) == ["RG611"] * 3
+    with pytest.raises(InvalidTrajectory, match="twice"):
+        Trajectory([0], [HOME], (*irb120.names[:5], irb120.names[1]))
     with pytest.raises(InvalidTrajectory):
         check_trajectory(Trajectory([0], [[0.0] * 5]), irb120)
     with pytest.raises(InvalidTrajectory) as error:

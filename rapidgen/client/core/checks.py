@@ -271,10 +271,6 @@ def _names(trajectory: Trajectory, group: Group) -> list[Diagnostic]:
             )
         ]
     found = [
-        _finding("RG611", f"joint '{name}' is there twice")
-        for name in sorted({name for name in names if names.count(name) > 1})
-    ]
-    found += [
         _finding(
             "RG611",
             f"the robot has no joint '{name}'",
