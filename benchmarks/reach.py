@@ -21,7 +21,7 @@ def measure(own: Kinematics, poses: int) -> tuple[int, list[float], list[float]]
     """Poses missed, and the times from afar and from near, sorted."""
     draw = random.Random(5)
     joints = own.group.joints
-    missed, afar, near = 0, [], []
+    missed, afar, near, moves = 0, [], [], []
     for _ in range(poses):
         posture = tuple(draw.uniform(j.lower, j.upper) for j in joints)
         pose = own.forward(posture)
@@ -36,6 +36,9 @@ def measure(own: Kinematics, poses: int) -> tuple[int, list[float], list[float]]
             v + draw.uniform(-0.02, 0.02) * j.axis.startswith("rax")
             for j, v in zip(joints, posture, strict=True)
         )
+        moves.append((pose, beside))
+    # Each once, and nothing between two of them: as along a way.
+    for pose, beside in moves:
         start = time.thread_time()
         own.follow(pose, beside)
         near.append(time.thread_time() - start)
