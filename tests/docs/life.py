@@ -5,7 +5,6 @@ clock; what passes between them, and the routines of the driver that work for th
 """
 
 from collections import Counter
-from pathlib import Path
 
 from rapidgen.client import AsyncRobot, Trajectory
 from rapidgen.client.address import Address
@@ -15,10 +14,11 @@ from rapidgen.generate import build, make_system
 from rapidgen.testing.asyncio_clock import VirtualLoop
 from rapidgen.wire.simple_message.codec import decode
 from rapidgen.wire.simple_message.frames import FrameSplitter
+from tests.docs.drawn import Picture
 
-PAGE = Path(__file__).resolve().parents[2] / "docs" / "develop" / "architecture.md"
-BEGIN = "<!-- drawn by tests/docs/life.py -->\n```text\n"
-END = "```\n<!-- the life is drawn -->\n"
+PICTURE = Picture(
+    "<!-- drawn by tests/docs/life.py -->\n```text\n", "```\n<!-- the life is drawn -->\n"
+)
 IDLE = 1.0
 """s in which everything that goes on all the time is seen."""
 WIDTH = 100
@@ -102,12 +102,5 @@ def draw() -> str:
     return "\n".join([*lines, "─" * WIDTH, ""])
 
 
-def on_the_page() -> str:
-    """The picture that the page has."""
-    text = PAGE.read_text(encoding="utf-8")
-    return text[text.index(BEGIN) + len(BEGIN) : text.index(END)]
-
-
 if __name__ == "__main__":
-    page = PAGE.read_text(encoding="utf-8")
-    PAGE.write_text(page.replace(BEGIN + on_the_page() + END, BEGIN + draw() + END), "utf-8")
+    PICTURE.put(draw())

@@ -9,10 +9,10 @@ import textwrap
 
 import tomllib
 
+from tests.docs.drawn import Picture
 from tests.docs.tree import PACKAGE, ROOT, imports, modules, room, tree_of
 
-PAGE = ROOT / "docs" / "develop" / "architecture.md"
-BEGIN, END = "<!-- drawn by tests/docs/picture.py -->\n```text\n", "```\n<!-- drawn -->\n"
+PICTURE = Picture("<!-- drawn by tests/docs/picture.py -->\n```text\n", "```\n<!-- drawn -->\n")
 WIDTH = 100
 
 
@@ -59,12 +59,5 @@ def draw() -> str:
     return "\n".join([*out, "─" * WIDTH, ""])
 
 
-def on_the_page() -> str:
-    """The picture that the page has."""
-    text = PAGE.read_text(encoding="utf-8")
-    return text[text.index(BEGIN) + len(BEGIN) : text.index(END)]
-
-
 if __name__ == "__main__":
-    page = PAGE.read_text(encoding="utf-8")
-    PAGE.write_text(page.replace(BEGIN + on_the_page() + END, BEGIN + draw() + END), "utf-8")
+    PICTURE.put(draw())

@@ -5,7 +5,7 @@ import re
 import pytest
 
 from tests.docs import life
-from tests.docs.picture import draw, layers, on_the_page, says
+from tests.docs.picture import PICTURE, draw, layers, says
 from tests.docs.tree import PACKAGE, ROOT, modules
 
 PAGE = (ROOT / "docs" / "develop" / "architecture.md").read_text(encoding="utf-8")
@@ -15,11 +15,11 @@ PLACES = sorted({place for place in PLACE.findall(PAGE + RECIPES) if "<" not in 
 
 
 def test_the_picture_is_the_tree():
-    assert on_the_page() == draw(), "python -m tests.docs.picture"
+    assert PICTURE.on_the_page() == draw(), "python -m tests.docs.picture"
 
 
 def test_the_life_of_a_trajectory_is_what_happens():
-    assert life.on_the_page() == life.draw(), "python -m tests.docs.life"
+    assert life.PICTURE.on_the_page() == life.draw(), "python -m tests.docs.life"
 
 
 def test_the_contract_has_every_room():
