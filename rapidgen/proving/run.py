@@ -252,15 +252,21 @@ def ground(driver: DriverUnderTest, _item: object) -> Ground:
     return ground_of(driver.config, driver.system)
 
 
+def _in_a_warm_copy(driver: DriverUnderTest, function: Callable[[], Explored]) -> Explored:
+    """What a controller leaves behind in its process ends with it; its modules' trees and code
+    are there, as this process has booted the driver once."""
+    ground_of(driver.config, driver.system)
+    return in_a_fork(function)
+
+
 def schedule(driver: DriverUnderTest, name: str) -> Explored:
     """One schedule."""
-    # A controller leaves things behind in its process.
-    return in_a_fork(lambda: explore(driver.config, driver.system, name))
+    return _in_a_warm_copy(driver, lambda: explore(driver.config, driver.system, name))
 
 
 def program(driver: DriverUnderTest, name: str) -> Explored:
     """One random program. Of one that moved as in RAPID no story is kept."""
-    tried = in_a_fork(lambda: liken(driver.config, driver.system, name))
+    tried = _in_a_warm_copy(driver, lambda: liken(driver.config, driver.system, name))
     return tried if tried.finding is not None else replace(tried, plan="")
 
 

@@ -1,0 +1,50 @@
+"""What a second worker is worth: the same schedules with one worker and with two, by turns.
+
+Beside it the same work done by two processes of their own, which is all that the machine can give.
+
+    python benchmarks/two_workers.py --schedules 60 --rounds 3
+"""
+
+import argparse
+import statistics
+import time
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
+
+from rapidgen.config import load_config
+from rapidgen.proving.run import prove
+
+
+def seconds(schedules: int, jobs: int) -> float:
+    """Wall time of a campaign of schedules on the driver of an IRB 120."""
+    started = time.perf_counter()
+    report = prove(load_config("irb120"), seeds=schedules, jobs=jobs, cases=False)
+    assert report.schedules == schedules
+    return time.perf_counter() - started
+
+
+def apart(schedules: int) -> float:
+    """The same by two campaigns that know nothing of each other, half of the schedules each."""
+    with ProcessPoolExecutor(2, get_context("spawn")) as pool:
+        return max(pool.map(seconds, [schedules // 2] * 2, [1] * 2))
+
+
+def main() -> None:
+    """Print the medians and their ratios."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--schedules", type=int, default=60)
+    parser.add_argument("--rounds", type=int, default=3)
+    options = parser.parse_args()
+    many = options.schedules
+    ones, twos, pairs = [], [], []
+    for _ in range(options.rounds):
+        ones.append(seconds(many, 1))
+        twos.append(seconds(many, 2))
+        pairs.append(apart(many))
+    one, two, pair = map(statistics.median, (ones, twos, pairs))
+    print(f"{many} schedules: one worker {one:.1f} s, two {two:.1f} s: {one / two:.2f} x")
+    print(f"two processes of their own {pair:.1f} s: {one / pair:.2f} x")
+
+
+if __name__ == "__main__":
+    main()
