@@ -310,6 +310,8 @@ def _heartbeat_in_time(bench: Bench) -> None:
             raise Broken(f"heartbeats of {seconds} s: the last at {last:.3f} s, stops {stops}")
         control.ask(messages.RawHeartbeat(0))
         bench.moves_through(link, bench.wave(4))
+        # Axes may follow late.
+        bench.wait_until_standing()
 
 
 @case("control-fails", "instructions of the control server that report errors", "R3")
