@@ -221,5 +221,5 @@ def test_a_pattern_that_takes_for_ever_is_refused(tmp_path, pattern):
         caller = Caller(make_desk(cabinet))
         form = {"blockurl": "RAPID/T_ROB1", "regexp": pattern}
         assert caller.post("/rw/rapid/symbols?action=search-symbols", form) == 400
-        form["regexp"] = "a.*|main"
-        assert caller.post("/rw/rapid/symbols?action=search-symbols", form) == 200
+        for form["regexp"] in ("a.*|main", "[[a]*"):
+            assert caller.post("/rw/rapid/symbols?action=search-symbols", form) == 200

@@ -1,6 +1,7 @@
 """RAPID data: read, written, described, looked for."""
 
 import re
+import warnings
 from collections.abc import Iterator
 from copy import deepcopy
 from dataclasses import dataclass
@@ -157,7 +158,9 @@ def search(office: "Office", asked: RwsRequest) -> Served:
         tasks = [office.controller.tasks[find_task(office, parts[1], asked).name]]
     module = parts[2] if len(parts) > 2 else ""
     try:
-        pattern = re.compile(form.get("regexp") or ".*", re.IGNORECASE)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # of `[[`, which Python would like to be told from sets
+            pattern = re.compile(form.get("regexp") or ".*", re.IGNORECASE)
     except (re.error, OverflowError, RecursionError) as error:
         raise Denied(400, "E_INVALIDARG", "regexp") from error
     if _SLOW.search(pattern.pattern):
