@@ -229,6 +229,21 @@ def test_what_the_controller_ends_is_aborted_and_the_next_goal_runs(fault, text)
         assert s.stands
 
 
+@pytest.mark.parametrize("after", [0.1, 0.5])
+def test_a_client_that_was_held_up_reads_before_it_calls_the_robot_silent(after):
+    """A busy machine: replies of both ports wait behind the same pause, in any order."""
+
+    async def held_up(s):
+        following = asyncio.ensure_future(s.follow(goal(0.0, 0.2)))
+        await asyncio.sleep(after)
+        s.controller.run_for(2.5)
+        return await following
+
+    with station() as s:
+        outcome = s.run(held_up(s))
+        assert outcome.status is Ending.SUCCEEDED, outcome.text
+
+
 def test_a_controller_that_is_gone_aborts():
     with station() as s:
         outcome = s.run(_after(s, 1.0, s.follow(goal(0.0, 0.5, 1.0)), s.controller.power_loss))
