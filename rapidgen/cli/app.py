@@ -19,7 +19,7 @@ from typer.exceptions import TyperException
 
 from rapidgen import __version__, _extras
 from rapidgen.cli.loudness import set_up
-from rapidgen.cli.plain_values import Command, Group
+from rapidgen.cli.plain_values import PlainCommand, PlainGroup
 from rapidgen.cli.terminal import use_colour
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, as_data, error, render
 
@@ -151,7 +151,7 @@ def _app(words: list[str]) -> typer.Typer:
     completing = "_RAPIDGEN_COMPLETE" in os.environ
     app = typer.Typer(
         name="rapidgen",
-        cls=Group,
+        cls=PlainGroup,
         help="RAPID drivers for ABB robots: generate, run, deploy, drive.",
         rich_markup_mode=None,
         pretty_exceptions_enable=False,
@@ -160,7 +160,7 @@ def _app(words: list[str]) -> typer.Typer:
     app.callback()(_root)
     for verb, sentence in VERBS.items():
         whole = completing or verb == wanted
-        app.command(verb, cls=Command)(
+        app.command(verb, cls=PlainCommand)(
             _interruptible(function(verb)) if whole else _named(sentence)
         )
     return app

@@ -35,14 +35,14 @@ class _Parameter(Protocol):
     def value_is_missing(self, value: object) -> bool: ...
 
 
-class Command(TyperCommand):
+class PlainCommand(TyperCommand):
     """A verb whose options take plain words."""
 
     def get_params(self, ctx: Context) -> list[Any]:
         return [_plainly(one) for one in super().get_params(ctx)]
 
 
-class Group(TyperGroup):
+class PlainGroup(TyperGroup):
     """The command of verbs whose options take plain words."""
 
     def get_params(self, ctx: Context) -> list[Any]:

@@ -9,7 +9,7 @@ import pytest
 import typer
 from typer.exceptions import TyperException
 
-from rapidgen.cli.plain_values import Command, plain
+from rapidgen.cli.plain_values import PlainCommand, plain
 
 HELLO = 'MODULE hello\n PROC main()\n TPWrite "hello";\n ENDPROC\nENDMODULE\n'
 SAID = [
@@ -57,7 +57,7 @@ def made(cls, words):
 
 @pytest.mark.parametrize("words", SAID, ids=" ".join)
 def test_words_become_what_typer_makes_of_them(words):
-    assert made(Command, words) == made(None, words)
+    assert made(PlainCommand, words) == made(None, words)
 
 
 def test_a_plain_word_is_taken_and_another_is_left_to_typer():
