@@ -44,7 +44,7 @@ def find_shipped(name: str, span: Span | None = None) -> Path:
         "RG009",
         span,
         f"no shipped model is called '{name}'",
-        (f"{meant}; " if meant else "") + "`rapidgen robots` lists them, all of them ABB's; "
+        (f"{meant}; " if meant else "") + "`rapidgen robots` lists them; "
         "for a file of your own write its path with the suffix .yaml",
     )
 
