@@ -71,6 +71,7 @@ def test_meshes_beyond_the_limit_stay_out_and_that_is_said(seen):
     urdf = kept.of(groups[0]).urdf
     assert [name in urdf for name in names] == [True, False, True]
     assert [thing.mesh for thing in kept.things] == names[:1]
+    assert [*looks.carried(look, most=sizes[1]).files] == [names[0], names[2]]
     assert looks.carried(look, most=0).things == ()
     assert looks.carried(look) == look
 
