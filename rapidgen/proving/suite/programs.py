@@ -44,7 +44,7 @@ def _like_rapid(bench: Bench) -> None:
 
 
 def like_rapid(bench: Bench, count: int, chance: random.Random) -> None:
-    """So many programs by lot beside the same ones in RAPID (benchmarks/program_campaign.py)."""
+    """So many programs by lot beside the same ones in RAPID (more: `rapidgen test --programs`)."""
     client = Programmer(bench)
     for _ in range(count):
         one_like_rapid(client, bench, orders(bench, 8, chance))
