@@ -8,7 +8,7 @@ MODULE ROS_execution
     ! In the motion task. All was checked before it came into the ring; ROS_motion takes it out there, and
     ! leaves an instruction that is under way when the robot was stopped.
 
-    CONST string ROS_BUILD_EXECUTION := "fb4d5984ee5e";
+    CONST string ROS_BUILD_EXECUTION := "ad3b6d40b15e";
 
     ! The instruction at hand, and why it could not be carried out, 0: it could.
     VAR ROS_order ROS_ordered;
@@ -22,7 +22,7 @@ MODULE ROS_execution
     ! Signals on its way, and triggers for four moves: those of the moves before may be under way.
     LOCAL VAR ROS_mark mark{8};
     LOCAL VAR triggdata trigger{4, 8};
-    LOCAL VAR num set := 0;
+    LOCAL VAR num rank := 0;
 
     ! As in ROS_control: tied to their names when a program begins.
     LOCAL CONST string NAME_1 := "clamp_close";
@@ -162,17 +162,17 @@ MODULE ROS_execution
     LOCAL PROC move_and_set(PERS tooldata tool, PERS wobjdata wobj)
         TEST ROS_ordered.kind
         CASE ROS_DO_MOVE_J:
-            TriggJ ROS_ordered.target, speed, trigger{set, 1} \T2:=trigger{set, 2}
-                \T3:=trigger{set, 3} \T4:=trigger{set, 4} \T5:=trigger{set, 5} \T6:=trigger{set, 6}
-                \T7:=trigger{set, 7} \T8:=trigger{set, 8}, zone, tool \WObj:=wobj;
+            TriggJ ROS_ordered.target, speed, trigger{rank, 1} \T2:=trigger{rank, 2}
+                \T3:=trigger{rank, 3} \T4:=trigger{rank, 4} \T5:=trigger{rank, 5} \T6:=trigger{rank, 6}
+                \T7:=trigger{rank, 7} \T8:=trigger{rank, 8}, zone, tool \WObj:=wobj;
         CASE ROS_DO_MOVE_L:
-            TriggL ROS_ordered.target, speed, trigger{set, 1} \T2:=trigger{set, 2}
-                \T3:=trigger{set, 3} \T4:=trigger{set, 4} \T5:=trigger{set, 5} \T6:=trigger{set, 6}
-                \T7:=trigger{set, 7} \T8:=trigger{set, 8}, zone, tool \WObj:=wobj;
+            TriggL ROS_ordered.target, speed, trigger{rank, 1} \T2:=trigger{rank, 2}
+                \T3:=trigger{rank, 3} \T4:=trigger{rank, 4} \T5:=trigger{rank, 5} \T6:=trigger{rank, 6}
+                \T7:=trigger{rank, 7} \T8:=trigger{rank, 8}, zone, tool \WObj:=wobj;
         CASE ROS_DO_MOVE_C:
-            TriggC ROS_ordered.via, ROS_ordered.target, speed, trigger{set, 1} \T2:=trigger{set, 2}
-                \T3:=trigger{set, 3} \T4:=trigger{set, 4} \T5:=trigger{set, 5} \T6:=trigger{set, 6}
-                \T7:=trigger{set, 7} \T8:=trigger{set, 8}, zone, tool \WObj:=wobj;
+            TriggC ROS_ordered.via, ROS_ordered.target, speed, trigger{rank, 1} \T2:=trigger{rank, 2}
+                \T3:=trigger{rank, 3} \T4:=trigger{rank, 4} \T5:=trigger{rank, 5} \T6:=trigger{rank, 6}
+                \T7:=trigger{rank, 7} \T8:=trigger{rank, 8}, zone, tool \WObj:=wobj;
         ENDTEST
     ERROR
         RAISE;
@@ -181,7 +181,7 @@ MODULE ROS_execution
     LOCAL PROC set_triggers()
         VAR num last;
 
-        set := set MOD 4 + 1;
+        rank := rank MOD 4 + 1;
         FOR n FROM 1 TO 8 DO
             last := n;
             IF n > ROS_ordered.marks last := ROS_ordered.marks;
@@ -197,11 +197,11 @@ MODULE ROS_execution
             IF NOT has_1 THEN
                 ROS_order_fault := ROS_REASON_NO_SIGNAL;
             ELSEIF one.kind = ROS_MARK_START THEN
-                TriggIO trigger{set, n}, one.place \Start \DOp:=signal_1, one.value;
+                TriggIO trigger{rank, n}, one.place \Start \DOp:=signal_1, one.value;
             ELSEIF one.kind = ROS_MARK_END THEN
-                TriggIO trigger{set, n}, one.place \DOp:=signal_1, one.value;
+                TriggIO trigger{rank, n}, one.place \DOp:=signal_1, one.value;
             ELSE
-                TriggIO trigger{set, n}, one.place \Time \DOp:=signal_1, one.value;
+                TriggIO trigger{rank, n}, one.place \Time \DOp:=signal_1, one.value;
             ENDIF
         ENDTEST
     ERROR
