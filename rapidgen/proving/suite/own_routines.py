@@ -63,6 +63,7 @@ _THESE = {
     "nocell:weld": (),
     "cell:teach": ("robtarget", "jointtarget", "jointtarget"),
 }
+_HOLDERS = ("cell", "nocell")
 
 
 def knows_these(bench: Bench) -> bool:
@@ -106,6 +107,10 @@ def _absent(bench: Bench) -> None:
         client.refused(told, RawReason.BAD_VALUE, 0, "a bool that is 2")
         told = _calls(client, WELD, [2143289344, *weld_words(1.0)[1:]])
         client.refused(told, RawReason.NOT_FINITE, 0, "a num that is none")
+        for length in (-1.0, 2.5, 81.0):
+            words = [*weld_words(1.0)[:3], *millionths([length]), *[0] * 21]
+            told = _calls(client, WELD, words)
+            client.refused(told, RawReason.BAD_VALUE, 0, f"a text of {length} characters")
         other.stays(0.5, "no routine was called")
 
 
@@ -129,6 +134,17 @@ def _missing(bench: Bench) -> None:
         _taken(_calls(client, WELD, weld_words(1.0)))
         if _ended(other, client, 4).values[0] != 2:
             raise Broken("a routine behind one that is missing has not run")
+    empty = tuple(ModuleFile(n, f"{n}.mod", f"MODULE {n}\nENDMODULE\n".encode()) for n in _HOLDERS)
+    with bench.beside(_beside(bench, *empty)) as other:
+        client, watcher = Programmer(other), other.watcher()
+        for number, routine in enumerate(other.group.routines):
+            if number == TEACH and not computes(other):
+                continue
+            _taken(_calls(client, number, _zeros(other, routine)))
+            other.stays(0.5, f"there is no {routine.call}")
+            seen = other.progress(watcher)
+            if (seen.reason, seen.reached) != (RawReason.NO_ROUTINE, 0):
+                raise Broken(f"{routine.call} is missing, PROGRESS says {seen}")
 
 
 @case("routine-results", "a routine's parameters and its error come back")
@@ -216,6 +232,9 @@ def _targets(bench: Bench) -> None:
         client = Programmer(other)
         first, second = (order.joints for order in orders(other, 3, random.Random(29))[1:])
         (x, y, z), turn = reached(other, first)
+        away = millionths([x + 0.1, y, z, *turn, *first, *first, *second])
+        told = _calls(client, TEACH, away)
+        client.refused(told, RawReason.POSE_MISMATCH, 0, "joints that reach another pose")
         words = millionths([x, y, z, *turn, *first, *first, *second])
         _taken(_calls(client, TEACH, words))
         _ended(other, client, 0)
@@ -306,11 +325,13 @@ def _ended(bench: Bench, client: Programmer, parameter: int) -> messages.RawResu
 
 
 def _with_module(bench: Bench, *more: ModuleFile) -> System:
-    module = ModuleFile("cell", "cell.mod", _MODULE)
+    return _beside(bench, ModuleFile("cell", "cell.mod", _MODULE), *more)
+
+
+def _beside(bench: Bench, *more: ModuleFile) -> System:
+    """The system with these modules beside the driver's in the motion task."""
     tasks = tuple(
-        replace(task, modules=(*task.modules, module, *more))
-        if task.name == bench.group.task
-        else task
+        replace(task, modules=(*task.modules, *more)) if task.name == bench.group.task else task
         for task in bench.system.tasks
     )
     return replace(bench.system, tasks=tasks)

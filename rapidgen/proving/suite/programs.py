@@ -12,6 +12,7 @@ from rapidgen.proving.messages import (
     PROGRAM,
     RawInstruction,
     RawReason,
+    RawStreamFlag,
     RawTrajectoryState,
 )
 from rapidgen.proving.model import Broken
@@ -20,6 +21,7 @@ from rapidgen.proving.programs import (
     BEGIN,
     Programmer,
     RawOrder,
+    bent,
     by_hand,
     computes,
     farthest,
@@ -33,6 +35,8 @@ from rapidgen.proving.track import SETTLED, Position, changed, distance, inward,
 case = Theme("programs", needs="stream")
 
 MOVE_ABSJ = RawInstruction.MOVE_ABSJ
+_LATER = 0.005
+"""Share of its time that a program may take longer, or shorter, than the same one in RAPID."""
 _SAME = 1e-5
 """m that the TCP may be away from the path of the same program in RAPID."""
 
@@ -41,6 +45,31 @@ _SAME = 1e-5
 def _like_rapid(bench: Bench) -> None:
     """On the same path, in the same time, with no stop point more."""
     like_rapid(bench, 6, random.Random(7))
+    one_like_rapid(Programmer(bench), bench, _turning(bench))
+
+
+def _turning(bench: Bench) -> list[RawOrder]:
+    """Moves that take as long as the tool may turn, or external axes may move."""
+    first = orders(bench, 1, random.Random(8))[0]
+    slow = RawOrder(
+        MOVE_ABSJ, turned_by(bench, first.joints, 0.4), None, speed=0.5, turn=0.2, linear=0.03
+    )
+    if not computes(bench):
+        return [first, slow]
+    back = turned_by(bench, first.joints, 0.1)
+    back_slow = replace(slow, kind=RawInstruction.MOVE_L, joints=back, pose=reached(bench, back))
+    return [first, slow, back_slow]
+
+
+def turned_by(bench: Bench, place: Position, angle: float) -> Position:
+    """A place with the robot's last axis, and external ones, by so much elsewhere."""
+    last = max(joint.axis for joint in bench.group.joints if joint.axis.startswith("rax"))
+    return tuple(
+        inward(joint, value, angle if joint.kind == "revolute" else 0.1)
+        if joint.axis == last or joint.axis.startswith("eax")
+        else value
+        for joint, value in zip(bench.group.joints, place, strict=True)
+    )
 
 
 def like_rapid(bench: Bench, count: int, chance: random.Random) -> None:
@@ -58,7 +87,7 @@ def one_like_rapid(client: Programmer, bench: Bench, program: list[RawOrder]) ->
     with bench.beside(by_hand(bench, program)) as other:
         other.motion_group.jump(home)
         theirs = _moved(other, program, 0.5)
-    if abs(mine[0] - theirs[0]) > 0.02 * theirs[0]:
+    if abs(mine[0] - theirs[0]) > _LATER * theirs[0]:
         raise Broken(f"a program took {mine[0]:.3f} s, {theirs[0]:.3f} s when written in RAPID")
     for one, way in ((mine[1], theirs[1]), (theirs[1], mine[1])):
         far = farthest(bench, one, way)
@@ -71,6 +100,52 @@ def _moved(bench: Bench, program: list[RawOrder], since: float) -> tuple[float, 
     bench.wait_until_at(program[-1].joints, 60)
     bench.run(0.3)
     return movement([sample for sample in bench.track if sample[0] >= since])
+
+
+@case("program-configurations", "a program reaches its poses in the postures that it says")
+def _configurations(bench: Bench) -> None:
+    """From one configuration to another, whatever instruction was before."""
+    if not computes(bench):
+        return
+    client, middle = Programmer(bench), bent(bench)
+    there = RawOrder(MOVE_ABSJ, middle, None, zone=None)
+    client.takes("a program", [there])
+    bench.wait_until_at(middle, 60)
+    for n, joint in enumerate(bench.group.joints):
+        if joint.kind != "revolute" or not joint.lower < -middle[n] < joint.upper:
+            continue
+        turned = changed(middle, n, -middle[n])
+        away = replace(
+            there, kind=RawInstruction.MOVE_J, joints=turned, pose=reached(bench, turned)
+        )
+        back = replace(away, joints=middle, pose=reached(bench, middle))
+        client.takes(f"axis {n + 1} on its other side", [away, back, away])
+        bench.wait_until_at(turned, 90)
+        client.takes("the way back", [there])
+        bench.wait_until_at(middle, 60)
+
+
+@case("program-index-wraps", "more instructions than numbers", once=True)
+def _index_wraps(bench: Bench) -> None:
+    """They are counted anew behind the last number that a controller counts exactly."""
+    last, client = messages.INDEX_WRAP, Programmer(bench)
+    program = orders(bench, 10, random.Random(12))
+    some = [replace(o, zone=None) for o in program]
+    client.number += 1
+    words = [*millionths(bench.position), *(w for o in some[:3] for w in o.words)]
+    client.say(words, 3, BEGIN)
+    bench.wait_until_at(some[2].joints, 60)
+    bench.run(0.5)
+    server = bench.controller.task(bench.task("ROS_motionServer"))
+    motion = bench.controller.task(bench.task("ROS_motion"))
+    server["ROS_acceptance:ROS_count"] = server["ROS_stream:accepted"] = last - 3
+    motion["ROS_motion:expected"] = last - 2
+    told = client.say([w for o in some[3:9] for w in o.words], 6, RawStreamFlag.END, first=last - 3)
+    if not isinstance(told, messages.RawPointsAccepted) or told.accepted != 3:
+        raise Broken(f"six instructions from {last - 3} on, the reply is {told}")
+    bench.wait_until_at(some[8].joints, 60)
+    bench.run(0.5)
+    bench.healthy()
 
 
 @case("program-refused", "one wrong instruction refuses a program whole, with its index")
@@ -111,6 +186,14 @@ def _refused(bench: Bench) -> None:
     for order, reason in wrong:
         told = client.send([*right[:3], order, *right[3:]])
         client.refused(told, reason, 3, f"a program with {order}")
+    fastest = 1e-6 * round(1e6 * bench.group.tcp_speed_limit)
+    wrong_too = [replace(right[3], speed=fastest + 1e-3), replace(right[3], zone=0.67)]
+    for order, reason in zip(wrong_too, (RawReason.BAD_SPEED, RawReason.BAD_ZONE), strict=True):
+        client.refused(client.send([*right[:3], order]), reason, 3, f"a program with {order}")
+    # As fast and as wide as may be: 1.5 times that is the widest radius.
+    most = replace(right[3], speed=fastest, zone=2 / 3)
+    told = client.send([*right[:3], most, replace(most, speed=0.0)])
+    client.refused(told, RawReason.BAD_SPEED, 4, f"{most} is right")
     for words in ([99, 0], [0], [-1], [4096 + MOVE_ABSJ, 0], [4096]):
         client.number += 1
         start = millionths(bench.position)
