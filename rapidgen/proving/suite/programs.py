@@ -7,7 +7,6 @@ from rapidgen.proving import messages
 from rapidgen.proving.batches import millionths, words_frame
 from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import CORNER_FAILURE, Bench
-from rapidgen.proving.link import RawLink
 from rapidgen.proving.messages import (
     PROGRAM,
     RawInstruction,
@@ -29,7 +28,6 @@ from rapidgen.proving.programs import (
     orders,
     reached,
 )
-from rapidgen.proving.suite.control import done, stop
 from rapidgen.proving.track import SETTLED, Position, changed, distance, inward, small_unit
 
 case = Theme("programs", needs="stream")
@@ -222,88 +220,6 @@ def _refused(bench: Bench) -> None:
         raise Broken(f"a program was refused, PROGRESS says {told}")
     client.takes("a right program", right)
     bench.wait_until_at(right[-1].joints, 60)
-
-
-@case(
-    "program-prefix",
-    "what ends a program leaves a prefix of it, with index and reason",
-    once=True,
-    needs="control",
-)
-def _prefix(bench: Bench) -> None:
-    """STOP on either port, a cut connection, an emergency stop, a stop of the program, a pause."""
-    control, watcher = bench.control(), bench.watcher()
-    chance = random.Random(5)
-    for ending, reason in _ENDINGS.items():
-        if bench.config.commissioning and ending in ("e-stop", "stop"):
-            continue  # The servers stop with the program, and nobody tells.
-        for at in range(6):
-            program = orders(bench, 7, chance)
-            client = Programmer(bench)
-            start, since = bench.position, bench.now
-            client.takes("a program", program)
-            _reaches(bench, watcher, at)
-            _end(bench, client, control, ending)
-            bench.wait_until_standing(10)
-            bench.run(0.5)
-            told = bench.progress(watcher)
-            if told.reason != reason or not at <= told.reached < len(program):
-                raise Broken(f"{ending} behind instruction {at}: PROGRESS says {told}")
-            bench.stays(1, f"{ending} has ended a program")
-            bench.start_again()
-            bench.stays(2, f"{ending} has ended a program")
-            if ending != "e-stop":
-                bench.followed([start, *(o.joints for o in program)], since=since, corner=0.1)
-            client.link.close(then=1.5)
-
-
-def _reaches(bench: Bench, watcher: RawLink, at: int) -> None:
-    """Let time pass until the robot is on its way behind so many instructions."""
-    bench.wait_until_moving()
-    for _ in range(600):
-        if bench.progress(watcher).reached >= at:
-            return
-    raise Broken(f"{at} instructions are not reached")
-
-
-_ENDINGS = {
-    "STOP": RawReason.STOPPED,
-    "STOP on the control port": RawReason.STOPPED,
-    "a cut connection": RawReason.CLIENT_LOST,
-    "e-stop": RawReason.EMERGENCY_STOP,
-    "stop": RawReason.PROGRAM_STOPPED,
-    "a pause and STOP": RawReason.STOPPED,
-}
-
-
-def _end(bench: Bench, client: Programmer, control: RawLink, ending: str) -> None:
-    if ending == "STOP":
-        client.link.stop()
-    elif ending == "STOP on the control port":
-        stop(control)
-    elif ending == "a cut connection":
-        client.link.close(abort=True)
-    elif ending == "a pause and STOP":
-        done(control.ask(messages.RawPause(1)), "PAUSE")
-        bench.wait_until_standing(3)
-        client.link.stop()
-    else:
-        bench.controller.perform(ending)
-
-
-@case("program-paused", "a paused program goes on where it was", needs="control")
-def _paused(bench: Bench) -> None:
-    """To its end, on its path."""
-    control, watcher, client = bench.control(), bench.watcher(), Programmer(bench)
-    program, start, since = orders(bench, 4, random.Random(9)), bench.position, bench.now
-    client.takes("a program", program)
-    for at in (0, 1):
-        _reaches(bench, watcher, at)
-        done(control.ask(messages.RawPause(1)), "PAUSE")
-        bench.rests(3, 1, "a program is paused")
-        done(control.ask(messages.RawPause(0)), "the end of PAUSE")
-    bench.wait_until_at(program[-1].joints, 60)
-    bench.followed([start, *(o.joints for o in program)], since=since, corner=0.1)
 
 
 @case("program-stream", "a program that comes while the robot moves is executed up to a fault")
