@@ -1,6 +1,9 @@
 """Resources that public clients ask for beside the usual ones: what they show is what is, and a
 success shows elsewhere. Spellings: RWS manual 3HAC050973, [VC 6.16], [VC 7.21]."""
 
+import json
+from datetime import datetime
+
 import pytest
 from served import STARTED, Caller, code_of, make_cabinet, make_desk
 
@@ -197,16 +200,34 @@ def test_a_step_is_for_manual_mode(caller):
 # -- the rest ------------------------------------------------------------------------------------
 
 
-def test_sessions_are_listed_one_by_one(caller):
+def test_sessions_are_listed_one_by_one_and_in_two_by_user(caller):
     before = len(caller.get("/users"))
     form = {"username": "me", "application": "app", "location": "here"}
     assert caller.post("/users" if caller.is_one else "/users/register", form) == 201
     other = Caller(caller.desk)
     found = other.get("/users")
-    assert len(found) == before + 1
+    assert len(found) == (before + 1 if caller.is_one else before)
     assert found[0].text("application") == "app"
+    admin = Caller(caller.desk, "Admin")
+    assert len(caller.get("/users")) == len(found) + 1
+    admin.send("GET", "/logout")
     other.send("GET", "/logout")
     assert len(caller.get("/users")) == before
+
+
+def test_energy_is_told_by_axis(caller):
+    """As in a body of a RobotWare 6: `mechunits`, in each of them `axes`."""
+    if caller.is_one:
+        reply = caller.send("GET", "/rw/system/energy?json=1")
+        (state,) = json.loads(reply.body)["_embedded"]["_state"]
+    else:
+        (state,) = json.loads(caller.send("GET", "/rw/system/energy").body)["state"]
+    (unit,) = state["mechunits"]
+    assert (unit["_title"], [axis["interval-energy"] for axis in unit["axes"]]) == (
+        "ROB_1",
+        ["0"] * 6,
+    )
+    datetime.strptime(state["time-stamp"], "%Y-%m-%d T %H:%M:%S")
 
 
 def test_who_may_less_cannot_be_somebody_who_may_more(tmp_path):
