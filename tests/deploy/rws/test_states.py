@@ -283,7 +283,10 @@ def test_a_driver_that_was_loaded_by_hand_comes_back_with_its_background_tasks(r
     rws.pass_time(cabinet, 1.0)
     assert cabinet.controller.rapid_tasks["T_ROS_CONTROL"].stack()
     transport = rws.connect(rws.Line(cabinet, Generation.ONE))
-    rws.run(transport, rws.build(Generation.ONE, "trajectory.capacity=500"))
+    text = plan_text(rws.run(transport, rws.build(Generation.ONE, "trajectory.capacity=500")))
+    (row,) = (line for line in text.splitlines() if "save and unload T_ROB1/" in line)
+    assert row.count("ROS_") > 3
+    assert row.endswith("each of which has a name of ours (--overwrite)")
     rws.pass_time(cabinet, 1.0)
     rws.run(transport, None, "uninstall")
     assert {t: sorted(modules(cabinet, t)) for t in before} == {

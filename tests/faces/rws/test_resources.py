@@ -215,6 +215,11 @@ def test_sessions_are_listed_one_by_one_and_in_two_by_user(caller):
     assert len(caller.get("/users")) == before
 
 
+def test_nobody_is_local(one):
+    target = "/users?action=set-locale"
+    assert [one.post(target, {"type": t}) for t in ("local", "remote", "here")] == [403, 204, 400]
+
+
 def test_energy_is_told_by_axis(caller):
     """As in a body of a RobotWare 6: `mechunits`, in each of them `axes`."""
     if caller.is_one:
@@ -263,6 +268,69 @@ def test_a_locked_mode_cannot_be_changed(caller):
     assert caller.post(setting, man) == 403
     assert act(caller, path, "unlock") == 204
     assert caller.post(setting, man) == 204
+
+
+@pytest.mark.parametrize(
+    ("mode", "found"),
+    [
+        ("Before", "PERS num 3x := 1;"),
+        ("After", "PERS num x3 := 1;"),
+        ("Replace", "PERS num 3 := 1;"),
+    ],
+)
+def test_a_piece_goes_before_behind_or_in_place_of_another(two, mode, found):
+    base = "/rw/rapid/tasks/T_ROB1/modules/MainModule/text/range"
+    edit(two)
+    place = {"startrow": "2", "startcol": "14", "endrow": "2", "endcol": "14"}
+    assert two.post(base, {**place, "replace-mode": mode, "text": "3"}) == 204
+    (row,) = two.get(f"{base}?startrow=2&startcol=5&endrow=2&endcol=-1")
+    assert row.text("text") == found
+    back = {**place, "startrow": "3", "replace-mode": mode, "text": "3"}
+    assert two.post(base, back) == 400, "it ends before it begins"
+    assert two.post(base, {**place, "replace-mode": "Beside", "text": "3"}) == 400
+
+
+def test_devices_are_those_of_a_network(caller):
+    assert [item.text("name") for item in caller.get("/rw/iosystem/devices?network=Local")] == [
+        "DRV_1"
+    ]
+    assert caller.get("/rw/iosystem/devices?network=Nowhere") == ()
+    search = "/rw/iosystem/devices?action=search"
+    assert caller.post(search, {"network": "Local"}) == 400  # name or state has to be said
+    assert caller.post(search, {"name": "drv"}) == 200
+    if caller.is_one:
+        search = "/rw/iosystem/networks?action=search"
+        assert (caller.post(search), caller.post(search, {"name": "loc"})) == (400, 200)
+
+
+def test_jogging_is_refused_with_its_reason(caller):
+    jog = "/rw/motionsystem" + ("?action=jog" if caller.is_one else "/jog")
+    form = {"jogmode": "AxisGroup1", "mechunit": "ROB_1", "ccount": "0"}
+    assert code_of(caller.send("POST", jog, form)) == CODES["E_MODE_REJECT"]
+    caller.desk.office.controller.set_mode("manual_reduced")
+    assert code_of(caller.send("POST", jog, form)) == CODES["E_REJECT"]
+    assert caller.post(jog, {"jogmode": "AxisGroup1"}) == 400
+
+
+def test_what_is_chosen_for_jogging_wants_mastership_of_rws_1(caller):
+    target = "/rw/motionsystem/mechunits/ROB_1" + ("?action=set" if caller.is_one else "")
+    assert caller.post(target, {"tool": "tool0"}) == (403 if caller.is_one else 204)
+
+
+def test_a_backup_takes_no_other_ones_place_and_a_broken_one_is_told(caller):
+    form = {"backup": "/fileservice/BACKUP/first"}
+    assert act(caller, "/ctrl/backup", "backup", form, "create") == 202
+    again = "/ctrl/backup" + ("?action=backup" if caller.is_one else "/create")
+    assert code_of(caller.send("POST", again, form)) == CODES["E_DIR_EXIST"]
+    if caller.is_one:
+        return
+    folder = caller.desk.office.controller.files.path("BACKUP:/first")
+    for broken, wanted in ((False, 0), (True, CODES["E_FAIL"])):
+        if broken:
+            (folder / "SYSPAR" / "SYS.cfg").write_text("nothing\n")
+        reply = caller.send("POST", "/ctrl/backup/check-restore", form)
+        (job,) = caller.get(reply.header("location"))
+        assert (reply.status, min(job.whole("code"), 0)) == (202, wanted)
 
 
 def test_the_emergency_stop_of_a_virtual_controller(two):
