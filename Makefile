@@ -138,7 +138,8 @@ program-mutants: $(STAMP) ## 15 min: the same for the modules of motion programs
 	$(BIN)/python benchmarks/mutation.py --jobs 2 --budget 8 --output build/program-mutation.jsonl --themes programs "own routines" "own data" speed --only ROS_programs ROS_execution ROS_data -- benchmarks/cell.yaml
 
 program-campaign: $(STAMP) ## 5 min: random motion programs beside the same ones written in RAPID
-	$(BIN)/python benchmarks/program_campaign.py
+	for robot in irb120 irb2400 irb460 irb910sc; do \
+		$(BIN)/rapidgen test $$robot --case program-like-rapid --quick --seeds 0 --programs 20 || exit 1; done
 
 motion-campaign: $(STAMP) ## 10 min: 10,000 random programs with random stops
 	$(BIN)/python -m tests.motion.campaign
