@@ -7,6 +7,7 @@ from datetime import datetime
 import pytest
 from served import STARTED, Caller, code_of, make_cabinet, make_desk
 
+from rapidgen.wire.rws import media
 from rapidgen.wire.rws.bodies import Generation
 from rapidgen.wire.rws.codes import CODES
 
@@ -162,6 +163,52 @@ def test_a_program_is_saved_taken_out_and_loaded(caller):
     assert caller.desk.office.cabinet.controller.tasks["T_ROB1"]["x"] == 1
     missing = {"progpath": f"{volume}/else.pgf"}
     assert act(caller, program, "loadprog", missing, "load") in (400, 404)
+
+
+def test_a_program_is_loaded_in_place_of_the_rest_or_beside_it(caller):
+    """System modules are no part of a program."""
+    programs = caller.desk.office.cabinet.programs
+    task = caller.desk.office.controller.rapid_tasks["T_ROB1"]
+    home = caller.desk.office.controller.files.path("HOME:")
+    edit(caller)
+    for name, attributes in (("Own", ""), ("Sys", "(SYSMODULE)")):
+        (home / f"{name}.mod").write_text(f"MODULE {name}{attributes}\nENDMODULE\n")
+        form = {"modulepath": f"$HOME/{name}.mod"}
+        assert act(caller, "/rw/rapid/tasks/T_ROB1", "loadmod", form) in (200, 204)
+    (home / "More.mod").write_text("MODULE More\nENDMODULE\n")
+    (home / "more.pgf").write_text("<Program><Module>More.mod</Module></Program>")
+    program, path = "/rw/rapid/tasks/T_ROB1/program", {"progpath": "$HOME/more.pgf"}
+    assert act(caller, program, "loadprog", {**path, "loadmode": "add"}, "load") == 204
+    assert {m.name for m in programs.modules(task)} >= {"MainModule", "Own", "Sys", "More"}
+    assert act(caller, program, "loadprog", {**path, "loadmode": "replace"}, "load") == 204
+    assert {m.name for m in programs.modules(task)} & {"MainModule", "Own", "Sys", "More"} == {
+        "Sys",
+        "More",
+    }
+    assert act(caller, program, "loadprog", {**path, "loadmode": "other"}, "load") == 400
+
+
+def test_a_pointer_is_not_put_while_the_program_runs(caller):
+    assert act(caller, "/rw/rapid/execution", "start", STARTED) == 204
+    caller.desk.office.controller.run_for(0.15)
+    edit(caller)
+    form = {"module": "MainModule", "routine": "main", "userlevel": "FALSE"}
+    where = caller.get("/rw/rapid/tasks/T_ROB1/pcp")
+    put = "/rw/rapid/tasks/T_ROB1/pcp" + ("?action=set-pp-routine" if caller.is_one else "/routine")
+    assert code_of(caller.send("POST", put, form)) == CODES["E_EXEC_STATE"]
+    assert caller.get("/rw/rapid/tasks/T_ROB1/pcp") == where
+
+
+def test_mastership_is_given_back_by_its_number_alone(two):
+    reply = two.send("POST", "/rw/mastership/edit/request-with-id")
+    (item,) = media.read(reply.body, reply.header("content-type")).items
+    number = item.text("mastership-id")
+    other = Caller(two.desk)
+    release = "/rw/mastership/edit/release-with-id"
+    assert other.post(release, {"mastershipid": f"{number}0"}) == 403
+    assert two.get("/rw/mastership/edit")[0].text("mastership") == "remote"
+    assert other.post(release, {"mastershipid": number}) == 204
+    assert two.get("/rw/mastership/edit")[0].text("mastership") == "nomaster"
 
 
 def test_the_stack_and_the_pointer_of_a_stopped_program(caller):
