@@ -126,3 +126,11 @@ def test_who_subscribes_is_told_of_dialogs_and_texts(caller):
     items = [item for event in events for item in media.read(event, "application/xhtml+xml").items]
     told = [(i.text("instr"), i.text("event"), i.text("msg")) for i in items]
     assert told == [("TPWrite", "POST", '"hello"'), ("TPReadNum", "SEND", "")]
+    (waiting,) = controller.operator.questions
+    controller.operator.withdraw(waiting)
+    (event,) = events[2:]
+    (item,) = media.read(event, "application/xhtml+xml").items
+    assert (item.text("instr"), item.text("event")) == ("TPReadNum", "ABORT")
+    assert caller.send("DELETE", "/subscription/1").status == 200
+    controller.operator.write("T_ROB1", "to nobody")
+    assert len(events) == 3
