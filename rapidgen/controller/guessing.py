@@ -16,7 +16,7 @@ from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 from typing import Literal, cast
 
-from rapidgen.config.cell import CameraKeys, CellDescription, CellSignalKeys, SeenKeys
+from rapidgen.config.cell import CameraKeys, CellDescription, CellSignalKeys, ForceKeys, SeenKeys
 from rapidgen.config.model import Load, Placement, Tool, WorkObject
 from rapidgen.controller.absent import absent
 from rapidgen.controller.conversing import Heard, heard
@@ -145,6 +145,7 @@ def guess(
             if kind == "wobjdata"
         ),
         loads={name: _LOAD for name, kind in made.items() if kind == "loaddata"},
+        force=ForceKeys(),
         cameras={
             name: CameraKeys([[SeenKeys(name)]])
             for name in (*system.cameras, *(n for n, kind in made.items() if kind == "cameradev"))

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Protocol
 
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, error, suggest
 from rapidgen.machine.cameras import Camera, Seen
+from rapidgen.machine.force import Measured
 from rapidgen.machine.io import Awaited, IOSystem
 from rapidgen.machine.log import EventLog
 from rapidgen.machine.meetings import Meetings
@@ -52,6 +53,8 @@ class Surroundings:
     """What programs listen for at sockets that nobody else is at."""
     cameras: Mapping[str, Camera] = field(default_factory=dict)
     """What cameras see, by lower-case name."""
+    force: Measured = field(default_factory=Measured)
+    """What force sensors measure."""
     is_guess: bool = False
     """Whether dialogs are answered that nobody else is there for, and I/O units are as named."""
     is_any_robot: bool = False
@@ -162,6 +165,14 @@ def cameras_of(cell: "CellDescription", *, is_guess: bool) -> dict[str, Camera]:
         )
         for name, keys in cell.cameras.items()
     }
+
+
+def force_of(cell: "CellDescription") -> Measured:
+    """What the force sensors of a cell measure."""
+    keys = cell.force
+    if keys is None:
+        return Measured()
+    return Measured([tuple(row) for row in keys.readings], keys.mass, tuple(keys.center))
 
 
 def _data(cell: "CellDescription") -> Iterator[tuple[str, str, str]]:
