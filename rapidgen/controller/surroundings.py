@@ -17,12 +17,14 @@ from rapidgen.machine.network.sockets import SocketTable
 from rapidgen.machine.operator import Operator
 from rapidgen.machine.scheduler import S, Scheduler
 from rapidgen.motion.system import MotionSystem
+from rapidgen.runtime.compiler import predefined
 from rapidgen.runtime.task.task import Task
 from rapidgen.system.model import ModuleFile, SignalSpec, System
 
 if TYPE_CHECKING:
     from rapidgen.config.cell import CellDescription, ReactionKeys
     from rapidgen.controller.answering import Said
+    from rapidgen.controller.blank import Blank
     from rapidgen.controller.conversing import Heard
     from rapidgen.controller.flags import Flag
     from rapidgen.controller.polling import Polled
@@ -55,6 +57,8 @@ class Surroundings:
     """What cameras see, by lower-case name."""
     force: Measured = field(default_factory=Measured)
     """What force sensors measure."""
+    blank: "tuple[Blank, ...]" = ()
+    """Data that a predefined one stands in for."""
     is_guess: bool = False
     """Whether dialogs are answered that nobody else is there for, and I/O units are as named."""
     is_any_robot: bool = False
@@ -222,6 +226,8 @@ def settle(controller: Booted, around: Surroundings) -> Guessed:
         if signal.name.casefold() in around.guessed:
             controller.scheduler.after(round(_PATIENCE * S), give)
 
+    for row in around.blank:
+        controller.task(row.task)[f"{row.module}:{row.name}"] = predefined.value(row.stands)
     if around.guessed:
         controller.io.on_awaited = answer
     if around.polled:
