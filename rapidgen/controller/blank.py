@@ -1,6 +1,6 @@
 """Tools and work objects of a program that nothing in it gives a value: persistents whose other
-half is in a task that is in no file. In a guessed cell the predefined ones stand in, tool0 and wobj0;
-with all figures 0 no move and no CRobT would be possible.
+half is in a task that is in no file. In a guessed cell the predefined ones stand in, tool0 and
+wobj0; with all figures 0 no move and no CRobT would be possible.
 """
 
 from collections.abc import Iterable, Iterator, Mapping

@@ -175,7 +175,7 @@ def guess(
     named += [Named(row.name, kind, span) for row, (kind, span) in blank.items()]
     listens = heard((scope for scopes in tasks for scope in scopes), stands)
     routines = "".join(s.stub(stands.get(s.type, "")) for s in stubs.values())
-    names, empty = (tuple(named), tuple(unknown)), tuple(blank)
+    names = tuple(named), tuple(unknown)
     return Guess(
         cell, *names, tuple(rows), data, made_units, routines, looked, listens, tuple(blank)
     )
