@@ -229,8 +229,10 @@ class Partner:
         if endpoint.peer is None:
             self._ends[self._network.connect("127.0.0.1", endpoint.local[1])] = None
             return
-        pairs = ((e, (e.local == endpoint.peer, e.peer == endpoint.local)) for e in self._ends)
-        mine = next((e for e, same in pairs if any(same) and not e.closed), None)
+        # Of a port that was listened at before, older ends may still be open.
+        ends = sorted(self._ends, key=lambda end: end.local != endpoint.peer)
+        same = (e for e in ends if e.local == endpoint.peer or e.peer == endpoint.local)
+        mine = next((end for end in same if not end.closed), None)
         if mine is None or not mine.connected or mine.fault is not None:
             return
         message = self._left.pop(0)
