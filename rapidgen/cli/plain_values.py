@@ -10,9 +10,8 @@ import re
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
-from typing import Any, Final, Literal, Protocol, get_args, get_origin
+from typing import Any, Final, Literal, Protocol, cast, get_args, get_origin
 
-from typer import Context
 from typer.core import TyperCommand, TyperGroup
 from typer.models import ParameterInfo
 
@@ -29,8 +28,8 @@ class _Parameter(Protocol):
     multiple: bool
     nargs: int
     required: bool
-    callback: Callable[[Context, object, object], object] | None
-    process_value: Callable[[Context, object], object]
+    callback: Callable[[object, object, object], object] | None
+    process_value: Callable[[object, object], object]
 
     def value_is_missing(self, value: object) -> bool: ...
 
@@ -38,15 +37,17 @@ class _Parameter(Protocol):
 class PlainCommand(TyperCommand):
     """A verb whose options take plain words."""
 
-    def get_params(self, ctx: Context) -> list[Any]:
-        return [_plainly(one) for one in super().get_params(ctx)]
+    def get_params(self, ctx: object) -> list[Any]:
+        found: list[Any] = super().get_params(cast("Any", ctx))
+        return [_plainly(one) for one in found]
 
 
 class PlainGroup(TyperGroup):
     """The command of verbs whose options take plain words."""
 
-    def get_params(self, ctx: Context) -> list[Any]:
-        return [_plainly(one) for one in super().get_params(ctx)]
+    def get_params(self, ctx: object) -> list[Any]:
+        found: list[Any] = super().get_params(cast("Any", ctx))
+        return [_plainly(one) for one in found]
 
 
 def _plainly(parameter: _Parameter) -> _Parameter:
@@ -60,9 +61,9 @@ def _plainly(parameter: _Parameter) -> _Parameter:
 
 def _processed(
     parameter: _Parameter,
-    whole: Callable[[Context, object], object],
+    whole: Callable[[object, object], object],
     read: Callable[[object], object],
-    ctx: Context,
+    ctx: object,
     value: object,
 ) -> object:
     found = read(value)
