@@ -131,8 +131,8 @@ def _syntax(fault: Any, text: str, shown: str, at: Span | None) -> Diagnostic:
     problem = getattr(fault, "problem", None) or getattr(fault, "reason", None) or "not YAML"
     context = getattr(fault, "context", None)
     began = getattr(fault, "context_mark", None)
-    opened = text[began.index : began.index + 1] if began is not None else ""
-    if opened in _CLOSE and began is not None and mark is not None and mark.line > began.line:
+    opened = text[began.index : began.index + 1] if began else ""
+    if mark and began and opened in _CLOSE and mark.line > began.line:
         return error(
             "RG003",
             at or Span(shown, began.line + 1, began.column + 1),
