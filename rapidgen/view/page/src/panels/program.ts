@@ -293,7 +293,7 @@ class ProgramPanel {
             }) })
       : h("span", { class: "soft" }, value.text);
     return h("tr", {}, h("th", { scope: "row", title: value.kind }, value.name), h("td", {}, text),
-      remove ? h("td", {}, h("button", { type: "button", class: "quiet", "aria-label": `Do not watch ${value.name}`, onclick: remove }, "×")) : null);
+      remove ? h("td", { class: "live" }, h("button", { type: "button", class: "quiet", "aria-label": `Do not watch ${value.name}`, onclick: remove }, "×")) : null);
   }
 
   private pointRow(point: SeenBreakpoint): HTMLElement {
