@@ -147,6 +147,9 @@ motion-campaign: $(STAMP) ## 10 min: 10,000 random programs with random stops
 reach: $(STAMP) ## 3 min: 10,000 poses of every shipped model, by formula or search
 	$(BIN)/python benchmarks/reach.py
 
+two-workers: $(STAMP) ## 2 min: what a second worker is worth to a campaign
+	$(BIN)/python benchmarks/two_workers.py
+
 exploration: $(STAMP) ## 1 min: schedules until known defects of drivers are found
 	$(BIN)/python benchmarks/exploration.py --jobs 2
 
