@@ -2,6 +2,7 @@
 
 import pytest
 
+from rapidgen.rapid.switches import Switches
 from tests.runtime.booting import boot
 
 RACE = """
@@ -107,3 +108,34 @@ def test_every_task_gets_its_share() -> None:
         assert max(counts) - min(counts) < 0.01 * max(counts)
         # 3 s of one CPU at 11 us for WHILE TRUE and n := n + 1.
         assert sum(counts) == pytest.approx(3 / 11e-6, rel=0.01)
+
+
+WAITS = """
+  PERS bool go := FALSE;
+  PROC main()
+    WaitUntil go;
+    TPWrite "gone";
+  ENDPROC
+"""
+LETS_GO = """
+  PERS bool go := FALSE;
+  PROC main()
+    go := TRUE;
+  ENDPROC
+"""
+
+
+def test_a_change_between_the_look_and_the_wait_is_not_lost() -> None:
+    """A controller whose WaitUntil wakes at a change cannot sleep through one."""
+    for seed in range(20):
+        controller, _ = boot(
+            WAITS,
+            LETS_GO,
+            seed=seed,
+            cycle="once",
+            switch_at_pers=True,
+            dialect=Switches(wait_until="event"),
+        )
+        with controller:
+            controller.start_program()
+            assert controller.run(max_time=10) == "finished", seed

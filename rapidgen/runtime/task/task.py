@@ -11,7 +11,7 @@ from types import FrameType
 
 from rapidgen.diagnostics import Span
 from rapidgen.machine.process import Process
-from rapidgen.machine.scheduler import Scheduler, WaitSet
+from rapidgen.machine.scheduler import Scheduler, Timer, WaitSet
 from rapidgen.motion.faults import MotionFault
 from rapidgen.runtime import unsupported
 from rapidgen.runtime.compiler.linking import Shared
@@ -299,28 +299,37 @@ class Task(Process):
         stop the time counts from its beginning again [S4 overview 5-23]. `why` says in words
         what for, when somebody asks.
         """
-        if predicate():
-            return True
         scheduler = self.scheduler
-        expired = False
+        changed = expired = False
+
+        def notice() -> None:
+            # The look itself may give way to whoever changes what was just read.
+            nonlocal changed
+            changed = True
+            self.wake()
 
         def expire() -> None:
             nonlocal expired
             expired = True
             self.wake()
 
-        delay = None if timeout is None else round(timeout * _NS)
-        timer = None if delay is None else scheduler.after(delay, expire)
+        timer: Timer | None = None
         watched = tuple(on)
         for wait_set in watched:
-            wait_set.add(self.wake)
-        holds = self._holds
+            wait_set.add(notice)
         before = self.waits_for
-        if why is not None:
-            self.waits_for = why
         try:
+            if predicate():
+                return True
+            delay = None if timeout is None else round(timeout * _NS)
+            timer = None if delay is None else scheduler.after(delay, expire)
+            holds = self._holds
+            if why is not None:
+                self.waits_for = why
             while True:
-                self.block()
+                if not changed:
+                    self.block()
+                changed = False
                 if holds != self._holds:
                     holds, expired = self._holds, False
                     if timer is not None and delay is not None:
@@ -335,7 +344,7 @@ class Task(Process):
             if timer is not None:
                 timer.cancel()
             for wait_set in watched:
-                wait_set.remove(self.wake)
+                wait_set.remove(notice)
 
     # -- attention: stops, orders, traps ---------------------------------------------------------
 
