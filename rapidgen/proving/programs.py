@@ -45,7 +45,8 @@ _NAMES = {
 @dataclass(frozen=True, slots=True)
 class RawOrder:
     """A move: the joints at its end (rad, m), the pose that they reach, `via` on a circle. `speed`
-    (m/s, rad/s) and `zone` (m, rad; None: a stop point) stand in every instruction; `frames` are
+    (m/s), `turn` of the tool and of rotary external axes (rad/s), `linear` of the other ones (m/s)
+    and `zone` (m, rad; None: a stop point) stand in every instruction; `frames` are
     the numbers of tool and work object, `marks` signals on the way: number, value, kind, place."""
 
     kind: RawInstruction
@@ -56,11 +57,13 @@ class RawOrder:
     zone: float | None = 0.005
     frames: tuple[int, int] | None = None
     marks: tuple[tuple[float, ...], ...] = ()
+    turn: float = 2.0
+    linear: float = 1.0
 
     @property
     def speeds(self) -> tuple[float, ...]:
         """speeddata: TCP, orientation, linear and rotary external axes."""
-        return self.speed, 2.0, 1.0, 2.0
+        return self.speed, self.turn, self.linear, self.turn
 
     @property
     def zones(self) -> tuple[float, ...]:
