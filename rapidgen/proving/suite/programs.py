@@ -184,6 +184,8 @@ def _refused(bench: Bench) -> None:
             turned = replace(order, pose=((x, y, z), (q[1], q[0], q[3], q[2])))
             wrong += [(away, RawReason.POSE_MISMATCH), (turned, RawReason.POSE_MISMATCH)]
             wrong.append((replace(order, pose=((x, y, z), (0.0,) * 4)), RawReason.BAD_VALUE))
+            circle = replace(away, kind=RawInstruction.MOVE_C, via=order.pose)
+            wrong.append((circle, RawReason.POSE_MISMATCH))
             break
     for order, reason in wrong:
         told = client.send([*right[:3], order, *right[3:]])
@@ -204,6 +206,14 @@ def _refused(bench: Bench) -> None:
     client.number += 1
     told = client.say([*millionths(bench.position), MOVE_ABSJ, 0], 1, ALL)
     client.refused(told, RawReason.FRAMING, 0, "half an instruction")
+    client.number += 1
+    place = millionths(bench.position)
+    told = client.say([*place, MOVE_ABSJ, *place], 1, ALL)
+    client.refused(told, RawReason.BAD_SPEED, 0, "a speed is that of a program before")
+    client.number += 1
+    with_speed = [MOVE_ABSJ | messages.RawModal.SPEED, *millionths(right[0].speeds)]
+    told = client.say([*place, *with_speed, *place], 1, ALL)
+    client.refused(told, RawReason.BAD_ZONE, 0, "a zone is that of a program before")
     client.number += 1
     told = client.say([*millionths(bench.position), *right[0].words, 0], 1, ALL)
     client.refused(told, RawReason.FRAMING, 1, "a word too many")
