@@ -147,6 +147,9 @@ motion-campaign: $(STAMP) ## 10 min: 10,000 random programs with random stops
 reach: $(STAMP) ## 3 min: 10,000 poses of every shipped model, by formula or search
 	$(BIN)/python benchmarks/reach.py
 
+two-workers: $(STAMP) ## 2 min: what a second worker is worth to a campaign
+	$(BIN)/python benchmarks/two_workers.py
+
 exploration: $(STAMP) ## 1 min: schedules until known defects of drivers are found
 	$(BIN)/python benchmarks/exploration.py --jobs 2
 
@@ -183,7 +186,7 @@ rws-requests: $(STAMP) ## 1 min: 100,000 hostile requests to the face, a good cl
 	$(BIN)/python -m tests.faces.rws.campaign requests 100000
 
 rws-cuts: $(STAMP) ## 1 h: deployments over the web services cut at every request, before and after it was done
-	RAPIDGEN_LONG=1 $(BIN)/python -m pytest -n 2 -q -s --timeout 0 tests/deploy/rws/test_cuts.py
+	RAPIDGEN_LONG=1 $(BIN)/python -m pytest -n 2 -v --timeout 0 tests/deploy/rws/test_cuts.py
 
 endurance: $(STAMP) ## 2 min: memory of an idle driver that is watched for ten simulated hours
 	$(BIN)/python benchmarks/endurance.py

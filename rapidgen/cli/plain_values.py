@@ -10,10 +10,10 @@ import re
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
-from typing import Any, Final, Literal, Protocol, get_args, get_origin
+from typing import Any, Final, Literal, TypeAlias, TypeVar, get_args, get_origin
 
 from typer import Context
-from typer.core import TyperCommand, TyperGroup
+from typer.core import TyperArgument, TyperCommand, TyperGroup, TyperOption
 from typer.models import ParameterInfo
 
 _NUMBERS: Final[dict[object, tuple[type[int | float], re.Pattern[str]]]] = {
@@ -21,46 +21,41 @@ _NUMBERS: Final[dict[object, tuple[type[int | float], re.Pattern[str]]]] = {
     float: (float, re.compile(r"-?[0-9]{1,15}(\.[0-9]{1,15})?", re.ASCII)),
 }
 _NOT_PLAIN: Final = object()
-
-
-class _Parameter(Protocol):
-    """What is used here of typer's, which has no public type."""
-
-    multiple: bool
-    nargs: int
-    required: bool
-    callback: Callable[[Context, object, object], object] | None
-    process_value: Callable[[Context, object], object]
-
-    def value_is_missing(self, value: object) -> bool: ...
+T = TypeVar("T")
+Parameter: TypeAlias = TyperOption | TyperArgument
 
 
 class PlainCommand(TyperCommand):
     """A verb whose options take plain words."""
 
-    def get_params(self, ctx: Context) -> list[Any]:
+    def get_params(self, ctx: Context) -> list[Any]:  # type: ignore[override]  # not public
         return [_plainly(one) for one in super().get_params(ctx)]
 
 
 class PlainGroup(TyperGroup):
     """The command of verbs whose options take plain words."""
 
-    def get_params(self, ctx: Context) -> list[Any]:
+    def get_params(self, ctx: Context) -> list[Any]:  # type: ignore[override]  # not public
         return [_plainly(one) for one in super().get_params(ctx)]
 
 
-def _plainly(parameter: _Parameter) -> _Parameter:
+def _plainly(parameter: T) -> T:
     """The parameter, which now looks at a word before typer does."""
     typed = getattr(parameter, "type_descriptor", None)
-    if typed is not None and "process_value" not in vars(parameter):
+    own = vars(parameter)
+    if (
+        isinstance(parameter, TyperOption | TyperArgument)
+        and typed is not None
+        and "process_value" not in own
+    ):
         read = partial(_read, parameter, typed.annotation, typed.parameter_info)
-        parameter.process_value = partial(_processed, parameter, parameter.process_value, read)
+        own["process_value"] = partial(_processed, parameter, parameter.process_value, read)
     return parameter
 
 
 def _processed(
-    parameter: _Parameter,
-    whole: Callable[[Context, object], object],
+    parameter: Parameter,
+    whole: Callable[..., object],
     read: Callable[[object], object],
     ctx: Context,
     value: object,
@@ -71,7 +66,7 @@ def _processed(
     return found if parameter.callback is None else parameter.callback(ctx, parameter, found)
 
 
-def _read(parameter: _Parameter, annotation: object, info: ParameterInfo, value: object) -> object:
+def _read(parameter: Parameter, annotation: object, info: ParameterInfo, value: object) -> object:
     several = parameter.multiple or parameter.nargs == -1
     if parameter.required and parameter.value_is_missing(value):
         return _NOT_PLAIN

@@ -132,7 +132,7 @@ def _syntax(fault: Any, text: str, shown: str, at: Span | None) -> Diagnostic:
     context = getattr(fault, "context", None)
     began = getattr(fault, "context_mark", None)
     opened = text[began.index : began.index + 1] if began else ""
-    if opened in _CLOSE and mark.line > began.line:
+    if mark and began and opened in _CLOSE and mark.line > began.line:
         return error(
             "RG003",
             at or Span(shown, began.line + 1, began.column + 1),

@@ -1,5 +1,6 @@
 """Words that are read without pydantic become what typer makes of them."""
 
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -28,7 +29,7 @@ SAID = [
 ]  # fmt: skip
 
 
-def made(cls, words):
+def made(words, cls=None):
     """What a verb gets from the words, or how it is refused."""
     found = []
     app = typer.Typer()
@@ -57,7 +58,7 @@ def made(cls, words):
 
 @pytest.mark.parametrize("words", SAID, ids=" ".join)
 def test_words_become_what_typer_makes_of_them(words):
-    assert made(PlainCommand, words) == made(None, words)
+    assert made(words, PlainCommand) == made(words)
 
 
 def test_a_plain_word_is_taken_and_another_is_left_to_typer():
@@ -72,7 +73,12 @@ def test_a_run_does_not_load_pydantic(tmp_path):
     script = (
         "import sys, rapidgen.cli.app as app\n"
         f"assert app.main(['run', {str(program)!r}]) == 0\n"
-        "print(sorted({'pydantic', 'jinja2', 'asyncio', 'ruamel', 'rich'} & set(sys.modules)))"
+        "print(sorted({'pydantic', 'jinja2', 'asyncio', 'ruamel.yaml', 'rich'} & set(sys.modules)))"
     )
-    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
+    # The first run keeps the checked model of the robot beside the code, as Python its bytecode.
+    free = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
+    for _ in range(2):
+        done = subprocess.run(
+            [sys.executable, "-c", script], capture_output=True, text=True, env=free
+        )
     assert done.stdout == "hello\n[]\n", done.stderr
