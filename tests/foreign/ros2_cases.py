@@ -352,6 +352,7 @@ def many_goals(cell, found):
         ends[key] = ends.get(key, 0) + 1
         if status != (ABORTED if kind == 3 else SUCCEEDED):
             found.must(False, f"goal {number}: {key}: {text}")
+            here = cell.sim.positions()[0]
     grown.append(cell.memory())
     took = (time.monotonic() - begin) / count * 1e3
     found.must(True, f"{ends}, {took:.0f} ms a goal")
