@@ -186,7 +186,7 @@ rws-requests: $(STAMP) ## 1 min: 100,000 hostile requests to the face, a good cl
 	$(BIN)/python -m tests.faces.rws.campaign requests 100000
 
 rws-cuts: $(STAMP) ## 1 h: deployments over the web services cut at every request, before and after it was done
-	RAPIDGEN_LONG=1 $(BIN)/python -m pytest -n 2 -q -s --timeout 0 tests/deploy/rws/test_cuts.py
+	RAPIDGEN_LONG=1 $(BIN)/python -m pytest -n 2 -v --timeout 0 tests/deploy/rws/test_cuts.py
 
 endurance: $(STAMP) ## 2 min: memory of an idle driver that is watched for ten simulated hours
 	$(BIN)/python benchmarks/endurance.py
