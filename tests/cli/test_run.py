@@ -219,3 +219,12 @@ def test_a_configuration_is_not_taken(tmp_path, monkeypatch, capsys, name):
     (tmp_path / "cell.yaml").write_text("model: irb120\n")
     assert main(["run", name]) == 2
     assert f"rapidgen sim {name}" in capsys.readouterr().err
+
+
+def test_a_module_that_is_there_twice_is_refused_even_unchecked(capsys, tmp_path: Path) -> None:
+    text = "MODULE m\n PROC main()\n  aux;\n ENDPROC\n PROC aux()\n ENDPROC\nENDMODULE\n"
+    for name in ("a.mod", "b.mod"):
+        (tmp_path / name).write_text(text)
+    code, out, err = run(capsys, tmp_path / "a.mod", tmp_path / "b.mod", "--no-check")
+    assert (code, out) == (1, [])
+    assert "module 'm' is twice in this task" in err

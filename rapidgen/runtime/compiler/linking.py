@@ -7,7 +7,7 @@ classes are common to all tasks.
 from collections import Counter
 from math import prod
 
-from rapidgen.diagnostics import Diagnostic, Severity, error
+from rapidgen.diagnostics import Diagnostic, Severity, error, refusal
 from rapidgen.rapid.binding.names import (
     ModuleScope,
     Scope,
@@ -114,7 +114,16 @@ class Linker:
     # -- modules ---------------------------------------------------------------------------------
 
     def add(self, tree: n.Module, file: ModuleFile) -> LoadedModule:
-        """Make the names of a module known."""
+        """Make the names of a module known. DiagnosticError RG305: one of its name is there."""
+        if tree.name.lower() in self.modules:
+            at = tree.source.span(tree.first, tree.first)
+            raise refusal(
+                "RG305",
+                at,
+                f"module '{tree.name}' is twice in this task",
+                "load one of them",
+                exit_code=1,
+            )
         self._modules += 1
         scope = self.names.add(tree, installed=file.installed or file.shared)
         module = self._loaded[scope] = LoadedModule(self._modules, tree, file, scope)
