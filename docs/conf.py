@@ -65,7 +65,8 @@ class RapidLexer(RegexLexer):
 def write_codes(app: Sphinx) -> None:
     """What `rapidgen explain` says becomes a page of the site."""
     chapters = (
-        f"```{{index}} single: {code}\n```\n\n" + re.sub(r"^#", "##", page(code), flags=re.MULTILINE)
+        f"```{{index}} single: {code}\n```\n\n"
+        + re.sub(r"^#", "##", page(code), flags=re.MULTILINE)
         for code in codes()
     )
     text = "# Diagnostics\n\nWhat `rapidgen explain CODE` says.\n\n" + "\n".join(chapters)
