@@ -184,6 +184,9 @@ rws-requests: $(STAMP) ## 1 min: 100,000 hostile requests to the face, a good cl
 rws-cuts: $(STAMP) ## 1 h: deployments over the web services cut at every request, before and after it was done
 	RAPIDGEN_LONG=1 $(BIN)/python -m pytest -n 2 -q -s tests/deploy/rws/test_cuts.py
 
+two-workers: $(STAMP) ## 5 min: what a second worker of a campaign is worth, beside two processes of their own
+	$(BIN)/python benchmarks/two_workers.py
+
 image: $(STAMP) ## 5 min: the container image, built and tried by docker or podman
 	.ci/image
 
