@@ -73,9 +73,11 @@ $(WHEEL)/env/.made: pyproject.toml $(STAMP) $(PAGE)
 driver-hours: $(STAMP)
 	time $(BIN)/python benchmarks/campaign.py days --hours 4 --watched 0.25
 
-# The documentation as a site: build/site/index.html. A warning is an error, a link into nothing is one.
+# The documentation as a site: build/site/index.html. A warning is an error, a link into nothing is one,
+# and so is a question of docs/start/questions.md that the site's search does not find.
 site: $(STAMP)
 	time $(BIN)/python -m sphinx --fail-on-warning --quiet -d build/site-pages docs build/site
+	$(BIN)/python -m tests.docs.findable build/site
 
 # Workflows, image and changelog: what only a release uses. `.ci/release` makes one in dist/.
 release-lint: $(STAMP)
