@@ -140,13 +140,17 @@ program-mutants: $(STAMP) ## 15 min: the same for the modules of motion programs
 	$(BIN)/python benchmarks/mutation.py --jobs 2 --budget 8 --output build/program-mutation.jsonl --themes programs "own routines" "own data" speed --only ROS_programs ROS_execution ROS_data -- benchmarks/cell.yaml
 
 program-campaign: $(STAMP) ## 5 min: random motion programs beside the same ones written in RAPID
-	$(BIN)/python benchmarks/program_campaign.py
+	for robot in irb120 irb2400 irb460 irb910sc; do \
+		$(BIN)/rapidgen test $$robot --case program-like-rapid --quick --seeds 0 --programs 20 || exit 1; done
 
 motion-campaign: $(STAMP) ## 10 min: 10,000 random programs with random stops
 	$(BIN)/python -m tests.motion.campaign
 
 reach: $(STAMP) ## 3 min: 10,000 poses of every shipped model, by formula or search
 	$(BIN)/python benchmarks/reach.py
+
+two-workers: $(STAMP) ## 2 min: what a second worker is worth to a campaign
+	$(BIN)/python benchmarks/two_workers.py
 
 exploration: $(STAMP) ## 1 min: schedules until known defects of drivers are found
 	$(BIN)/python benchmarks/exploration.py --jobs 2
@@ -184,7 +188,7 @@ rws-requests: $(STAMP) ## 1 min: 100,000 hostile requests to the face, a good cl
 	$(BIN)/python -m tests.faces.rws.campaign requests 100000
 
 rws-cuts: $(STAMP) ## 1 h: deployments over the web services cut at every request, before and after it was done
-	RAPIDGEN_LONG=1 $(BIN)/python -m pytest -n 2 -q -s tests/deploy/rws/test_cuts.py
+	RAPIDGEN_LONG=1 $(BIN)/python -m pytest -n 2 -q -s --timeout 0 tests/deploy/rws/test_cuts.py
 
 two-workers: $(STAMP) ## 5 min: what a second worker of a campaign is worth, beside two processes of their own
 	$(BIN)/python benchmarks/two_workers.py

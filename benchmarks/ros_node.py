@@ -10,6 +10,7 @@ import argparse
 import asyncio
 import os
 import re
+import signal
 import subprocess
 import sys
 import time
@@ -84,6 +85,8 @@ def main() -> int:
     asked = parser.parse_args()
     if asked.bare:
         asyncio.run(bare(asked.bare))
+    # Broken off, it ends what it has started.
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
     program = str(Path(sys.executable).with_name("rapidgen"))
     sim = subprocess.Popen(
         [program, "sim", "irb120", "--ports", "auto"], stdout=subprocess.PIPE, text=True
@@ -95,15 +98,18 @@ def main() -> int:
             "bare": [sys.executable, __file__, "--bare", address],
             "node": [sys.executable, *node, f"address:={address}"],
         }
-        rclpy.init()
+        rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
         found = {name: ([], []) for name in commands}
         for _ in range(asked.rounds):
             for name, command in commands.items():
                 late, share = heard(command, asked.seconds)
                 found[name][0].append(np.quantile(late, 0.99))
                 found[name][1].append(share)
+    except KeyboardInterrupt:
+        return 130
     finally:
         sim.terminate()
+        rclpy.try_shutdown()
     late, share = ({name: np.median(one[i]) for name, one in found.items()} for i in (0, 1))
     for name in commands:
         print(f"{name}: p99 {late[name]:.2f} ms, {share[name]:.1f} % of a core")

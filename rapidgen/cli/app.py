@@ -19,6 +19,7 @@ from typer.exceptions import TyperException
 
 from rapidgen import __version__, _extras
 from rapidgen.cli.loudness import set_up
+from rapidgen.cli.plain_values import PlainCommand, PlainGroup
 from rapidgen.cli.terminal import use_colour
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, as_data, error, render
 
@@ -77,8 +78,6 @@ _OPTIONAL_VALUES = {"--profile": "--profile=-"}
 
 def run(arguments: list[str] | None = None) -> None:
     """Entry point: run one verb and leave with its exit code."""
-    # Imports make tens of thousands of objects that live on: collecting them is a tenth of a build.
-    gc.set_threshold(50_000, 20, 50)
     words = sys.argv[1:] if arguments is None else arguments
     _prepare_streams()
     try:
@@ -86,6 +85,8 @@ def run(arguments: list[str] | None = None) -> None:
     except BrokenPipeError:
         # While it said what was wrong: that reader has gone, too.
         code = _unheard()
+    # Python would look through all that is left for rings before it ends.
+    gc.freeze()
     sys.exit(code)
 
 
@@ -150,6 +151,7 @@ def _app(words: list[str]) -> typer.Typer:
     completing = "_RAPIDGEN_COMPLETE" in os.environ
     app = typer.Typer(
         name="rapidgen",
+        cls=PlainGroup,
         help="RAPID drivers for ABB robots: generate, run, deploy, drive.",
         rich_markup_mode=None,
         pretty_exceptions_enable=False,
@@ -158,7 +160,9 @@ def _app(words: list[str]) -> typer.Typer:
     app.callback()(_root)
     for verb, sentence in VERBS.items():
         whole = completing or verb == wanted
-        app.command(verb)(_interruptible(function(verb)) if whole else _named(sentence))
+        app.command(verb, cls=PlainCommand)(
+            _interruptible(function(verb)) if whole else _named(sentence)
+        )
     return app
 
 

@@ -1,10 +1,13 @@
 """Where the `rapidgen` command begins: a STOP goes out before anything heavy is imported."""
 
+import gc
 import sys
 
 
 def run() -> None:
     """Run one verb and leave with its exit code."""
+    # Imports make tens of thousands of objects that live on: collecting them is a tenth of a build.
+    gc.set_threshold(200_000, 20, 50)
     words = sys.argv[1:]
     if words[:1] == ["stop"]:
         from rapidgen.cli.quick_stop import send

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from rapidgen.controller.booting import Bootable
     from rapidgen.controller.cabinet import Cabinet
     from rapidgen.controller.controller import VirtualController
+    from rapidgen.view.appearance import Appearance
 
 
 def sim(
@@ -131,6 +132,7 @@ def sim(
     denied = _denied(rws_deny or ())
     if ports is None and found.driver:
         _check_ports(found, host, port_offset)
+    look = _look(found) if view or record is not None else None
     with Cabinet.boot(
         found,
         clock="real",
@@ -148,8 +150,8 @@ def sim(
         with (
             _control(cabinet) as control,
             _faces(cabinet, host, ftp, sftp, (rws, rws_port, not rws_lenient, denied)) as faces,
-            _page(cabinet, found, host, view_port if view else None) as page,
-            _recording(cabinet, record, watch or ()),
+            _page(cabinet, look if view else None, host, view_port) as page,
+            _recording(cabinet, look, record, watch or ()),
             observing(cabinet, wanted),
         ):
             return _serve(cabinet, found, host, speed, {"control": control, **faces, **page})
@@ -306,24 +308,30 @@ def _faces(
         yield told
 
 
+def _look(target: "Bootable") -> "Appearance":
+    """What the robots look like; what of it cannot be drawn is told."""
+    from rapidgen.view.appearance import appearance
+
+    look = appearance(target.groups, target.described, target.overrides, target.cell)
+    for fault in look.faults:
+        typer.echo(f"not drawn as described: {letters(fault)}", err=True)
+    return look
+
+
 @contextmanager
 def _page(
-    cabinet: "Cabinet", target: "Bootable", host: str, port: int | None
+    cabinet: "Cabinet", look: "Appearance | None", host: str, port: int
 ) -> "Iterator[Members]":
     """The page that shows the robot; what `ready` tells of it.
 
     Raises DiagnosticError RG920, RG921.
     """
-    if port is None:
+    if look is None:
         yield {}
         return
-    from rapidgen.view.appearance import appearance
     from rapidgen.view.server import serve_page
     from rapidgen.view.simulator.simulation import Simulation
 
-    look = appearance(target.groups, target.described, target.overrides, target.cell)
-    for fault in look.faults:
-        typer.echo(f"not drawn as described: {letters(fault)}", err=True)
     page = serve_page(Simulation(cabinet, look), host, port, look.files)
     cabinet.on_boot.append(page.renew)
     try:
@@ -333,27 +341,33 @@ def _page(
 
 
 @contextmanager
-def _recording(cabinet: "Cabinet", path: Path | None, watches: "Iterable[str]") -> "Iterator[None]":
+def _recording(
+    cabinet: "Cabinet", look: "Appearance | None", path: Path | None, watches: "Iterable[str]"
+) -> "Iterator[None]":
     """A recording while it runs, another one after each restart. Raises OSError."""
     pairs = [(task, text) for task, _, text in (watch.partition(":") for watch in watches)]
     for task, text in pairs:
         if not text or task not in cabinet.controller.rapid_tasks:
             known = ", ".join(cabinet.controller.rapid_tasks)
             raise typer.BadParameter(f"--watch takes TASK:EXPRESSION; tasks are {known}")
-    if path is None:
+    if path is None or look is None:
         if pairs:
             raise typer.BadParameter("--watch is for --record")
         yield
         return
+    from rapidgen.view.recording.looks import carried
     from rapidgen.view.recording.writer import record
 
+    kept = carried(look)
+    for fault in kept.faults[len(look.faults) :]:
+        typer.echo(f"not recorded as described: {letters(fault)}", err=True)
     serial = 1
-    end = record(cabinet.controller, path, pairs)
+    end = record(cabinet.controller, path, pairs, kept)
 
     def again() -> None:
         nonlocal end, serial
         serial += 1
-        end = record(cabinet.controller, path.with_stem(f"{path.stem}-{serial}"), pairs)
+        end = record(cabinet.controller, path.with_stem(f"{path.stem}-{serial}"), pairs, kept)
 
     def stop() -> None:
         end()

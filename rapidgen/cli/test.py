@@ -14,7 +14,9 @@ from rapidgen.diagnostics import DiagnosticError, error, refusal, suggest
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from rapidgen.config.layers import Overrides
     from rapidgen.config.model import RobotConfig
+    from rapidgen.controller.controller import VirtualController
     from rapidgen.proving.model import Proof
     from rapidgen.proving.run import DriverUnderTest
     from rapidgen.proving.workers import Workers
@@ -117,7 +119,8 @@ def test(
     if list_cases:
         return _list(as_json)
     if replay is not None:
-        return _replay(model, replay, trace, record)
+        begin = _recorder(model, Path(config), overrides or (), record) if record else None
+        return _replay(model, replay, trace, begin)
     _check_names(case or [])
     assuming = [text for given in assume or () for text in given.split(",")]
     assumed(assuming)
@@ -312,15 +315,29 @@ def _show(report: "Proof", uncovered: bool, durations: int, command: str) -> Non
     )
 
 
-def _replay(config: "RobotConfig", name: str, trace: Path | None, recording: Path | None) -> int:
-    from rapidgen.proving.model import is_program, title
-    from rapidgen.proving.run import replay
+def _recorder(
+    config: "RobotConfig", file: Path, overrides: "Overrides", path: Path
+) -> "Callable[[VirtualController], Callable[[], None]]":
+    """What begins a recording into a file, with what the robots look like."""
+    from rapidgen.view.appearance import appearance
     from rapidgen.view.recording.writer import record
 
+    _check_writable(path)
+    described = {group.name: file for group in config.groups} if file.is_file() else {}
+    return partial(record, path=path, look=appearance(config.groups, described, overrides))
+
+
+def _replay(
+    config: "RobotConfig",
+    name: str,
+    trace: Path | None,
+    begin: "Callable[[VirtualController], Callable[[], None]] | None",
+) -> int:
+    from rapidgen.proving.model import is_program, title
+    from rapidgen.proving.run import replay
+
     _check_writable(trace)
-    _check_writable(recording)
     with trace.open("w", encoding="utf-8") if trace else nullcontext() as story:
-        begin = partial(record, path=recording) if recording else None
         explored = replay(config, name, story, begin)
     typer.echo(explored.plan)
     if explored.finding is None:

@@ -67,7 +67,7 @@ def view(
 
         recording = stack.enter_context(RecordingFile(Path(target)))
         if csv is None:
-            return _serve(RecordingSubject(recording), host, port)
+            return _serve(RecordingSubject(recording), host, port, recording.look.files)
         try:
             recording.write_csv(csv, robot)
         except KeyError as error:
@@ -84,9 +84,7 @@ def _is_recording(target: str) -> bool:
     )
 
 
-def _serve(
-    viewed: "Viewed", host: str, port: int, files: "Mapping[str, bytes] | None" = None
-) -> int:
+def _serve(viewed: "Viewed", host: str, port: int, files: "Mapping[str, bytes]") -> int:
     """Serve the page until a signal comes; the exit code."""
     import json
     import signal
@@ -97,7 +95,7 @@ def _serve(
     ended = threading.Event()
     before = {s: signal.signal(s, lambda *_: ended.set()) for s in (signal.SIGINT, signal.SIGTERM)}
     try:
-        page = serve_page(viewed, host, port, files or {})
+        page = serve_page(viewed, host, port, files)
         try:
             typer.echo(f"ready {json.dumps({'view': page.url})}")
             ended.wait()

@@ -9,7 +9,7 @@ work object. `robot.check_program` and `robot.run` say whether a robot can do it
 from collections.abc import Mapping, Sequence
 from dataclasses import astuple, dataclass
 from math import radians
-from typing import TypeAlias, TypedDict
+from typing import SupportsFloat, TypeAlias, TypedDict
 
 from rapidgen.axes.frames import Pose
 from rapidgen.axes.kinematics import AxisConfiguration
@@ -19,6 +19,22 @@ from rapidgen.python310 import Self, Unpack
 from rapidgen.wire.simple_message.spec import Instruction, MarkPlace
 
 _MM = 0.001
+# What a number is, and what it has to be.
+_SPEED = "speed", "m/s of the TCP, or a Speed with all parts: m/s and rad/s"
+_LEVEL = "value of a signal", "0 or 1, or a group's or an analog signal's number"
+_TIME = "time", "seconds, such as 1.5"
+_LENGTH = "length of a pulse", "m, such as 0.01"
+
+
+def _malformed(message: str, mend: str) -> InvalidProgram:
+    return InvalidProgram.because("RG670", message, mend, exit_code=2)
+
+
+def _number(value: object, what: str, mend: str) -> float:
+    """A plain number. Raises InvalidProgram for anything else, texts of numbers too."""
+    if isinstance(value, SupportsFloat):
+        return float(value)
+    raise _malformed(f"{value!r} is no {what}", mend)
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,6 +46,10 @@ class Speed:
     orientation: float = radians(500)
     linear: float = 5.0
     rotary: float = radians(1000)
+
+    def __post_init__(self) -> None:
+        for value in astuple(self):
+            _number(value, *_SPEED)
 
     @property
     def words(self) -> tuple[float, ...]:
@@ -49,6 +69,10 @@ class Zone:
     linear: float = 0.0
     rotary: float = 0.0
     stops: bool = False
+
+    def __post_init__(self) -> None:
+        for value in astuple(self):
+            _number(value, "radius", "m and rad; `Zone.of(m)` has all that belongs to a radius")
 
     @classmethod
     def of(cls, radius: float) -> "Zone":
@@ -147,6 +171,10 @@ class Trigger:
     kind: MarkPlace
     place: float
 
+    def __post_init__(self) -> None:
+        _number(self.place, "place on a way", "m or s, such as 0.02")
+        _number(self.value, *_LEVEL)
+
     @classmethod
     def after(cls, metres: float, signal: str, value: float = 1.0) -> "Trigger":
         """So many m behind the beginning of the move."""
@@ -165,7 +193,8 @@ class Trigger:
 
 def pulse(signal: str, after: float, length: float) -> tuple[Trigger, Trigger]:
     """A signal that is 1 from `after` m behind the beginning of a move for `length` m."""
-    return Trigger.after(after, signal), Trigger.after(after + length, signal, 0.0)
+    on = Trigger.after(after, signal)
+    return on, Trigger.after(on.place + _number(length, *_LENGTH), signal, 0.0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -309,19 +338,22 @@ class Program:
 
     def wait(self, seconds: float) -> Self:
         """Stand for so long. The move before it ends in a stop point."""
-        return self._add(Instruction.WAIT, seconds=float(seconds))
+        return self._add(Instruction.WAIT, seconds=_number(seconds, *_TIME))
 
     def wait_for(self, signal: str, value: float = 1.0, *, timeout: float) -> Self:
         """Stand until a signal that the configuration exposes has a value; when it has not within
         `timeout` s the program has failed. The move before it ends in a stop point."""
         return self._add(
-            Instruction.WAIT_SIGNAL, signal=signal, value=float(value), seconds=float(timeout)
+            Instruction.WAIT_SIGNAL,
+            signal=signal,
+            value=_number(value, *_LEVEL),
+            seconds=_number(timeout, *_TIME),
         )
 
     def set(self, signal: str, value: float = 1.0) -> Self:
         """Set a signal, standing. The move before it ends in a stop point; `triggers` of a move set
         signals on its way."""
-        return self._add(Instruction.SET, signal=signal, value=float(value))
+        return self._add(Instruction.SET, signal=signal, value=_number(value, *_LEVEL))
 
     def call(self, routine: str, *arguments: Argument, timeout: float = 0.0) -> Self:
         """Call a procedure of the controller's program, by its name in the configuration, with a
@@ -330,7 +362,10 @@ class Program:
         to move. What it raises ends the program; a STOP leaves it, wherever it is, and so does the
         controller after `timeout` s (0: never)."""
         return self._add(
-            Instruction.CALL, routine=routine, arguments=arguments, seconds=float(timeout)
+            Instruction.CALL,
+            routine=routine,
+            arguments=arguments,
+            seconds=_number(timeout, *_TIME),
         )
 
     def _hold(self, speed: SpeedLike | None, zone: ZoneLike | None) -> None:
@@ -372,23 +407,21 @@ class Program:
 
 
 def speed_of(speed: SpeedLike) -> Speed:
-    """All parts of a speed."""
-    return speed if isinstance(speed, Speed) else Speed(float(speed))
+    """All parts of a speed. Raises InvalidProgram for something that is none."""
+    return speed if isinstance(speed, Speed) else Speed(_number(speed, *_SPEED))
 
 
 def zone_of(zone: ZoneLike) -> Zone:
-    """All parts of a zone. Raises InvalidProgram for a name that is none."""
+    """All parts of a zone. Raises InvalidProgram for a name that is none, and for what is none."""
     if isinstance(zone, Zone):
         return zone
     if not isinstance(zone, str):
-        return Zone.of(float(zone))
+        return Zone.of(_number(zone, "zone", "m, a Zone, or a name such as z10"))
     if zone not in ZONES:
         names = list(ZONES)
-        raise InvalidProgram.because(
-            "RG670",
+        raise _malformed(
             f"there is no zone '{zone}'",
             suggest(zone, names) or f"m, or one of {', '.join(names)}",
-            exit_code=2,
         )
     return ZONES[zone]
 
@@ -398,12 +431,8 @@ def _joints_of(joints: Sequence[float]) -> tuple[float, ...]:
     try:
         return tuple(map(float, joints))
     except (TypeError, ValueError) as error:
-        raise InvalidProgram.because(
-            "RG670",
-            f"{joints!r} are no joints",
-            "joints are numbers in rad and m, one for each, such as [0, 0.1, 0, 0, 0.5, 0]",
-            exit_code=2,
-        ) from error
+        mend = "joints are numbers in rad and m, one for each, such as [0, 0.1, 0, 0, 0.5, 0]"
+        raise _malformed(f"{joints!r} are no joints", mend) from error
 
 
 def pose_of(pose: Pose) -> Pose:
@@ -412,9 +441,5 @@ def pose_of(pose: Pose) -> Pose:
         (x, y, z), (w, a, b, c) = pose
         return (float(x), float(y), float(z)), (float(w), float(a), float(b), float(c))
     except (TypeError, ValueError) as error:
-        raise InvalidProgram.because(
-            "RG670",
-            f"{pose!r} is no pose",
-            "a pose is ((x, y, z), (w, x, y, z)): m, and a unit quaternion with the scalar first",
-            exit_code=2,
-        ) from error
+        mend = "a pose is ((x, y, z), (w, x, y, z)): m, and a unit quaternion with the scalar first"
+        raise _malformed(f"{pose!r} is no pose", mend) from error

@@ -21,7 +21,7 @@ from rapidgen.client.core.checks import Way
 from rapidgen.client.core.group import Group
 from rapidgen.client.core.job import Job
 from rapidgen.client.core.robot import Core, Timeouts
-from rapidgen.client.core.state import Driver, Event, Progress, State
+from rapidgen.client.core.state import Driver, Event, Feedback, Progress, State
 from rapidgen.client.flows.effects import Flow
 from rapidgen.client.methods import Method, method
 from rapidgen.client.program import Program, pose_of
@@ -286,6 +286,12 @@ class RobotSurface(Generic[C_co, Execution, Stream, Run]):
         if state is None:
             raise self._core.disconnected()
         return state
+
+    @property
+    def feedback(self) -> Feedback | None:
+        """The newest feedback, None before the first and where nobody sends them."""
+        with self._carrier.guard:
+            return self._core.state_port.feedback
 
     @property
     def events(self) -> tuple[Event, ...]:

@@ -1,9 +1,16 @@
 """The models, found by name: `robots/*.yaml`, and the known variants that are known enough."""
 
+from collections.abc import Iterable
+from difflib import SequenceMatcher
+from itertools import takewhile
 from pathlib import Path
+from typing import Final
 
 from rapidgen._data import data_folder
 from rapidgen.diagnostics import Span, refusal, suggest
+
+_ALIKE: Final = 0.5
+"""Of the letters before a robot's figures."""
 
 
 def shipped_names() -> tuple[str, ...]:
@@ -32,7 +39,7 @@ def find_shipped(name: str, span: Span | None = None) -> Path:
             "`rapidgen new --urdf` with a description of it takes what is known and leaves the "
             "rest open",
         )
-    meant = suggest(name, (*known, *variant_model.names()))
+    meant = suggest(name, _alike(name, (*known, *variant_model.names())))
     raise refusal(
         "RG009",
         span,
@@ -40,6 +47,20 @@ def find_shipped(name: str, span: Span | None = None) -> Path:
         (f"{meant}; " if meant else "") + "`rapidgen robots` lists them; "
         "for a file of your own write its path with the suffix .yaml",
     )
+
+
+def _alike(name: str, known: Iterable[str]) -> list[str]:
+    """Those that `name` may be a slip of: another maker's robot has other letters, like figures."""
+    letters = _letters(name)
+    return [
+        one
+        for one in known
+        if not letters or SequenceMatcher(None, letters, _letters(one)).ratio() > _ALIKE
+    ]
+
+
+def _letters(name: str) -> str:
+    return "".join(takewhile(str.isalpha, name.casefold()))
 
 
 def is_path(text: str) -> bool:

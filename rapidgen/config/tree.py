@@ -9,7 +9,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Final
 
 from rapidgen._json import Json
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, Span, error, refusal
@@ -106,6 +106,9 @@ def decode(data: bytes, shown: str) -> str:
         ) from None
 
 
+_CLOSE: Final = {"{": "}", "[": "]", '"': '"', "'": "'"}
+
+
 def parse(text: str, shown: str, *, at: Span | None = None) -> tuple[Node, list[Diagnostic]]:
     """The tree of one YAML document and the faults that do not hinder it (duplicate keys).
 
@@ -118,15 +121,25 @@ def parse(text: str, shown: str, *, at: Span | None = None) -> tuple[Node, list[
     try:
         return _Builder(YAML(typ="safe", pure=True).parse(text), shown, at).document()
     except YAMLError as fault:
-        raise DiagnosticError(_syntax(fault, shown, at)) from None
+        raise DiagnosticError(_syntax(fault, text, shown, at)) from None
     except (ValueError, OverflowError) as fault:  # an escape that ruamel does not check
         raise refusal("RG003", at or Span(shown, 1, 1), f"not YAML: {fault}") from None
 
 
-def _syntax(fault: Any, shown: str, at: Span | None) -> Diagnostic:
+def _syntax(fault: Any, text: str, shown: str, at: Span | None) -> Diagnostic:
     mark = getattr(fault, "problem_mark", None) or getattr(fault, "context_mark", None)
     problem = getattr(fault, "problem", None) or getattr(fault, "reason", None) or "not YAML"
     context = getattr(fault, "context", None)
+    began = getattr(fault, "context_mark", None)
+    opened = text[began.index : began.index + 1] if began else ""
+    if mark and began and opened in _CLOSE and mark.line > began.line:
+        return error(
+            "RG003",
+            at or Span(shown, began.line + 1, began.column + 1),
+            f"not YAML: `{opened}` is opened here and not closed",
+            f"close it with `{_CLOSE[opened]}`, or see what is wrong in line {mark.line + 1}: "
+            f"{problem}",
+        )
     span = at or (Span(shown, mark.line + 1, mark.column + 1) if mark else Span(shown, 1, 1))
     return error(
         "RG003",

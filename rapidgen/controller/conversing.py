@@ -9,7 +9,7 @@ answers any more, and the program waits as before. What it sends is taken and no
 
 import re
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
 from typing import TYPE_CHECKING, Final, Protocol
 
@@ -20,6 +20,7 @@ from rapidgen.machine.scheduler import S, Scheduler
 from rapidgen.rapid.binding import ModuleScope, Scope, constant
 from rapidgen.rapid.binding.expressions import declared_type, type_of
 from rapidgen.rapid.syntax import nodes as n
+from rapidgen.rapid.syntax.walk import walk
 
 if TYPE_CHECKING:
     from rapidgen.controller.answering import Said
@@ -27,9 +28,10 @@ if TYPE_CHECKING:
 _THOUGHT: Final = 0.5
 """Seconds that a program waits."""
 _WAYS: Final = 3
-_MOST: Final = 60
+_MOST: Final = 100
 _NUMBERS: Final = "1", "2", "3", "100", "0", "0", "0", "1", "0", "0"
 """What follows a word or a number: more values than most take."""
+_OTHERS: Final = "0", "0", *"1" * 8
 _VALUES: Mapping[str, str] = {
     "num": "1",
     "dnum": "1",
@@ -42,6 +44,9 @@ _LAST: Final = re.compile("exit|quit|close|stop|end|bye", re.I)
 """Words that may end a conversation are said behind the others."""
 _SEARCHING: Final = frozenset(("strfind", "strmatch", "strmemb"))
 _COMPARING: Final = frozenset(("=", "<>"))
+_NUMBER: Final = re.compile(r"-?[0-9.]+(?:e[-+]?[0-9]+)?", re.I)
+_LONGEST: Final = 20
+"""Values behind a number."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,19 +61,38 @@ class Heard:
     separators: tuple[str, ...] = ()
     values: tuple[str, ...] = ()
     """Whole values in a text."""
+    sized: tuple[tuple[int, int], ...] = ()
+    """Numbers, and how many values behind each: what else its own branch compares with a number."""
+    stands: Mapping[str, str] = field(default_factory=dict)
 
     def messages(self) -> list[bytes]:
         """What is said, in turn."""
         marks = self.separators or (" ",)
         tail = "".join(self.separators)
         texts = []
-        for first in (*map(str, self.numbers), *self.beginnings):
+        for code, count in self.sized:
+            for mark in marks[:_WAYS]:
+                end = "".join(one for one in self.separators if one != mark)
+                for behind in dict.fromkeys(self._behind(count)):
+                    texts.append(mark.join((str(code), *behind)) + mark + end)
+        sized = {code for code, _ in self.sized}
+        others = (str(number) for number in self.numbers if number not in sized)
+        for first in (*others, *self.beginnings):
             texts += [mark.join((first, *_NUMBERS)) + mark + tail for mark in marks[:_WAYS]]
         whole = (*map(str, self.numbers), *self.words)
         texts += sorted(whole, key=lambda word: _LAST.search(word) is not None)
         said = [text.encode("latin-1", "replace") for text in (*self.values, *texts)]
         said += [number.to_bytes(4, "little") + bytes(8) for number in self.numbers if number >= 0]
         return (said[:_MOST] or [b"1"]) * 2
+
+    def _behind(self, count: int) -> Iterator[tuple[str, ...]]:
+        """So many numbers: a position, a turn, axes or a target, of where the robot stands; of
+        others nobody knows what they are."""
+        kind = {3: "pos", 4: "orient", 6: "jointtarget", 7: "robtarget"}.get(count, "")
+        known = _NUMBER.findall({**_VALUES, **self.stands}.get(kind, ""))
+        told = tuple(f"{float(number):g}" for number in known)
+        for numbers in (_NUMBERS, _OTHERS):
+            yield (*told, *numbers, *"0" * count)[:count]
 
 
 def heard(modules: Iterable[ModuleScope], stands: Mapping[str, str]) -> Heard:
@@ -78,6 +102,7 @@ def heard(modules: Iterable[ModuleScope], stands: Mapping[str, str]) -> Heard:
     received = {name for scope in scopes for name in _received(scope)}
     words, parts = dict[str, None](), dict[str, None]()
     marks, values, numbers = dict[str, None](), dict[str, None](), dict[int, None]()
+    sized = dict[tuple[int, int], None]()
     for module in scopes:
         for node, scope in scoped(module):
             for whom, one in _compared(node, scope):
@@ -87,6 +112,7 @@ def heard(modules: Iterable[ModuleScope], stands: Mapping[str, str]) -> Heard:
                     (words if whole else marks if mark else parts)[one] = None
                 elif isinstance(one, int) and not isinstance(one, bool):
                     numbers[one] = None
+            sized.update(dict.fromkeys(_sized(node, scope)))
             if isinstance(node, n.FunctionCall):
                 given = [a.value for a in node.arguments if a.value is not None]
                 found = constant(given[-1], scope) if given else None
@@ -96,7 +122,8 @@ def heard(modules: Iterable[ModuleScope], stands: Mapping[str, str]) -> Heard:
                     kind = declared_type(given[1], scope) or ""
                     if kind in known:
                         values[known[kind]] = None
-    return Heard(tuple(words), tuple(parts), tuple(numbers), tuple(marks), tuple(values))
+    heard_of = tuple(words), tuple(parts), tuple(numbers), tuple(marks), tuple(values)
+    return Heard(*heard_of, tuple(sized), stands)
 
 
 def _received(module: ModuleScope) -> Iterator[str]:
@@ -117,6 +144,35 @@ def _compared(node: n.Node, scope: Scope) -> Iterator[tuple[n.Expression, object
     elif isinstance(node, n.Test):
         for case in node.cases:
             yield from ((node.subject, constant(value, scope)) for value in case.values)
+
+
+def _sized(node: n.Node, scope: Scope) -> Iterator[tuple[int, int]]:
+    """Numbers that lead to a branch in which another number is compared, and what with."""
+    match node:
+        case n.Test():
+            ways = [(case.values, case.body) for case in node.cases]
+            subject = node.subject
+        case n.Branch() if isinstance(node.condition, n.Binary) and node.condition.operator == "=":
+            ways, subject = [([node.condition.right], node.body)], node.condition.left
+        case _:
+            return
+    if not isinstance(subject, n.Name):
+        return
+    for values, body in ways:
+        inside = (one for statement in body for one in walk(statement))
+        counts = {
+            count: None
+            for one in inside
+            for what, count in _compared(one, scope)
+            if isinstance(what, n.Name) and what.name.casefold() != subject.name.casefold()
+        }
+        for code in (constant(value, scope) for value in values):
+            if isinstance(code, int | float) and code == int(code):
+                yield from (
+                    (int(code), int(count))
+                    for count in counts
+                    if isinstance(count, int | float) and 0 <= count <= _LONGEST
+                )
 
 
 class Conversing(Protocol):

@@ -11,6 +11,7 @@ from pathlib import Path
 from rapidgen.controller.controller import VirtualController
 from rapidgen.diagnostics import Diagnostic, Severity, error
 from rapidgen.machine.scheduler import WaitSet
+from rapidgen.rapid.syntax.lexer import decode
 from rapidgen.runtime.compiler.missing import missing_routines
 from rapidgen.runtime.compiler.symbols import LoadedModule, Routine
 from rapidgen.runtime.loading import LARGEST_MODULE, module_text
@@ -79,7 +80,7 @@ class Programs:
         if module is not None:
             return module.tree.source.text
         broken = self.broken[task.name].get(name.lower())
-        return None if broken is None else broken.file.data.decode("latin-1")
+        return None if broken is None else decode(broken.file.data)[0]
 
     def load(self, task: Task, path: Path, words: str, *, replaced: bool) -> str:
         """Load a module file into a task; its name. CannotLoad."""

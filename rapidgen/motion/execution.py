@@ -142,13 +142,15 @@ class PathExecution:
             events.corner_failure(self._log, self._name, move)
 
     def stay(self, move: Move) -> Leg | None:
-        """A move to where the path ends: a stop point makes the end a stop, else nothing."""
+        """A move to where the path ends: a stop point makes the end a stop. Its events are due
+        there, all at once (S4 datasys 2-TriggL-3)."""
         tail = self.path.tail
-        if not move.zone.fine:
-            return tail
         if tail is None or tail.finished:
+            for event in move.events:
+                event.act()
             return None
-        tail.committed = True
+        self._events.add_at_end(tail, move.events)
+        tail.committed |= move.zone.fine
         self._rearm()
         return tail
 

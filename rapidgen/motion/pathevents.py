@@ -1,5 +1,6 @@
 """Events on the path that are still to come, and when each of them is due."""
 
+from collections.abc import Iterable
 from math import inf
 
 from rapidgen.motion.legs import Leg
@@ -20,6 +21,10 @@ class PathEvents:
     def add(self, leg: Leg) -> None:
         """The events of a move that is now on the path."""
         self._waiting += [(leg, event) for event in leg.move.events]
+
+    def add_at_end(self, leg: Leg, events: Iterable[PathEvent]) -> None:
+        """Events of a move that goes nowhere, behind a leg."""
+        self._waiting += [(leg, PathEvent(From.END, 0.0, event.act)) for event in events]
 
     def times(self, motion: Motion) -> list[float]:
         """Scheduler s of all that this motion reaches."""

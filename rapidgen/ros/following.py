@@ -21,6 +21,8 @@ from rapidgen.wire.simple_message.spec import Feature, TrajectoryState
 _APPROACH = 0.1
 """Share of the axes' speeds at which a replacing goal's first point is gone to."""
 _GRACE = 1e-9
+_STANDS = 1e-4
+"""rad, m: a robot that is not further away has not begun to move."""
 _LONGER = "plan with a longer sampling period"
 _MENDS = {
     "RG615": "plan with the speeds of joint_limits.yaml as `rapidgen ros2` writes it",
@@ -97,6 +99,8 @@ class Follower:
         self._now = now
         self._note = note
         self._current: UnderWay | None = None
+        self._stood = 0.0
+        """s of `_samples`: when the robot was last seen where the motion under way began."""
 
     @property
     def is_busy(self) -> bool:
@@ -158,8 +162,11 @@ class Follower:
         return await self._until_over(asked, execution, under, tell)
 
     async def _waited(self, start: float, under: UnderWay) -> bool:
-        """Wait for the moment `start` s of ROS time; True when the goal is ended before it."""
-        while (left := start - self._now()) > 0:
+        """Wait for the moment `start` s of ROS time; True when the goal is ended before it.
+
+        Without a link there is nothing to wait for.
+        """
+        while (left := start - self._now()) > 0 and self._robot.is_connected:
             ending = asyncio.ensure_future(under.ending.wait())
             # ROS time may be simulated, at a speed of its own: it is looked at again.
             await asyncio.wait({ending}, timeout=min(left, 0.1))
@@ -180,29 +187,34 @@ class Follower:
         if self._policy.dense == "resample":
             asked = resampled(asked, shortest)
         asked = with_time_to_stop(asked, shortest)
-        if self._policy.replace == "approach":
-            asked = self._approached(asked)
-        return asked
+        return self._from_here(asked)
 
     @property
     def _measures(self) -> bool:
         return Feature.FEEDBACK in self._robot.driver.features
 
-    def _approached(self, asked: JudgedGoal) -> JudgedGoal:
+    def _from_here(self, asked: JudgedGoal) -> JudgedGoal:
+        """With a way from where the robot stands to a first point elsewhere: in the time that the
+        goal has for it, else where the user's policy says so."""
         group, state, trajectory = self._robot.group, self._robot.state, asked.trajectory
         here, first = np.array(state.joints), trajectory.positions[0]
         # Where the controller takes it as it is, nothing is added.
-        if trajectory.times[0] > 0 or (np.abs(here - first) <= group.start_tolerance).all():
+        if (np.abs(here - first) <= group.start_tolerance).all():
             return asked
-        wire = np.abs(np.diff(group.to_wire(np.array([here, first])), axis=0)[0])
-        seconds = max(float((wire / (group.speed * _APPROACH)).max()), group.policy.min_segment)
+        seconds = float(trajectory.times[0])
+        if seconds == 0 and self._policy.replace == "refuse":
+            return asked
+        if seconds == 0:
+            wire = np.abs(np.diff(group.to_wire(np.array([here, first])), axis=0)[0])
+            seconds = float((wire / (group.speed * _APPROACH)).max())
+            seconds = max(seconds, group.policy.min_segment)
         if not math.isfinite(seconds):
             raise GoalRefused(
                 Code.INVALID_GOAL, "the axes' speeds are not known: there is no way to the start"
             )
         told = (
-            f"the robot stood {np.abs(here - first).max():.3f} (rad, m) from the first point: "
-            f"a way of {seconds:.2f} s to it was put in front"
+            f"a way of {seconds:.2f} s was put in front, from where the robot stood to the first "
+            f"point, {np.abs(here - first).max():.3f} (rad, m) away"
         )
         return asked.with_trajectory(trajectory.starting_at(state, seconds), told)
 
@@ -210,6 +222,7 @@ class Follower:
         """The motion; None when the goal was ended before the controller took it."""
         sending = asyncio.ensure_future(self._robot.execute(trajectory))
         ending = asyncio.ensure_future(under.ending.wait())
+        standing = asyncio.ensure_future(self._note_standing())
         try:
             await asyncio.wait({sending, ending}, return_when=asyncio.FIRST_COMPLETED)
             if sending.done():
@@ -219,7 +232,17 @@ class Follower:
             return None
         finally:
             # Sending that is cancelled here stops the robot: nobody waits for it any more.
-            await _cancelled(sending, ending)
+            await _cancelled(sending, ending, standing)
+
+    async def _note_standing(self) -> None:
+        """Keep when the robot was last seen where it stands, until it moves."""
+        fed, state = self._robot.feedback, self._robot.state
+        here = np.array(state.joints)
+        self._stood = fed.time if self._measures and fed is not None else state.time
+        async for time, joints, _ in self._samples():
+            if np.abs(joints - here).max() > _STANDS:
+                return
+            self._stood = time
 
     async def _until_over(
         self,
@@ -252,14 +275,15 @@ class Follower:
 
     async def _watch(self, asked: JudgedGoal, tell: Callable[[GoalFeedback], None]) -> Outcome:
         """Tell feedback; returns when a tolerance is violated."""
-        since: float | None = None
-        before = desired = 0.0
+        before: float | None = None
+        desired = unsure = 0.0
         async for time, joints, velocity in self._samples():
-            if since is None:
-                since = before = time
-            passed, before = time - before, time
+            if before is None:
+                # It began somewhere between the sample in which it stood and this one.
+                before, unsure = time, max(time - self._stood, 0.0)
+            passed, before = max(time - before, 0.0), time
             # Simulated or real, the controller's time; slower under an override, none in a pause.
-            desired += max(passed, 0.0) * self._pace
+            desired += passed * self._pace
             told = GoalFeedback(
                 asked.trajectory.names,
                 desired,
@@ -269,7 +293,7 @@ class Follower:
                 velocity,
             )
             tell(told)
-            found = _violation(asked, told, max(passed, 0.0))
+            found = _violation(asked, told, max(passed, unsure))
             if found is not None:
                 return found
         raise AssertionError("samples have no end")
@@ -343,8 +367,8 @@ def with_time_to_stop(asked: JudgedGoal, shortest: float) -> JudgedGoal:
 def _violation(asked: JudgedGoal, told: GoalFeedback, window: float) -> Outcome | None:
     """What of the tolerances does not hold, or None.
 
-    When the robot began to move is known to one sample: it is compared with all that was asked
-    for within `window` s, and has to fit none of it.
+    When the robot began to move is known to `window` s, mostly one sample: it is compared with
+    all that was asked for within it, and has to fit none of it.
     """
     if told.time > asked.trajectory.duration + asked.goal_time + window:
         return Outcome(

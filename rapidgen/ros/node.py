@@ -101,6 +101,8 @@ class RobotNode(LifecycleNode):  # type: ignore[misc]
     def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Reach for the robot, and keep at it."""
         self._running = [self.ask(door.link.run()) for door in self._doors]
+        for running in self._running:
+            running.add_done_callback(self._link_ended)
         return super().on_activate(state)
 
     def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:
@@ -122,6 +124,11 @@ class RobotNode(LifecycleNode):  # type: ignore[misc]
         self._thread.join()
         self._loop.close()
         super().destroy_node()
+
+    def _link_ended(self, running: "Future[None]") -> None:
+        """A link runs until it is cancelled; why another one ended must not be lost."""
+        if not running.cancelled() and (fault := running.exception()) is not None:
+            self.get_logger().error(f"the link ended by a fault of this node: {fault!r}")
 
     def _let_go(self) -> None:
         for running in self._running:
@@ -329,16 +336,19 @@ class Door:
 
         under = self._under_way(handle)
         goal = self._goal(handle.request)
-        outcome = self._node.ask(self.link.follow(goal, tell, under)).result()
-        with self._lock:
-            del self._goals[bytes(handle.goal_id.uuid)]
-        told = f"{self._name}: goal {outcome.status.value}: {outcome.text}"
-        # Two calls: rclpy refuses another severity from the place of an earlier one.
-        if outcome.status is Ending.SUCCEEDED:
-            self._node.get_logger().info(told)
-        else:
-            self._node.get_logger().warning(told)
-        return _ending(handle, outcome)
+        try:
+            outcome = self._node.ask(self.link.follow(goal, tell, under)).result()
+            told = f"{self._name}: goal {outcome.status.value}: {outcome.text}"
+            # Two calls: rclpy refuses another severity from the place of an earlier one.
+            if outcome.status is Ending.SUCCEEDED:
+                self._node.get_logger().info(told)
+            else:
+                self._node.get_logger().warning(told)
+            return _ending(handle, outcome)
+        finally:
+            # Behind its end: a cancellation that came before would enter it again.
+            with self._lock:
+                del self._goals[bytes(handle.goal_id.uuid)]
 
     def _goal(self, request: Message) -> Goal:
         trajectory = request.trajectory

@@ -9,13 +9,16 @@ from rapidgen.diagnostics import Diagnostic, DiagnosticError, error
 from rapidgen.ros.following import Policy
 from rapidgen.ros.goals import Defaults
 
+_WHOLE = 100.0
+"""% of the programmed speed, which each motion begins with."""
+
 DECLARED: tuple[tuple[str, str | bool | float, str], ...] = (
     ("config", "", "robot YAML, or the name of a shipped model"),
     ("address", "", "HOST, or HOST:MOTION,STATE,CONTROL; empty: a simulator on this machine"),
     ("autostart", True, "configure and activate without being asked"),
     ("tf_prefix", "", "put in front of joint names"),
     ("publish_clock", False, "/clock from the controller's time, for a simulator"),
-    ("speed", 100.0, "speed override of the motion under way, 1 to 100 %"),
+    ("speed", _WHOLE, "speed override of the motion under way, 1 to 100 %"),
     ("replace", "refuse", "a goal while another one moves: refuse, or approach (stop, go there)"),
     ("dense", "refuse", "points nearer than the planner follows: refuse, or resample"),
     ("path_tolerance", 0.0, "default of a goal's path tolerances, rad or m; 0: none"),
@@ -49,6 +52,14 @@ def read(values: Mapping[str, Any]) -> Parameters:
     for name in ("path_tolerance", "goal_tolerance", "goal_time_tolerance", "stamp_tolerance"):
         if not 0 <= values[name] < math.inf:
             found.append(_fault(f"{name} is {values[name]:g}", "it is 0 or more"))
+    if values["speed"] != _WHOLE:
+        found.append(
+            _fault(
+                f"speed is {values['speed']:g}, and nothing moves yet",
+                "100, and another one while a goal is executed; plans are slower by MoveIt's "
+                "max_velocity_scaling_factor",
+            )
+        )
     if found:
         raise DiagnosticError(found)
     return Parameters(

@@ -11,6 +11,7 @@ no blank lines, any indentation, `# text` anywhere between lines, LF; RobotWare 
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
+from math import isinf
 
 from rapidgen.diagnostics import DiagnosticError, Span, refusal
 
@@ -178,12 +179,13 @@ def _attributes(line: str, path: str, number: int) -> tuple[Attribute, ...]:
         elif token[2] is not None:
             found[-1][1].append(token[2])
         else:
-            found[-1][1].append(_scalar(token[3]))
+            found[-1][1].append(scalar(token[3]))
     return tuple(Attribute(name, tuple(values)) for name, values in found)
 
 
-def _scalar(word: str) -> Scalar:
-    if not _NUMBER.match(word):
+def scalar(word: str) -> Scalar:
+    """A bare word as a value: a number where it is one."""
+    if not _NUMBER.match(word) or isinf(float(word)):
         return word
     return int(word) if re.fullmatch(r"[+-]?\d{1,18}", word) else float(word)
 

@@ -342,6 +342,7 @@ Request: TypeAlias = (
     | n.Afflict
     | n.Listen
     | p.ReadSource
+    | p.ReadOrigin
     | p.SetBreakpoint
     | p.RemoveBreakpoint
     | p.Proceed
@@ -360,6 +361,8 @@ Request: TypeAlias = (
     | t.RunTrajectory
     | t.ForgetTrajectory
 )
+Answer: TypeAlias = p.SourceOrigin
+"""What is in the text of a reply, as JSON."""
 
 
 class FromPage(Spoken):

@@ -26,6 +26,14 @@ class LoadedPrograms(Spoken):
     tasks: tuple[LoadedModules, ...]
 
 
+class SourceOrigin(Spoken):
+    """The answer to ReadOrigin: each line that a template made, the template and its line."""
+
+    lines: tuple[tuple[int, str, int], ...]
+    templates: dict[str, str]
+    """Their texts by name; none: they are not of this version."""
+
+
 class SeenPlace(Spoken):
     """Where in a program. `made` is the template's line of a generated one."""
 
@@ -123,6 +131,13 @@ class ReadSource(Spoken):
     """The reply's text is a source."""
 
     do: Literal["source"] = "source"
+    number: int
+
+
+class ReadOrigin(Spoken):
+    """The reply's text is a SourceOrigin, of a source by its number."""
+
+    do: Literal["origin"] = "origin"
     number: int
 
 

@@ -5,7 +5,6 @@ Files are those that were there when it began, by name: no path of a request rea
 
 import asyncio
 import logging
-import struct
 from collections.abc import Awaitable, Callable, Mapping
 from dataclasses import dataclass, field
 from functools import partial
@@ -20,6 +19,7 @@ from rapidgen.faces.web_thread import WebThread
 from rapidgen.view.aspect import Viewed
 from rapidgen.view.doorkeeper import HEADERS, Doorkeeper
 from rapidgen.view.hub import Hub, Parcel
+from rapidgen.view.viewer import Viewer, text_frame
 
 _LOG = logging.getLogger("rapidgen.view")
 
@@ -33,8 +33,6 @@ _TYPES: Final = {
 LOOKS: Final = 1 / 30
 """s between two looks at what is watched."""
 _LARGEST: Final = 1_048_576
-_UNREAD: Final = 8_388_608
-"""Bytes that may wait for a page that does not read; what is passing is dropped at once."""
 Answer = Callable[[web.Request], Awaitable[web.StreamResponse]]
 
 
@@ -88,23 +86,6 @@ def _assets() -> dict[str, tuple[bytes, str]]:
     return found
 
 
-@dataclass(eq=False)
-class _Viewer:
-    """One page. Frames are written to its transport as they are: encoded once for all."""
-
-    transport: asyncio.Transport
-    knows: bool = False
-    """It has been told all; news make sense to it."""
-
-    def send(self, frame: bytes, *, passing: bool = False) -> None:
-        """One more; a page that does not keep up misses what is passing, and is cut off then."""
-        waiting = self.transport.get_write_buffer_size()
-        if waiting > _UNREAD:
-            self.transport.abort()
-        elif not (passing and waiting):
-            self.transport.write(frame)
-
-
 class _Server:
     """One port, and the thread with its loop."""
 
@@ -116,7 +97,7 @@ class _Server:
         self._watched = watched
         self._assets = assets
         self._files = files
-        self._viewers: dict[_Viewer, web.WebSocketResponse] = {}
+        self._viewers: dict[Viewer, web.WebSocketResponse] = {}
         self._looked = True
         app = web.Application(middlewares=[self._guarded], client_max_size=65_536)
         app.router.add_get("/", self._asset)
@@ -215,13 +196,13 @@ class _Server:
         socket = web.WebSocketResponse(max_msg_size=_LARGEST, heartbeat=20, compress=False)
         await socket.prepare(request)
         assert isinstance(request.transport, asyncio.Transport)
-        viewer = _Viewer(request.transport)
+        viewer = Viewer(request.transport)
 
         def join() -> None:
             self._thread.soon(partial(self._begin, viewer, self.hub.join()))
 
         def ask(text: str) -> None:
-            self._thread.soon(partial(viewer.send, _frame(self.hub.ask(text).data)))
+            self._thread.soon(partial(viewer.send, text_frame(self.hub.ask(text).data)))
 
         self._viewers[viewer] = socket
         _LOG.info("a page looks: %d now", len(self._viewers))
@@ -232,29 +213,18 @@ class _Server:
                     self._watched.post(partial(ask, message.data))
         finally:
             del self._viewers[viewer]
+            viewer.close()
             _LOG.info("a page has gone: %d now", len(self._viewers))
         return socket
 
-    def _begin(self, viewer: _Viewer, whole: Parcel) -> None:
-        viewer.send(_frame(whole.data))
+    def _begin(self, viewer: Viewer, whole: Parcel) -> None:
+        viewer.send(text_frame(whole.data))
         viewer.knows = True
 
     def _tell(self, parcel: Parcel) -> None:
-        self._thread.soon(partial(self._broadcast, _frame(parcel.data), parcel.passing))
+        self._thread.soon(partial(self._broadcast, text_frame(parcel.data), parcel.passing))
 
     def _broadcast(self, frame: bytes, passing: bool) -> None:
         for viewer in self._viewers:
             if viewer.knows:
                 viewer.send(frame, passing=passing)
-
-
-def _frame(data: bytes) -> bytes:
-    """A text message in one frame, as servers write them (RFC 6455, 5.2)."""
-    length = len(data)
-    if length < 126:
-        head = struct.pack("!BB", 0x81, length)
-    elif length < 65_536:
-        head = struct.pack("!BBH", 0x81, 126, length)
-    else:
-        head = struct.pack("!BBQ", 0x81, 127, length)
-    return head + data

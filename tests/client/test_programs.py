@@ -20,6 +20,9 @@ from rapidgen.client import (
     Trigger,
     pulse,
 )
+from rapidgen.client.core.group import Group
+from rapidgen.client.core.program_checks import check_program
+from rapidgen.config import load_config
 from rapidgen.system.model import SignalSpec
 from rapidgen.wire.simple_message.spec import Port, Reason, TrajectoryState
 
@@ -62,6 +65,36 @@ def test_what_no_robot_does_is_told_with_its_instruction():
             "instruction 6",
             "instruction 7",
         ]
+
+
+@pytest.mark.parametrize(
+    ("name", "to", "code", "told"),
+    [
+        (
+            "irb120",
+            (3.3, 0.0, 0.5),
+            "RG671",
+            "irb120: the flange cannot be at [3300.0",
+        ),
+        ("irb120", (-0.37, 0.05, 0.5), "RG671", "rax_1 would be at"),
+        (
+            "crb15000",
+            (0.0, 0.0, 0.57),
+            "RG672",
+            "leaves the robot's reach after 82%: rax_5",
+        ),
+    ],
+)
+def test_a_line_out_of_reach_is_told_as_that(name, to, code, told):
+    config = load_config(name)
+    group = Group.of(config, config.groups[0])
+    start = group.map.to_controller(BENT)
+    program = Program().move_linear((to, group.poses.pose(start)[1]))
+    with pytest.raises(InvalidProgram) as error:
+        check_program(program, group, start=start, most=10)
+    (fault,) = error.value.diagnostics
+    assert fault.code == code
+    assert told in fault.message
 
 
 def test_single_moves_and_what_lies_where():

@@ -10,7 +10,11 @@ from rapidgen.client import (
     InvalidTrajectory,
     Program,
     Robot,
+    Speed,
     Trajectory,
+    Trigger,
+    Zone,
+    pulse,
 )
 from rapidgen.controller import VirtualController
 from rapidgen.diagnostics import DiagnosticError
@@ -53,6 +57,27 @@ WRONG = {
         InvalidProgram, "None are no joints", "numbers in rad"),
     "a place for a pose": (
         lambda: Program().move_linear((0.3, 0, 0.5)), InvalidProgram, "is no pose", "quaternion"),
+    "a word for a speed": (
+        lambda: Program(speed="fast"), InvalidProgram, "'fast' is no speed", "m/s of the TCP"),
+    "a word in a Speed": (
+        lambda: Speed("fast"), InvalidProgram, "'fast' is no speed", "m/s of the TCP"),
+    "a word in a Zone": (
+        lambda: Zone(tcp="z10"), InvalidProgram, "'z10' is no radius", "Zone.of"),
+    "a list for a zone": (
+        lambda: Program(zone=[0.01]), InvalidProgram, "[0.01] is no zone", "z10"),
+    "a word for a wait": (
+        lambda: Program().wait("long"), InvalidProgram, "'long' is no time", "seconds"),
+    "a word for a patience": (
+        lambda: Program().wait_for("part", timeout=None),
+        InvalidProgram, "None is no time", "seconds"),
+    "a word for a limit": (
+        lambda: Program().call("weld", timeout="5 s"), InvalidProgram, "'5 s' is no time", "sec"),
+    "a word for a level": (
+        lambda: Program().set("glue", "on"), InvalidProgram, "'on' is no value", "0 or 1"),
+    "a word for a place": (
+        lambda: pulse("glue", "5 mm", 0.01), InvalidProgram, "'5 mm' is no place", "m or s"),
+    "a word for a trigger's level": (
+        lambda: Trigger.after(0.1, "glue", "on"), InvalidProgram, "'on' is no value", "0 or 1"),
 }  # fmt: skip
 
 

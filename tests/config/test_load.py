@@ -328,6 +328,32 @@ def test_an_unknown_model_suggests_one(tmp_path):
     assert "did you mean" in fault.help
 
 
+@pytest.mark.parametrize("name", ["kr10", "kr120", "ur10e", "m120"])
+def test_another_makers_robot_suggests_none(name):
+    assert "did you mean" not in refusal(load_config, name).diagnostics[0].help
+
+
+@pytest.mark.parametrize("name", ["ibr120", "irb-120", "120", "RB1200"])
+def test_a_slip_in_the_letters_suggests_the_robot(name):
+    assert "did you mean 'irb120" in refusal(load_config, name).diagnostics[0].help
+
+
+@pytest.mark.parametrize(
+    ("text", "opened", "closing"),
+    [
+        ("a: {b: 1\nc: 2\n", "{", "}"),
+        ("a: [1, 2\n", "[", "]"),
+        ('a: "one\nb: 2\n', '"', '"'),
+        ("a: 'one\nb: 2\n", "'", "'"),
+    ],
+)
+def test_what_is_not_closed_is_told_where_it_was_opened(tmp_path, text, opened, closing):
+    (fault,) = faults(tmp_path, text)
+    assert places([fault]) == [("RG003", 1, 4)]
+    assert f"`{opened}` is opened here and not closed" in fault.message
+    assert f"close it with `{closing}`" in fault.help
+
+
 def test_a_misspelt_joint_is_one_finding(tmp_path):
     found = faults(tmp_path, "model: irb120\njoints: {joint_22: {upper: 90}}")
     assert places(found) == [("RG015", 2, 10)]

@@ -70,6 +70,71 @@ def test_a_server_hears_its_words_and_numbers_and_the_end_last(tmp_path):
     assert said[-1] == "quit"
 
 
+COUNTING = """MODULE counting
+ CONST num MOVE := 3;
+ VAR socketdev s;
+ VAR socketdev c;
+ VAR string said;
+ VAR num code;
+ VAR num params{10};
+ VAR num n;
+ PROC main()
+  SocketCreate s;
+  SocketBind s, "192.168.125.1", 5000;
+  SocketListen s;
+  SocketAccept s, c;
+  WHILE code <> 99 DO
+   SocketReceive c \\Str:=said;
+   cut;
+   TEST code
+   CASE MOVE:
+    IF n = 6 THEN
+     MoveAbsJ [[params{1},params{2},params{3},params{4},params{5},params{6}],
+      [9E9,9E9,9E9,9E9,9E9,9E9]], v1000, fine, tool0;
+     TPWrite "moved";
+    ENDIF
+   CASE 5:
+    IF n <> 2 RETURN;
+    IF params{1} = 1 TPWrite "on";
+    IF params{1} = 0 TPWrite "off";
+   ENDTEST
+  ENDWHILE
+ ENDPROC
+ PROC cut()
+  VAR num at := 1;
+  VAR num next;
+  VAR num found;
+  VAR bool ok;
+  n := -1;
+  IF StrPart(said, StrLen(said), 1) <> "#" RETURN;
+  WHILE at < StrLen(said) DO
+   next := StrFind(said, at, " ");
+   ok := StrToVal(StrPart(said, at, next - at), found);
+   n := n + 1;
+   IF n = 0 THEN
+    code := found;
+   ELSE
+    params{n} := found;
+   ENDIF
+   at := next + 1;
+  ENDWHILE
+ ENDPROC
+ENDMODULE
+"""
+
+
+def test_a_server_that_counts_values_hears_as_many_of_where_the_robot_stands(tmp_path):
+    path = tmp_path / "counting.mod"
+    path.write_text(COUNTING)
+    shown: list[str] = []
+    with VirtualController.from_files([path], cell="guess", cycle="once") as controller:
+        controller.operator.subscribe(lambda _task, line: shown.append(line))
+        run_through(controller, max_time=300)
+        said = [text for what, text in controller.guessed.answered if what == "SocketReceive"]
+    assert "3 0 0 0 0 30 0 #" in said
+    assert {"moved", "on", "off"} <= set(shown)
+
+
 def test_a_client_finds_somebody_who_answers_and_then_falls_silent(tmp_path):
     ended, shown, where, _ = run(tmp_path, CLIENT, cell="guess")
     assert shown == ["got 12"], "as many bytes as it reads"

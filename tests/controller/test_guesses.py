@@ -44,14 +44,42 @@ def test_routines_in_no_file_do_nothing_and_are_told(tmp_path):
         assert controller.positions() == pytest.approx(start, abs=1e-5)
 
 
-def test_what_an_initial_value_is_made_of_is_guessed_as_a_constant(tmp_path):
-    path = tmp_path / "initial.mod"
-    path.write_text(
-        "MODULE initial\n VAR num count := nParts;\n VAR robtarget p := pHome;\n PROC main()\n"
-        "  MoveJ p, v100, fine, tool0;\n  TPWrite ValToStr(count);\n ENDPROC\nENDMODULE\n"
-    )
+ENDS = {
+    "what an initial value is made of is a constant": (
+        " VAR num count := nParts;\n VAR robtarget p := pHome;\n PROC main()\n"
+        "  MoveJ p, v100, fine, tool0;\n  TPWrite ValToStr(count);\n ENDPROC\n",
+        "Statement cannot be executed",
+    ),
+    "what only a persistent may be is one": (
+        ' PROC main()\n  WaitTestAndSet gripLock;\n  TPWrite "mine";\n'
+        "  gripLock := FALSE;\n ENDPROC\n",
+        "ERR_REFUNKDAT",
+    ),
+    "no tasks are met that are in no file": (
+        ' PERS tasks both{2} := [["T_ROB_L"],["T_ROB_R"]];\n VAR syncident sync1;\n'
+        " PROC main()\n  WaitSyncTask sync1, both;\n ENDPROC\n",
+        "ERR_TASKNAME",
+    ),
+    "a signal may be named by a text": (
+        " VAR signaldo grip;\n PROC main()\n"
+        '  AliasIO "hand_" + ArgName(grip), grip;\n  SetDO grip, 1;\n ENDPROC\n',
+        "ERR_ALIASIO_DEF",
+    ),
+}
+"""Programs that end in a guessed cell, and the error with which each stops without one."""
+
+
+@pytest.mark.parametrize("name", ENDS)
+def test_a_program_ends_in_a_guessed_cell_alone(name, tmp_path):
+    text, lacks = ENDS[name]
+    path = tmp_path / "ends.mod"
+    path.write_text(f"MODULE ends\n{text}ENDMODULE\n")
     with VirtualController.from_files([path], cell="guess", cycle="once") as controller:
         assert controller.run(max_time=20) == "finished"
+        assert controller.signals.get("hand_grip", 1) == 1
+    with VirtualController.from_files([path], cycle="once") as controller:
+        controller.run(max_time=20)
+        assert lacks in str(controller.task("T_ROB1").fault)
 
 
 FAR = """MODULE far
@@ -94,43 +122,6 @@ def test_a_robot_that_somebody_chose_stops_where_it_does_not_come(tmp_path):
         controller.run(max_time=60)
         assert str(controller.task("T_ROB1").fault) == "Close to singularity"
         assert controller.guessed.missed == []
-
-
-def test_what_only_a_persistent_may_be_is_guessed_as_one(tmp_path):
-    path = tmp_path / "locked.mod"
-    path.write_text(
-        'MODULE locked\n PROC main()\n  WaitTestAndSet gripLock;\n  TPWrite "mine";\n'
-        "  gripLock := FALSE;\n ENDPROC\nENDMODULE\n"
-    )
-    with VirtualController.from_files([path], cell="guess", cycle="once") as controller:
-        assert controller.run(max_time=20) == "finished"
-
-
-def test_a_guessed_cell_meets_no_tasks_that_are_in_no_file(tmp_path):
-    path = tmp_path / "left.mod"
-    path.write_text(
-        'MODULE left\n PERS tasks both{2} := [["T_ROB_L"],["T_ROB_R"]];\n VAR syncident sync1;\n'
-        " PROC main()\n  WaitSyncTask sync1, both;\n ENDPROC\nENDMODULE\n"
-    )
-    with VirtualController.from_files([path], cell="guess", cycle="once") as controller:
-        assert controller.run(max_time=20) == "finished"
-    with VirtualController.from_files([path], cycle="once") as controller:
-        controller.run(max_time=20)
-        assert "ERR_TASKNAME" in str(controller.task("T_ROB1").fault)
-
-
-def test_a_signal_that_a_program_names_by_a_text_is_made_up(tmp_path):
-    path = tmp_path / "alias.mod"
-    path.write_text(
-        "MODULE named\n VAR signaldo grip;\n PROC main()\n"
-        '  AliasIO "hand_" + ArgName(grip), grip;\n  SetDO grip, 1;\n ENDPROC\nENDMODULE\n'
-    )
-    with VirtualController.from_files([path], cell="guess", cycle="once") as controller:
-        assert controller.run(max_time=20) == "finished"
-        assert controller.signals["hand_grip"] == 1
-    with VirtualController.from_files([path], cycle="once") as controller:
-        controller.run(max_time=20)
-        assert "ERR_ALIASIO_DEF" in str(controller.task("T_ROB1").fault)
 
 
 def test_hands_of_a_guessed_cell_are_calibrated(tmp_path):

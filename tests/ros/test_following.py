@@ -12,7 +12,7 @@ import pytest
 from ready import NAMES, goal, station
 
 from rapidgen.ros.following import Policy, UnderWay
-from rapidgen.ros.goals import Code, Defaults, Ending, Point, Tolerance
+from rapidgen.ros.goals import Code, Defaults, Ending, Goal, Point, Tolerance
 
 THERE = goal(0.0, 0.1, 0.2)
 APPROACH = Policy(replace="approach")
@@ -229,10 +229,88 @@ def test_what_the_controller_ends_is_aborted_and_the_next_goal_runs(fault, text)
         assert s.stands
 
 
+@pytest.mark.parametrize("after", [0.1, 0.5])
+def test_a_client_that_was_held_up_reads_before_it_calls_the_robot_silent(after):
+    """A busy machine: replies of both ports wait behind the same pause, in any order."""
+
+    async def held_up(s):
+        following = asyncio.ensure_future(s.follow(goal(0.0, 0.2)))
+        await asyncio.sleep(after)
+        s.controller.run_for(2.5)
+        return await following
+
+    with station() as s:
+        outcome = s.run(held_up(s))
+        assert outcome.status is Ending.SUCCEEDED, outcome.text
+
+
 def test_a_controller_that_is_gone_aborts():
     with station() as s:
         outcome = s.run(_after(s, 1.0, s.follow(goal(0.0, 0.5, 1.0)), s.controller.power_loss))
         assert outcome.status is Ending.ABORTED
+
+
+def test_a_link_that_is_lost_before_the_stamp_aborts_at_once():
+    with station() as s:
+        began = s.loop.time()
+        asked = replace(THERE, stamp=began + 600.0)
+        outcome = s.run(_after(s, 1.0, s.follow(asked), s.controller.power_loss))
+        assert outcome.status is Ending.ABORTED
+        assert "connection" in outcome.text
+        assert s.loop.time() - began < 60.0
+
+
+@pytest.mark.parametrize(
+    "points",
+    [
+        [Point(2.0, [0.3] * 6)],
+        [Point(2.0, [0.3] * 6), Point(3.0, [0.4] * 6)],
+    ],
+    ids=["one point", "two points"],
+)
+def test_a_first_point_with_a_time_is_gone_to_in_that_time(points):
+    """joint_trajectory_controller interpolates from where the robot is to the first point."""
+    path = [Tolerance(name, position=0.1) for name in NAMES]
+    asked = Goal(NAMES, points, path_tolerance=path)
+    with station() as s:
+        began = s.loop.time()
+        outcome = s.outcome(asked)
+        assert outcome.status is Ending.SUCCEEDED
+        assert "from where the robot stood" in outcome.text
+        assert s.joints == pytest.approx(points[-1].positions, abs=1e-4)
+        assert s.loop.time() - began == pytest.approx(points[-1].time, abs=0.5)
+        assert max(np.abs(fed.error).max() for fed in s.fed) < 0.1
+
+
+def test_a_first_point_with_a_time_that_is_too_short_is_refused():
+    with station() as s:
+        outcome = s.outcome(Goal(NAMES, [Point(0.2, [1.0] * 6)]))
+        assert (outcome.status, outcome.code) == (Ending.ABORTED, Code.INVALID_GOAL)
+        assert "too fast" in outcome.text
+        assert s.joints == pytest.approx([0.0] * 6, abs=1e-9)
+
+
+def test_path_tolerance_holds_where_the_first_feedback_comes_late():
+    """A client that is held up behind the acceptance has not seen the robot begin."""
+    path = [Tolerance(name, position=0.05) for name in NAMES]
+    with station() as s:
+        s.run(s.robot.next_feedback())
+        hear, execute, held = s.robot.next_feedback, s.robot.execute, []
+
+        async def taken(trajectory):
+            execution = await execute(trajectory)
+            held.append(0.45)
+            return execution
+
+        async def held_up(timeout=None):
+            if held:
+                await asyncio.sleep(held.pop())
+            return await hear(timeout)
+
+        s.robot.execute, s.robot.next_feedback = taken, held_up
+        asked = replace(goal(0.0, 0.4, 0.8), path_tolerance=path)
+        outcome = s.outcome(asked)
+        assert outcome.status is Ending.SUCCEEDED, outcome.text
 
 
 def test_path_tolerance_is_against_the_controllers_time():

@@ -155,8 +155,28 @@ def test_ends_with_a_goal_under_way_and_the_robot_stands(up, sim):
     assert not node.topics
 
 
-def test_a_configuration_that_is_none_is_said(driver_type):
-    node = driver_type(parameter_overrides={"config": "irb12o"})
+def test_what_ends_a_link_is_said(up):
+    node = up()
+
+    def broken(sent):
+        raise RuntimeError("the middleware is gone")
+
+    node.topics["joint_states"].publish = broken
+    logger = node.get_logger()
+    with logger.told:
+        assert logger.told.wait_for(lambda: "middleware is gone" in str(logger.lines), 60)
+
+
+@pytest.mark.parametrize(
+    ("parameters", "told"),
+    [
+        ({"config": "irb12o"}, "irb12o"),
+        # An override is of a motion: the first goal would have gone at full speed.
+        ({"config": "irb120", "speed": 20.0}, "nothing moves yet"),
+    ],
+)
+def test_a_configuration_that_is_none_is_said(driver_type, parameters, told):
+    node = driver_type(parameter_overrides=parameters)
     assert node.state == "unconfigured"
-    assert any("irb12o" in line for line in node.get_logger().lines)
+    assert any(told in line for line in node.get_logger().lines)
     node.destroy_node()

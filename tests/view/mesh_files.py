@@ -2,6 +2,9 @@
 
 import struct
 
+from tests.docs.tree import ROOT
+
+URDF = (ROOT / "robots" / "urdf" / "irb120.urdf").read_text()
 CORNERS = ((0, 0, 0), (0.2, 0, 0), (0, 0.2, 0), (0, 0, 0.3))
 FACES = ((0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2))
 
@@ -44,3 +47,18 @@ def dae():
 <bind_material><technique_common><instance_material symbol="m" target="#m"/></technique_common>
 </bind_material></instance_geometry></node></visual_scene></library_visual_scenes>
 <scene><instance_visual_scene url="#s"/></scene></COLLADA>""".encode()
+
+
+def description(folder, meshes):
+    """A configuration whose links have these meshes besides their own shapes."""
+    text = URDF
+    for link, (name, data) in meshes.items():
+        if data is not None:
+            (folder / name).write_bytes(data)
+        shape = name.replace("&", "&amp;").replace("<", "&lt;")
+        visual = f'<visual><geometry><mesh filename="{shape}"/></geometry></visual>'
+        text = text.replace(f'<link name="{link}">', f'<link name="{link}">{visual}')
+    (folder / "arm.urdf").write_text(text)
+    config = folder / "arm.yaml"
+    config.write_text("model: irb120\nurdf: {file: arm.urdf}\n")
+    return str(config)

@@ -4,7 +4,7 @@ from pathlib import Path
 
 from pydantic import TypeAdapter
 
-from rapidgen.view.messages import FromPage, Request, ToPage
+from rapidgen.view.messages import Answer, FromPage, Request, ToPage
 
 TARGET = Path(__file__).parents[2] / "rapidgen" / "view" / "page" / "src" / "messages.ts"
 _HEAD = "// Made of rapidgen/view/messages.py by `python -m tests.view.page_types`; do not edit.\n"
@@ -12,7 +12,7 @@ _HEAD = "// Made of rapidgen/view/messages.py by `python -m tests.view.page_type
 
 def made() -> str:
     """The text of messages.ts."""
-    whole = TypeAdapter(ToPage | FromPage).json_schema(mode="serialization")["$defs"]
+    whole = TypeAdapter(ToPage | FromPage | Answer).json_schema(mode="serialization")["$defs"]
     parts = [_HEAD, *(_interface(name, whole[name]) for name in sorted(whole))]
     parts += [_union("ToPage", ToPage), _union("Request", Request)]
     return "\n".join(parts)

@@ -6,34 +6,17 @@ import urllib.request
 import numpy as np
 import pytest
 
-from tests.docs.tree import ROOT
 from tests.view import mesh_files
 from tests.view.bench import STATE, simulator, until
 
 pytestmark = pytest.mark.browser
-URDF = (ROOT / "robots" / "urdf" / "irb120.urdf").read_text()
 SHAPES = (
     """robot => Object.fromEntries(Object.entries(rapidgen.stage.robots.get('rob1').parts()))"""
 )
 
 
-def description(folder, meshes):
-    """A configuration whose links have these meshes besides their own shapes."""
-    text = URDF
-    for link, (name, data) in meshes.items():
-        if data is not None:
-            (folder / name).write_bytes(data)
-        shape = name.replace("&", "&amp;").replace("<", "&lt;")
-        visual = f'<visual><geometry><mesh filename="{shape}"/></geometry></visual>'
-        text = text.replace(f'<link name="{link}">', f'<link name="{link}">{visual}')
-    (folder / "arm.urdf").write_text(text)
-    config = folder / "arm.yaml"
-    config.write_text("model: irb120\nurdf: {file: arm.urdf}\n")
-    return str(config)
-
-
 def test_meshes_of_each_format_are_drawn(tmp_path, open_page):
-    config = description(
+    config = mesh_files.description(
         tmp_path,
         {
             "link_1": ("one.stl", mesh_files.stl()),
@@ -63,7 +46,7 @@ def test_meshes_of_each_format_are_drawn(tmp_path, open_page):
 
 
 def test_meshes_that_cannot_be_had_are_said_and_solids_stand_in(tmp_path, open_page):
-    config = description(
+    config = mesh_files.description(
         tmp_path,
         {
             "link_1": ("short.stl", mesh_files.stl()[:-60]),

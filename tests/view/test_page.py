@@ -1,4 +1,5 @@
-"""The page in a real browser: the robot of a simulator moves there, by state and by pixels."""
+"""The page in a real browser: the robot of a simulator moves there, by state and by pixels, and its
+driver is read together with the templates that made it."""
 
 import io
 
@@ -6,12 +7,14 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from rapidgen._data import data_folder
 from rapidgen.axes.kinematics import Kinematics
 from rapidgen.client import Robot, Trajectory
 from rapidgen.config import load_config
 from tests.view.bench import STATE, until
 
 pytestmark = pytest.mark.browser
+SEEN = "rapidgen.panels.program.seen"
 GOAL = (0.6, 0.3, -0.4, 0.5, 0.7, -1.0)
 
 
@@ -44,3 +47,37 @@ def test_the_robot_moves(irb120, open_page):
     poses = page.evaluate("rapidgen.stage.robots.get('rob1').poses()")
     assert np.allclose(poses["link_7"][12:15], place, atol=1e-6)
     assert page.evaluate("location.hash") == ""
+
+
+def test_from_a_line_to_its_template_and_back(irb120, open_page):
+    page = open_page(irb120["view"])
+    page.get_by_role("tab", name="Program").click()
+    modules = page.get_by_label("Module", exact=True)
+    modules.select_option("ROS_motion")
+    text = until(page, f"{SEEN}.text", lambda text: text and "MODULE ROS_motion\n" in text)
+    line = text.splitlines().index("    PROC main()") + 1
+    source = page.locator(".source")
+    source.locator(".cm-line").filter(has_text="MODULE ROS_motion").first.click()
+    page.keyboard.press("Control+Home")
+    for _ in range(line - 1):
+        page.keyboard.press("ArrowDown")
+    told = page.locator(".origin")
+    told.get_by_text(f"Line {line} is made by").wait_for()
+    template = (data_folder("templates") / "ROS_motion.mod.j2").read_text()
+    number = template.splitlines().index("    PROC main()") + 1
+    assert number != line
+    told.get_by_role("button", name=f"ROS_motion.mod.j2, line {number}", exact=True).click()
+    until(page, f"{SEEN}.text", lambda text: text == template)
+    assert modules.input_value() == "ROS_motion.mod.j2"
+    page.locator(".cm-lineNumbers .cm-gutterElement", has_text=str(number)).first.click()
+    page.get_by_text("not in templates").wait_for()
+    assert page.evaluate(f"{SEEN}.breakpoints") == []
+    back = told.get_by_role("button", name=f"ROS_motion, line {line}", exact=True)
+    back.click()
+    until(page, f"{SEEN}.text", lambda now: now == text)
+    told.get_by_text(f"Line {line} is made by").wait_for()
+    # What several modules have in common names all of them.
+    modules.select_option("_head.j2")
+    told.get_by_role("button", name="ROS_motion, line 2", exact=True).wait_for()
+    assert told.get_by_role("button").count() > 1
+    page.close()

@@ -1,17 +1,16 @@
 """A recording in the page: scrubbed there and back, program, signals and robot are as they were."""
 
-import json
-import subprocess
-import sys
-
 import numpy as np
 import pytest
 from PIL import Image
 
+from rapidgen.config import load_config
 from rapidgen.controller import VirtualController
+from rapidgen.view.appearance import appearance
 from rapidgen.view.recording.reader import RecordingFile
 from rapidgen.view.recording.writer import record
-from tests.view.bench import STATE, until
+from tests.view import mesh_files
+from tests.view.bench import STATE, served, until
 from tests.view.test_recording import PROGRAM
 
 pytestmark = pytest.mark.browser
@@ -25,29 +24,28 @@ def recorded(tmp_path_factory):
     text = PROGRAM.replace("SocketAccept", "!").replace("SocketReceive", "!")
     (folder / "m.mod").write_text(text.replace("SocketSend", "!"))
     (folder / "cell.yaml").write_text("signals:\n  do1: {kind: DO}\n")
+    config = mesh_files.description(folder, {"link_1": ("one.stl", mesh_files.stl())})
+    look = appearance(load_config(config).groups, {"rob1": config})
     with VirtualController.from_files([folder / "m.mod"], cell=folder / "cell.yaml") as controller:
-        end = record(controller, folder / "run.mcap", [("T_ROB1", "passes")])
+        end = record(controller, folder / "run.mcap", [("T_ROB1", "passes")], look)
         controller.run_for(20.0)
         end()
     return folder / "run.mcap"
 
 
+@pytest.fixture(scope="module")
+def address(recorded):
+    with served("view", str(recorded)) as (ready, _):
+        yield ready["view"]
+
+
 @pytest.fixture
-def page(recorded, open_page):
-    with subprocess.Popen(
-        [sys.executable, "-m", "rapidgen.cli", "view", str(recorded)],
-        stdout=subprocess.PIPE,
-        text=True,
-    ) as process:
-        try:
-            ready = process.stdout.readline().removeprefix("ready ")
-            page = open_page(json.loads(ready)["view"])
-            page.get_by_role("tab", name="Recording").click()
-            until(page, f"window.rapidgen && {SEEN}.time !== undefined")
-            yield page
-            page.close()
-        finally:
-            process.terminate()
+def page(address, open_page):
+    page = open_page(address)
+    page.get_by_role("tab", name="Recording").click()
+    until(page, f"window.rapidgen && {SEEN}.time !== undefined")
+    yield page
+    page.close()
 
 
 def seek(page, time):
@@ -55,6 +53,13 @@ def seek(page, time):
     moment.fill(f"{time:.3f}")
     moment.press("Enter")
     until(page, f"{SEEN}.time", lambda now: now is not None and abs(now - time) < 1e-6)
+
+
+def test_robots_have_the_meshes_that_they_had(page):
+    parts = "() => rapidgen.stage.robots.get('rob1').parts()"
+    seen = until(page, f"({parts})()", lambda parts: parts["part_1"][0][0] == 12)
+    np.testing.assert_allclose(seen["part_1"][0][1:], [[0, 0, 0], [0.2, 0.2, 0.3]], atol=1e-6)
+    assert page.locator(".amiss").is_hidden()
 
 
 def test_scrubbed_there_and_back(page, recorded):

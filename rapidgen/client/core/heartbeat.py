@@ -51,9 +51,9 @@ class HeartbeatSchedule:
         self._in_force = timeout > 0
         self._pending = pending
 
-    def is_late(self, now: float) -> bool:
-        """Whether the controller does not answer any more."""
-        return self._is_waiting and now - self._sent > self.timeout
+    def is_late(self, now: float, listening: float) -> bool:
+        """Whether the controller does not answer any more a client that has been listening."""
+        return self._is_waiting and now - max(self._sent, listening) > self.timeout
 
     @property
     def is_refused(self) -> bool:

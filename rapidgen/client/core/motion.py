@@ -145,7 +145,7 @@ class CommandedMotion(ABC):
     def _is_silent(self) -> bool:
         """Whether nobody sees the robot any more: then it is over."""
         state_port = self._state_port
-        silent = state_port.clock() - state_port.heard
+        silent = state_port.clock() - max(state_port.heard, state_port.listening)
         if silent <= self._silence:
             return False
         self.failed(

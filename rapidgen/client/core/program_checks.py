@@ -12,6 +12,7 @@ from math import ceil, isfinite, radians
 from rapidgen.axes import frames
 from rapidgen.axes.frames import Pose
 from rapidgen.axes.kinematics import Posture
+from rapidgen.axes.limits import LimitFault, outside
 from rapidgen.axes.shapes import LARGEST_ARC, Arc, Line, arc_through
 from rapidgen.client.core import program_standing as standing
 from rapidgen.client.core.frames import Frames
@@ -310,10 +311,10 @@ def _along(walk: Walk, step: ProgramStep, robot: Frames, way: _Way, outer: Postu
             for joint, a, b, here in zip(walk.group.joints, begin, outer, nodes[-1], strict=True)
         )
         posture = robot.follow((way.position(share), way.orientation(share)), near)
-        if posture is None:
-            walk.say("RG672", f"the way leaves the robot's reach after {share:.0%}")
-            return seconds
-        if not within(walk, posture):
+        beyond = outside(walk.group.joints, posture) if posture is not None else []
+        if posture is None or beyond:
+            end = way.position(1.0), way.orientation(1.0)
+            _left(walk, step, robot, end, outer, share, beyond)
             return seconds
         jumps = [
             (abs(b - a), joint)
@@ -344,6 +345,27 @@ def _along(walk: Walk, step: ProgramStep, robot: Frames, way: _Way, outer: Postu
             f"not {list(step.configuration)}",
         )
     return max(seconds, _slowed(walk, nodes, seconds))
+
+
+def _left(
+    walk: Walk,
+    step: ProgramStep,
+    robot: Frames,
+    pose: Pose,
+    outer: Posture,
+    share: float,
+    beyond: Sequence[LimitFault],
+) -> None:
+    """Say that a way leaves the robot's reach: where it does, or that its end is not reached."""
+    if not robot.postures(pose, outer):
+        _unreached(walk, robot, pose, outer, step)
+        return
+    why = f": {beyond[0]}" if beyond else ""
+    walk.say(
+        "RG672",
+        f"the way leaves the robot's reach after {share:.0%}{why}",
+        "its end is reached: another way, or `move_to` with all axes",
+    )
 
 
 def _slowed(walk: Walk, nodes: Sequence[Posture], seconds: float) -> float:

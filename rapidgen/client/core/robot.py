@@ -61,6 +61,8 @@ STOP_FRAME = encode(
 _SIMULATION = 1.2
 """Pace beyond which a clock is no controller's."""
 _SLACK = 3
+_HELD_UP = 0.5
+"""s without a look at what has come: this process was held up, not the robot."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -129,6 +131,7 @@ class Core:
         """Share of the programmed speed that was asked for."""
         self.heartbeat = HeartbeatSchedule(timeouts.heartbeat)
         self._stopped_blindly: Download | PointStream | None = None
+        self._looked = clock()
         self._streams = 0
         self._outbox: deque[tuple[PendingReply, bytes]] = deque()
         self._group: Group | None = None
@@ -231,10 +234,15 @@ class Core:
 
     def poll(self) -> None:
         """Let what is under way look at the newest state and at the clock."""
+        now, port = self.clock(), self.state_port
+        # Once in a silence: a process that is held up again and again is not to wait for ever.
+        if now - self._looked > _HELD_UP and port.heard >= port.listening:
+            port.listening = now
+        self._looked = now
         run = self.motion
         if run is None:
             return
-        if not run.is_over and self.heartbeat.is_late(self.clock()):
+        if not run.is_over and self.heartbeat.is_late(now, port.listening):
             run.failed(
                 self.state_port.late(
                     "the control port does not answer any more while the robot may be moving",

@@ -86,6 +86,8 @@ class StatePort:
         self._laps = 0
         self.heard = clock()
         """When the last message came."""
+        self.listening = self.heard
+        """Since when silence counts: what came while this process was held up is still unread."""
         self.listeners: list[Listener] = []
         self._group: Group | None = None
         self._splitter = FrameSplitter()

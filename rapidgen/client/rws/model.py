@@ -165,6 +165,30 @@ class Holder:
 
 
 @dataclass(frozen=True, slots=True)
+class Dialog:
+    """What a program asks on the pendant. `kind` is its instruction (TPReadFK, UIMsgBox, ...),
+    `stack` where it waits, `parameters` RAPID literals by name (none where the controller tells
+    none)."""
+
+    kind: str
+    stack: str
+    parameters: Mapping[str, str]
+
+    @property
+    def task(self) -> str:
+        """The task that waits."""
+        return self.stack.removeprefix("RAPID/").partition("/")[0]
+
+
+@dataclass(frozen=True, slots=True)
+class QueueMessage:
+    """A message out of a queue: from a task it is `type;value`."""
+
+    data: str
+    user: int
+
+
+@dataclass(frozen=True, slots=True)
 class ResourceEvent:
     """An event of a subscription: what it is about, and its new value."""
 

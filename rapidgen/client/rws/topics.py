@@ -59,6 +59,20 @@ def symbol(path: str) -> Topic:
     return Topic(path, ops.SYMBOL, {"symbol": path}, "value", 2)
 
 
+_QUEUE = RwsOperation("GET /rw/dipc/{queue}", "GET /rw/dipc/{queue}")
+_DIALOGS = RwsOperation("GET /rw/rapid/uiinstr", "GET /rw/rapid/uiinstr")
+
+
+def queue(name: str) -> Topic:
+    """Messages of a queue of this session; they are taken out of it."""
+    return Topic(name, _QUEUE, {"queue": name})
+
+
+def dialogs() -> Topic:
+    """Dialogs of programs: the instruction that waits."""
+    return Topic("dialogs", _DIALOGS, suffix="uievent")
+
+
 def log(domain: int = 0) -> Topic:
     """Numbers of new entries in the event log."""
     return Topic(f"log {domain}", ops.ELOG, {"domain": str(domain)})

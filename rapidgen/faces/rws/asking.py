@@ -98,6 +98,13 @@ class Denied(Exception):
         return f"rapidgen[1] {self.text} code:{self.code} icode:{self.icode}"
 
 
+def whole(name: str, text: str, least: int = 0, most: int = 999_999_999) -> int:
+    """A whole number of a request. Denied: it is none, or is out of its range."""
+    if text.isdecimal() and len(text) < 10 and least <= int(text) <= most:
+        return int(text)
+    raise Denied(400, "E_INVALIDARG", f"{name}: {text}")
+
+
 def show(*items: Item, title: str = "rw", collection: bool = False, following: str = "") -> Served:
     """An answer with these items."""
     body = Body(items, title=title, collection=collection, next=following)

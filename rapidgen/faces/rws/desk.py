@@ -90,6 +90,8 @@ class Desk:
             path, suffix, query = split_target(got.target)
         except Unreadable:
             return HttpReply(400)
+        if not got.headers.get("host", "").isascii():
+            return HttpReply(400)
         session = self.sessions.find(_cookies(got).get(SESSION, ""))
         if session is None:
             entered = self._enter(got)

@@ -27,9 +27,9 @@ def serves(*operations: RwsOperation) -> Callable[[Handler], Handler]:
     return put
 
 
-def operations() -> tuple[RwsOperation, ...]:
-    """All that is served."""
-    return tuple(operation for operation, _ in _TABLE)
+def served() -> tuple[tuple[RwsOperation, Handler], ...]:
+    """All operations that are served, and what carries each out."""
+    return tuple(_TABLE)
 
 
 @dataclass(frozen=True, slots=True)

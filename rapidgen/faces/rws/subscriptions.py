@@ -72,12 +72,12 @@ class Groups:
         self._generation = generation
         self._scheduler = scheduler
         self._watched = watched
-        self._groups: dict[int, EventGroup] = {}
+        self._groups: dict[str, EventGroup] = {}
         self._made = 0
 
     def find(self, number: str, session: Session) -> EventGroup:
         """A group of a session. Denied: it has none of that number."""
-        group = self._groups.get(int(number)) if number.isdecimal() else None
+        group = self._groups.get(number)
         if group is None or group.session is not session:
             raise Denied(404, "E_UNRESOLVED_URL", f"no subscription {number}")
         return group
@@ -93,7 +93,7 @@ class Groups:
         self._made += 1
         group = EventGroup(self._made, asked.session)
         self.add(asked, group, wanted)
-        self._groups[group.number] = group
+        self._groups[str(group.number)] = group
         asked.session.on_end.append(lambda: self.end(group))
         return group
 
@@ -127,7 +127,7 @@ class Groups:
 
     def end(self, group: EventGroup) -> None:
         """Watch no more."""
-        if self._groups.pop(group.number, None) is None:
+        if self._groups.pop(str(group.number), None) is None:
             return
         for watch in group.watches:
             self._end_watch(watch)
@@ -160,7 +160,7 @@ class Groups:
 
     def leave(self, number: str, send: Send) -> None:
         """`send` hears no more of a group; RWS 2.0 has no second time."""
-        group = self._groups.get(int(number))
+        group = self._groups.get(number)
         if group is None or group.send is not send:
             return
         group.send, group.hang_up = None, lambda: None

@@ -203,8 +203,10 @@ def _queue(
 
     def watch(told: Told) -> Callable[[], None]:
         def look() -> None:
-            fields = {} if suffix else queues.taken(queue)
-            if fields is not None:
+            if suffix:
+                told(Item("dipc-msg-ev", "msg", {}, {"self": text}))
+                return
+            while (fields := queues.taken(queue)) is not None:  # those from before, too
                 told(Item("dipc-msg-ev", "msg", fields, {"self": text}))
 
         queue.queue.changed.add(look)

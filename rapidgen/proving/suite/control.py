@@ -339,6 +339,24 @@ def _instructions_fail(bench: Bench) -> None:
         bench.moves_through(link, bench.wave(3))
         control.close()
         link.close(then=1.3)
+    for content in _REQUESTS:
+        control = bench.control()
+        # What is read behind length, type and kind is the request's own.
+        recovers = fails(bench, "ROS_control", "UnpackRawBytes", "ERR_OUTOFBND", after=3)
+        control.send(content)
+        control.wait_until_lost(2, "a request that cannot be read drops its client")
+        recovers()
+        bench.healthy()
+        stop(bench.control(), 2)
+
+
+_REQUESTS = (
+    STOP,
+    *(
+        messages.encode(content, RawComm.REQUEST)
+        for content in (messages.RawPause(1), messages.RawSpeed(50), messages.RawHeartbeat(1.0))
+    ),
+)
 
 
 @case("supervisor-gone", "a supervisor that does not answer", "R7b", background=True)

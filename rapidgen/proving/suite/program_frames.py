@@ -47,6 +47,8 @@ def _tools(bench: Bench) -> None:
     client.refused(told, RawReason.NO_FRAME, 0, "two tools too many")
     told = client.send([replace(first, frames=(0, len(objects)))])
     client.refused(told, RawReason.NO_FRAME, 0, "a work object too many")
+    told = client.send([replace(first, frames=(0, len(objects) + 1))])
+    client.refused(told, RawReason.NO_FRAME, 0, "two work objects too many")
     if not computes(bench) or (len(tools), len(objects)) == (1, 1):
         return
     for tool in range(len(tools)):

@@ -44,7 +44,7 @@ def _like_rapid(bench: Bench) -> None:
 
 
 def like_rapid(bench: Bench, count: int, chance: random.Random) -> None:
-    """So many programs by lot beside the same ones in RAPID (benchmarks/program_campaign.py)."""
+    """So many programs by lot beside the same ones in RAPID (more: `rapidgen test --programs`)."""
     client = Programmer(bench)
     for _ in range(count):
         one_like_rapid(client, bench, orders(bench, 8, chance))
@@ -92,6 +92,10 @@ def _refused(bench: Bench) -> None:
             behind = replace(right[3], speed=0.0)
             told = client.send([*right[:3], replace(inside, kind=MOVE_ABSJ), behind])
             client.refused(told, RawReason.BAD_SPEED, 4, f"joint {n + 1} at {value}")
+    # The smallest and the widest zone: what is behind it is wrong.
+    for zone in (0.0, 2 / 3):
+        told = client.send([*right[:3], replace(right[3], zone=zone), replace(right[3], speed=0.0)])
+        client.refused(told, RawReason.BAD_SPEED, 4, f"a zone of {zone:g} m")
     wrong: list[tuple[RawOrder, RawReason]] = [
         (replace(right[3], speed=0.0), RawReason.BAD_SPEED),
         (replace(right[3], speed=-1.0), RawReason.BAD_SPEED),

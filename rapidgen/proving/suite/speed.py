@@ -254,6 +254,10 @@ def _speed(bench: Bench) -> None:
         bench.run(0.5)
     if not 1.5 * taken[0] < taken[1] < 2.5 * taken[0] or abs(taken[2] - taken[0]) > 0.5:
         raise Broken(f"at 100, 50 and again 100 % a trajectory took {taken} s")
+    bench.sets_off(link, bench.wave(12))
+    done(control.ask(messages.RawSpeed(1)), "the smallest SPEED")
+    link.stop()
+    bench.rests(3, 1, "it was stopped")
 
 
 @case("speed-at-start", "a speed that comes at the beginning of a trajectory")

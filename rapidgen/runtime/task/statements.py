@@ -33,6 +33,8 @@ class Statements:
         """Are told a task's name and the error that has stopped it."""
         self.breakpoints: dict[tuple[str, str], dict[int, list[WaitingAction]]] = {}
         """By task and module, then line."""
+        self._watched: dict[tuple[str, str], dict[int, list[WaitingAction]]] = {}
+        """The same lines by the names as they are written."""
 
     def before(
         self,
@@ -53,11 +55,19 @@ class Statements:
 
     def due(
         self, task: str, module: LoadedModule, node: n.Statement
-    ) -> Iterator[Callable[[], None]]:
+    ) -> Iterable[Callable[[], None]]:
         """Actions that a statement brings which is about to be executed, one after the other."""
-        lines = self.breakpoints.get((task.lower(), module.name.lower()))
-        if not lines:
-            return
+        # Every statement comes by here.
+        written = (task, module.name)
+        lines = self._watched.get(written)
+        if lines is None:
+            lines = self.breakpoints.setdefault((task.lower(), module.name.lower()), {})
+            self._watched[written] = lines
+        return self._due(lines, module, node) if lines else ()
+
+    def _due(
+        self, lines: dict[int, list[WaitingAction]], module: LoadedModule, node: n.Statement
+    ) -> Iterator[Callable[[], None]]:
         line = module.tree.source.line(node.first)
         for waiting in tuple(lines.get(line, ())):
             waiting.left -= 1

@@ -498,7 +498,7 @@ class Task(Process):
         module, statements = routine.module, self.controller.statements
         for tracer in statements.tracers:
             tracer(self.name, routine, node)
-        if self.stepper.reached(module):
+        if self.stepper.forward is not None and self.stepper.reached(module):
             self.stepper.end()
         if statements.breakpoints and module is not None:
             for action in statements.due(self.name, module, node):

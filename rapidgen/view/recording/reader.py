@@ -14,6 +14,8 @@ from rapidgen.config.manifest import group_from_manifest
 from rapidgen.config.model import GroupConfig
 from rapidgen.diagnostics import refusal
 from rapidgen.python310 import Self
+from rapidgen.view.appearance import PLAIN, Appearance
+from rapidgen.view.recording import looks
 from rapidgen.view.recording import messages as m
 from rapidgen.view.recording.chunks import (
     Chunks,
@@ -94,6 +96,8 @@ class RecordingFile:
         self.signals = self._attached(m.SIGNALS, _SIGNALS, {})
         """What each signal is, by name."""
         self._overview = self._attached(m.OVERVIEW, _OVERVIEW, {})
+        self.look = self._look()
+        """What robots looked like; those without a drawing are drawn from their chain."""
 
     def _refused(self, why: str) -> Exception:
         return refusal(
@@ -122,6 +126,19 @@ class RecordingFile:
                 except ValidationError as error:
                     raise self._refused(f"its {name} cannot be read") from error
         return otherwise
+
+    def _look(self) -> Appearance:
+        kept = self._contents.attachments
+        meshes = {
+            name.removeprefix(m.MESHES): data for name, _, data in kept if name.startswith(m.MESHES)
+        }
+        for name, _, data in kept:
+            if name == m.LOOK:
+                try:
+                    return looks.read(data, meshes, self.robots)
+                except ValueError as error:
+                    raise self._refused(f"its look cannot be read: {error}") from error
+        return PLAIN
 
     def sources(self, time: float) -> dict[tuple[str, str], str]:
         """By task and module: the text that was loaded at a time."""

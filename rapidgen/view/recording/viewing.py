@@ -16,11 +16,11 @@ from rapidgen.view import network_messages as n
 from rapidgen.view import program_messages as p
 from rapidgen.view.aspect import Aspect, Declined, Handler
 from rapidgen.view.conversation import Interpreter, SocketPiece
-from rapidgen.view.drawing import described
+from rapidgen.view.drawing import Drawing
 from rapidgen.view.messages import Request, ToPage
 from rapidgen.view.recording import messages as m
 from rapidgen.view.recording.reader import Moment, RecordingFile
-from rapidgen.view.robots import Carried, group_of, pose_of
+from rapidgen.view.robots import Carried, pose_of, side_by_side
 
 _CURVES = 1500
 """Points of a curve."""
@@ -50,10 +50,9 @@ class RecordingSubject:
 class _Seen:
     """A robot of the recording."""
 
-    def __init__(self, config: GroupConfig) -> None:
+    def __init__(self, config: GroupConfig, drawing: Drawing) -> None:
         self.config = config
-        self.drawing = described(config)
-        self.shown = group_of(config, self.drawing)
+        self.drawing = drawing
         self._map = JointMap.of(config)
         self._kinematics = Kinematics.of(config) if config.chain else None
 
@@ -83,7 +82,7 @@ class RecordedAspect:
 
     def __init__(self, file: RecordingFile) -> None:
         self._file = file
-        self._robots = [_Seen(config) for config in file.robots]
+        self._robots = [_Seen(config, file.look.of(config)) for config in file.robots]
         self._moment = file.at(file.begin)
         self._rate = 0.0
         self._looked = 0.0
@@ -102,7 +101,9 @@ class RecordedAspect:
             title=self._file.title,
             kind="recording",
             may_command=False,
-            groups=tuple(robot.shown for robot in self._robots),
+            groups=tuple(side_by_side(self._file.robots, [r.drawing for r in self._robots])),
+            things=self._file.look.things,
+            faults=self._file.look.faults,
         )
         yield from self._now()
 

@@ -29,6 +29,8 @@ from rapidgen.motion.group import MotionGroup
 from rapidgen.motion.recorder import Recorder
 from rapidgen.runtime.errors import Location
 from rapidgen.runtime.task.task import Task
+from rapidgen.view.appearance import PLAIN, Appearance
+from rapidgen.view.recording import looks
 from rapidgen.view.recording import messages as m
 from rapidgen.view.recording.schemas import plain_schema
 from rapidgen.view.robots import Carried
@@ -54,6 +56,7 @@ class RecordingWriter:
         controller: VirtualController,
         file: BinaryIO,
         watches: Iterable[tuple[str, str]] = (),
+        look: Appearance = PLAIN,
     ) -> None:
         self._controller = controller
         self._scheduler = controller.scheduler
@@ -88,6 +91,10 @@ class RecordingWriter:
         self._attach(m.ROBOTS, json.dumps(robots).encode())
         kinds = {s.name: _kind(s).model_dump() for s in controller.io.signals.values()}
         self._attach(m.SIGNALS, json.dumps(kinds).encode())
+        carried = looks.carried(look)
+        self._attach(m.LOOK, looks.written(carried))
+        for name, mesh in carried.files.items():
+            self._attach(f"{m.MESHES}{name}", mesh, "application/octet-stream")
         self._tick()
 
     # -- what is told ----------------------------------------------------------------------------
@@ -213,7 +220,7 @@ class RecordingWriter:
                 if id(module) not in self._sources and not module.installed:
                     self._sources.add(id(module))
                     text = module.tree.source.text.encode()
-                    self._attach(f"{m.SOURCES}{task.name}/{module.name}", text)
+                    self._attach(f"{m.SOURCES}{task.name}/{module.name}", text, "text/plain")
 
     # -- the file --------------------------------------------------------------------------------
 
@@ -258,8 +265,7 @@ class RecordingWriter:
             )
         return known
 
-    def _attach(self, name: str, data: bytes) -> None:
-        kind = "application/json" if name.endswith(".json") else "text/plain"
+    def _attach(self, name: str, data: bytes, kind: str = "application/json") -> None:
         self._writer.add_attachment(0, self._scheduler.now, name, kind, data)
 
     def close(self) -> None:
@@ -285,11 +291,17 @@ class RecordingWriter:
 
 
 def record(
-    controller: VirtualController, path: Path | str, watches: Iterable[tuple[str, str]] = ()
+    controller: VirtualController,
+    path: Path | str,
+    watches: Iterable[tuple[str, str]] = (),
+    look: Appearance = PLAIN,
 ) -> Callable[[], None]:
-    """Record a controller into a file until the returned function is called. Raises OSError."""
+    """Record a controller into a file until the returned function is called. Raises OSError.
+
+    `look` (`rapidgen.view.appearance.appearance`) is what its robots are drawn from later.
+    """
     file = Path(path).open("wb")  # noqa: SIM115 - closed with the recording
-    writer = RecordingWriter(controller, file, watches)
+    writer = RecordingWriter(controller, file, watches, look)
 
     def end() -> None:
         writer.close()

@@ -6,6 +6,7 @@ from rapidgen.controller.cabinet import Cabinet
 from rapidgen.controller.debugger import Breakpoint, Debugger, Halt, NotNow, Placed, Shown
 from rapidgen.controller.debugger.stack import Level, StackFrame
 from rapidgen.controller.tracing import Coverage
+from rapidgen.generate.origin import origin_of
 from rapidgen.runtime.errors import Location
 from rapidgen.view import program_messages as p
 from rapidgen.view.aspect import Declined, Handler
@@ -143,6 +144,7 @@ class ProgramAspect:
         """Everything that the debugger does."""
         found: dict[type, Handler] = {
             p.ReadSource: self._source,
+            p.ReadOrigin: self._origin,
             p.SetBreakpoint: self._break,
             p.RemoveBreakpoint: self._unbreak,
             p.Proceed: self._drive,
@@ -163,6 +165,17 @@ class ProgramAspect:
         if found is None:
             raise Declined("it is not loaded any more")
         return found
+
+    def _origin(self, request: Request) -> str:
+        assert isinstance(request, p.ReadOrigin)
+        for task in self._tasks.values():
+            for module in task.program.modules.values():
+                text = module.tree.source.text
+                if self._texts.get(text) == request.number and module.file.origin:
+                    found = origin_of(text, module.file.origin)
+                    told = p.SourceOrigin(lines=found.lines, templates=dict(found.templates))
+                    return told.model_dump_json()
+        raise Declined("no template made it")
 
     def _break(self, request: Request) -> str:
         assert isinstance(request, p.SetBreakpoint)

@@ -51,7 +51,8 @@ def split_target(target: str) -> tuple[str, str, list[tuple[str, str]]]:
     path, _, suffix = path.partition(";")
     try:
         decoded, fields = unquote(path, errors="strict"), read_form(query)
-    except UnicodeDecodeError as error:
+        target.encode()
+    except UnicodeError as error:
         raise Unreadable("no path") from error
     if "\0" in decoded:
         raise Unreadable("no path")

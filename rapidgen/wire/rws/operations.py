@@ -72,6 +72,11 @@ def _same(text: str) -> RwsOperation:
     return RwsOperation(text, text)
 
 
+def _verb(path: str, one: str, two: str = "") -> RwsOperation:
+    """The rule of verbs; `two`: RWS 2.0 has another word for it."""
+    return RwsOperation(f"POST {path}?action={one}", f"POST {path}/{two or one}")
+
+
 # -- session, users
 LOGOUT = _same("GET /logout")
 REGISTER_USER = RwsOperation("POST /users", "POST /users/register")
@@ -81,27 +86,23 @@ GRANT_EXISTS = RwsOperation("-", "GET /users/grant-exists")
 RMMP = _same("GET /users/rmmp")
 RMMP_POLL = _same("GET /users/rmmp/poll")
 ASK_RMMP = _same("POST /users/rmmp")
-CANCEL_RMMP = RwsOperation("POST /users/rmmp?action=cancel", "POST /users/rmmp/cancel")
+CANCEL_RMMP = _verb("/users/rmmp", "cancel")
 RETCODE = _same("GET /rw/retcode")
 USERS = _same("GET /users")
-IMPERSONATE = RwsOperation("POST /users?action=impersonate", "POST /users/impersonate")
+IMPERSONATE = _verb("/users", "impersonate")
 SET_LOCALE = RwsOperation("POST /users?action=set-locale", "-")
 ALL_GRANTS = RwsOperation("-", "GET /uas/grants")
 PASSWORD_CHANGE = RwsOperation("-", "GET /uas/user/password-change-allow")
 GRANT_RMMP = RwsOperation("POST /users/rmmp?action=set", "-")
 
 # -- mastership, write access
-MASTERSHIPS = RwsOperation("GET /rw/mastership", "GET /rw/mastership")
-MASTERSHIP = RwsOperation("GET /rw/mastership/{domain}", "GET /rw/mastership/{domain}")
-REQUEST_ALL = RwsOperation("POST /rw/mastership?action=request", "POST /rw/mastership/request")
+MASTERSHIPS = _same("GET /rw/mastership")
+MASTERSHIP = _same("GET /rw/mastership/{domain}")
+REQUEST_ALL = _verb("/rw/mastership", "request")
 REQUEST_PLAIN = RwsOperation("POST /rw/mastership", "-")
-RELEASE_ALL = RwsOperation("POST /rw/mastership?action=release", "POST /rw/mastership/release")
-REQUEST = RwsOperation(
-    "POST /rw/mastership/{domain}?action=request", "POST /rw/mastership/{domain}/request"
-)
-RELEASE = RwsOperation(
-    "POST /rw/mastership/{domain}?action=release", "POST /rw/mastership/{domain}/release"
-)
+RELEASE_ALL = _verb("/rw/mastership", "release")
+REQUEST = _verb("/rw/mastership/{domain}", "request")
+RELEASE = _verb("/rw/mastership/{domain}", "release")
 STATION_REGISTER = RwsOperation("-", "-", "POST /rw/controlstation/register/remote")
 WRITE_ACCESS = RwsOperation("-", "-", "GET /rw/controlstation/writeaccess/status")
 WRITE_REQUEST = RwsOperation("-", "-", "POST /rw/controlstation/writeaccess/request")
@@ -127,28 +128,20 @@ SET_SPEED = _same("POST /rw/panel/speedratio?action=setspeedratio")
 SET_SPEED_PLAIN = RwsOperation("-", "POST /rw/panel/speedratio")
 COLLISION = _same("GET /rw/panel/coldetstate")
 PANEL = _same("GET /rw/panel")
-ACKNOWLEDGE = RwsOperation(
-    "POST /rw/panel/opmode?action=acknowledge", "POST /rw/panel/opmode/acknowledge"
-)
+ACKNOWLEDGE = _verb("/rw/panel/opmode", "acknowledge")
 LOCK_STATE = RwsOperation("-", "GET /rw/panel/opmode/lock-state")
-LOCK = RwsOperation("POST /rw/panel/opmode?action=lock", "POST /rw/panel/opmode/lock")
-UNLOCK = RwsOperation("POST /rw/panel/opmode?action=unlock", "POST /rw/panel/opmode/unlock")
-LANGUAGE = RwsOperation("POST /rw/panel?action=setlang", "POST /rw/panel/lang")
+LOCK = _verb("/rw/panel/opmode", "lock")
+UNLOCK = _verb("/rw/panel/opmode", "unlock")
+LANGUAGE = _verb("/rw/panel", "setlang", "lang")
 EMERGENCY_STOP = RwsOperation("-", "POST /rw/panel/emergency-stop")
 
 # -- execution
 EXECUTION = _same("GET /rw/rapid/execution")
-START = RwsOperation("POST /rw/rapid/execution?action=start", "POST /rw/rapid/execution/start")
-STOP = RwsOperation("POST /rw/rapid/execution?action=stop", "POST /rw/rapid/execution/stop")
-RESET_PP = RwsOperation(
-    "POST /rw/rapid/execution?action=resetpp", "POST /rw/rapid/execution/resetpp"
-)
-SET_CYCLE = RwsOperation(
-    "POST /rw/rapid/execution?action=setcycle", "POST /rw/rapid/execution/cycle"
-)
-START_ENTRY = RwsOperation(
-    "POST /rw/rapid/execution?action=startprodentry", "POST /rw/rapid/execution/startprodentry"
-)
+START = _verb("/rw/rapid/execution", "start")
+STOP = _verb("/rw/rapid/execution", "stop")
+RESET_PP = _verb("/rw/rapid/execution", "resetpp")
+SET_CYCLE = _verb("/rw/rapid/execution", "setcycle", "cycle")
+START_ENTRY = _verb("/rw/rapid/execution", "startprodentry")
 
 # -- tasks, modules, program
 TASKS = _same("GET /rw/rapid/tasks")
@@ -167,12 +160,8 @@ MODULE_TEXT = RwsOperation(
     "GET /rw/rapid/modules/{module}?resource=module-text",
     "GET /rw/rapid/tasks/{task}/modules/{module}/text",
 )
-LOAD_MODULE = RwsOperation(
-    "POST /rw/rapid/tasks/{task}?action=loadmod", "POST /rw/rapid/tasks/{task}/loadmod"
-)
-UNLOAD_MODULE = RwsOperation(
-    "POST /rw/rapid/tasks/{task}?action=unloadmod", "POST /rw/rapid/tasks/{task}/unloadmod"
-)
+LOAD_MODULE = _verb("/rw/rapid/tasks/{task}", "loadmod")
+UNLOAD_MODULE = _verb("/rw/rapid/tasks/{task}", "unloadmod")
 SAVE_MODULE = RwsOperation(
     "POST /rw/rapid/modules/{module}?action=save",
     "POST /rw/rapid/tasks/{task}/modules/{module}/save",
@@ -180,10 +169,7 @@ SAVE_MODULE = RwsOperation(
 PROGRAM = _same("GET /rw/rapid/tasks/{task}/program")
 BUILD_ERRORS = _same("GET /rw/rapid/tasks/{task}/program/builderror")
 POINTER = _same("GET /rw/rapid/tasks/{task}/pcp")
-POINTER_TO_ROUTINE = RwsOperation(
-    "POST /rw/rapid/tasks/{task}/pcp?action=set-pp-routine",
-    "POST /rw/rapid/tasks/{task}/pcp/routine",
-)
+POINTER_TO_ROUTINE = _verb("/rw/rapid/tasks/{task}/pcp", "set-pp-routine", "routine")
 TASK_MOTION = _same("GET /rw/rapid/tasks/{task}/motion")
 ACTIVATE_ALL = RwsOperation("POST /rw/rapid/tasks?action=activate", "-")
 DEACTIVATE_ALL = RwsOperation("POST /rw/rapid/tasks?action=deactivate", "-")
@@ -205,23 +191,11 @@ SET_TEXT_RANGE = RwsOperation(
     "POST /rw/rapid/modules/{module}?action=set-text-range",
     "POST /rw/rapid/tasks/{task}/modules/{module}/text/range",
 )
-LOAD_PROGRAM = RwsOperation(
-    "POST /rw/rapid/tasks/{task}/program?action=loadprog",
-    "POST /rw/rapid/tasks/{task}/program/load",
-)
-UNLOAD_PROGRAM = RwsOperation(
-    "POST /rw/rapid/tasks/{task}/program?action=unloadprog",
-    "POST /rw/rapid/tasks/{task}/program/unload",
-)
-SAVE_PROGRAM = RwsOperation(
-    "POST /rw/rapid/tasks/{task}/program?action=save",
-    "POST /rw/rapid/tasks/{task}/program/save",
-)
+LOAD_PROGRAM = _verb("/rw/rapid/tasks/{task}/program", "loadprog", "load")
+UNLOAD_PROGRAM = _verb("/rw/rapid/tasks/{task}/program", "unloadprog", "unload")
+SAVE_PROGRAM = _verb("/rw/rapid/tasks/{task}/program", "save")
 COUNTER = RwsOperation("GET /rw/rapid/tasks/{task}/execution", "-")
-POINTER_TO_CURSOR = RwsOperation(
-    "POST /rw/rapid/tasks/{task}/pcp?action=set-pp-cursor",
-    "POST /rw/rapid/tasks/{task}/pcp/cursor",
-)
+POINTER_TO_CURSOR = _verb("/rw/rapid/tasks/{task}/pcp", "set-pp-cursor", "cursor")
 POINTER_TO_MAIN = RwsOperation("-", "POST /rw/rapid/tasks/{task}/pcp/reset")
 
 # -- dialogs of the pendant
@@ -253,9 +227,7 @@ SYMBOL_PROPERTIES = RwsOperation(
     "GET /rw/rapid/symbol/properties/RAPID/{symbol*}",
     "GET /rw/rapid/symbol/RAPID/{symbol*}/properties",
 )
-SEARCH_SYMBOLS = RwsOperation(
-    "POST /rw/rapid/symbols?action=search-symbols", "POST /rw/rapid/symbols/search"
-)
+SEARCH_SYMBOLS = _verb("/rw/rapid/symbols", "search-symbols", "search")
 SET_INITIAL = RwsOperation("POST /rw/rapid/symbol/data/RAPID/{symbol*}?action=setInitValue", "-")
 VALIDATE_VALUE = RwsOperation(
     "POST /rw/rapid/symbol/data?action=validate",
@@ -267,22 +239,14 @@ NETWORKS = _same("GET /rw/iosystem/networks")
 DEVICES = _same("GET /rw/iosystem/devices")
 SIGNALS = _same("GET /rw/iosystem/signals")
 SIGNAL = _same("GET /rw/iosystem/signals/{signal*}")
-SET_SIGNAL = RwsOperation(
-    "POST /rw/iosystem/signals/{signal*}?action=set",
-    "POST /rw/iosystem/signals/{signal*}/set-value",
-)
-SEARCH_SIGNALS = RwsOperation(
-    "POST /rw/iosystem/signals?action=signal-search", "POST /rw/iosystem/signals/signal-search"
-)
+SET_SIGNAL = _verb("/rw/iosystem/signals/{signal*}", "set", "set-value")
+SEARCH_SIGNALS = _verb("/rw/iosystem/signals", "signal-search")
 IO_SYSTEM = _same("GET /rw/iosystem")
 NETWORK = _same("GET /rw/iosystem/networks/{network}")
 DEVICE = _same("GET /rw/iosystem/devices/{device*}")
 SEARCH_NETWORKS = RwsOperation("POST /rw/iosystem/networks?action=search", "-")
 SEARCH_DEVICES = _same("POST /rw/iosystem/devices?action=search")
-SEARCH_SIGNALS_TWICE = RwsOperation(
-    "POST /rw/iosystem/signals?action=signal-searchex",
-    "POST /rw/iosystem/signals/signal-search-ex",
-)
+SEARCH_SIGNALS_TWICE = _verb("/rw/iosystem/signals", "signal-searchex", "signal-search-ex")
 SIGNAL_CONFIG = RwsOperation("-", "GET /rw/iosystem/signals/{signal*}/config")
 
 # -- motion
@@ -304,11 +268,8 @@ AXES = _same("GET /rw/motionsystem/mechunits/{unit}/axes")
 AXIS = _same("GET /rw/motionsystem/mechunits/{unit}/axes/{axis}")
 LEAD_THROUGH = RwsOperation("-", "GET /rw/motionsystem/mechunits/{unit}/lead-through")
 SET_LEAD_THROUGH = RwsOperation("-", "POST /rw/motionsystem/mechunits/{unit}/lead-through")
-SET_POSITION = RwsOperation(
-    "POST /rw/motionsystem/mechunits/{unit}?action=mechunit-position",
-    "POST /rw/motionsystem/mechunits/{unit}/position",
-)
-JOG = RwsOperation("POST /rw/motionsystem?action=jog", "POST /rw/motionsystem/jog")
+SET_POSITION = _verb("/rw/motionsystem/mechunits/{unit}", "mechunit-position", "position")
+JOG = _verb("/rw/motionsystem", "jog")
 
 # -- cfg
 CFG = _same("GET /rw/cfg")
@@ -319,14 +280,11 @@ CFG_SET = RwsOperation(
     "POST /rw/cfg/{domain}/{type}/instances/{instance}?action=set",
     "POST /rw/cfg/{domain}/{type}/instances/{instance}",
 )
-CFG_CREATE = RwsOperation(
-    "POST /rw/cfg/{domain}/{type}/instances?action=create-default",
-    "POST /rw/cfg/{domain}/{type}/instances/create-default",
-)
+CFG_CREATE = _verb("/rw/cfg/{domain}/{type}/instances", "create-default")
 CFG_DELETE = _same("DELETE /rw/cfg/{domain}/{type}/instances/{instance}")
-CFG_LOAD = RwsOperation("POST /rw/cfg?action=load", "POST /rw/cfg/load")
-CFG_VALIDATE = RwsOperation("POST /rw/cfg?action=validate", "POST /rw/cfg/validate")
-CFG_SAVE = RwsOperation("POST /rw/cfg/{domain}?action=saveas", "POST /rw/cfg/{domain}/saveas")
+CFG_LOAD = _verb("/rw/cfg", "load")
+CFG_VALIDATE = _verb("/rw/cfg", "validate")
+CFG_SAVE = _verb("/rw/cfg/{domain}", "saveas")
 CFG_ATTRIBUTES = RwsOperation("-", "GET /rw/cfg/{domain}/{type}/attributes")
 
 # -- files
@@ -351,13 +309,13 @@ PRODUCTS = _same("GET /rw/system/products")
 ROBOT_TYPE = _same("GET /rw/system/robottype")
 RESTART = RwsOperation("POST /rw/panel?action=restart", "POST /ctrl/restart")
 RESTART_AT_CTRL = RwsOperation("POST /ctrl", "-")
-BACKUP = RwsOperation("POST /ctrl/backup?action=backup", "POST /ctrl/backup/create")
+BACKUP = _verb("/ctrl/backup", "backup", "create")
 BACKUP_STATE = _same("GET /ctrl/backup/state")
 PROGRESS = _same("GET /progress/{id}")
 ELOGS = _same("GET /rw/elog")
 ELOG = _same("GET /rw/elog/{domain}")
 ELOG_EVENT = _same("GET /rw/elog/{domain}/{number}")
-CLEAR_ELOG = RwsOperation("POST /rw/elog/{domain}?action=clear", "POST /rw/elog/{domain}/clear")
+CLEAR_ELOG = _verb("/rw/elog/{domain}", "clear")
 SET_CLOCK = _same("PUT /ctrl/clock")
 TIME_ZONE = _same("GET /ctrl/clock/timezone")
 RESTART_COUNT = RwsOperation("-", "GET /ctrl/restart/restartcount")
@@ -368,12 +326,12 @@ VIRTUAL_STATE = _same("GET /ctrl/virtualtime/vtstate")
 VIRTUAL_SPEED = _same("GET /ctrl/virtualtime/vtspeed")
 SAFETY_MODE = RwsOperation("-", "GET /ctrl/safety/mode")
 BACKUPS = _same("GET /ctrl/backup")
-RESTORE = RwsOperation("POST /ctrl/backup?action=restore", "POST /ctrl/backup/restore")
+RESTORE = _verb("/ctrl/backup", "restore")
 CHECK_RESTORE = RwsOperation("-", "POST /ctrl/backup/check-restore")
 VISION = _same("GET /rw/vision")
-CLEAR_ELOGS = RwsOperation("POST /rw/elog?action=clearall", "POST /rw/elog/clearall")
+CLEAR_ELOGS = _verb("/rw/elog", "clearall")
 ELOG_NUMBER = RwsOperation("-", "GET /rw/elog/seqnum/{number}")
-SAVE_ELOG = RwsOperation("POST /rw/elog?action=saveraw", "POST /rw/elog/saveraw")
+SAVE_ELOG = _verb("/rw/elog", "saveraw")
 
 # -- subscriptions
 SUBSCRIBE = _same("POST /subscription")

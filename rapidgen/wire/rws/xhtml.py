@@ -14,9 +14,9 @@ LARGEST = 16_000_000
 """Bytes of a body that is taken apart."""
 _DEEPEST = 8
 """Items within items."""
-_FORBIDDEN = dict.fromkeys(
-    (*range(9), 11, 12, *range(14, 32), 0xFFFE, 0xFFFF), "\N{REPLACEMENT CHARACTER}"
-)
+_CONTROLS = (*range(9), 11, 12, *range(14, 32))
+_SURROGATES = range(0xD800, 0xE000)
+_FORBIDDEN = dict.fromkeys((*_CONTROLS, *_SURROGATES, 0xFFFE, 0xFFFF), "\N{REPLACEMENT CHARACTER}")
 """What XML cannot hold; texts of RAPID may."""
 
 

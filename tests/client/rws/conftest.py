@@ -65,3 +65,40 @@ def served_two(tmp_path):
         service = serve_rws(cabinet, Generation.TWO)
         yield Served(cabinet, service, Generation.TWO, tmp_path)
         service.close()
+
+
+ASKING = """MODULE MainModule
+    VAR rmqslot sender;
+    VAR rmqmessage message;
+    VAR rmqheader header;
+    PERS num key := 0;
+    PERS num number := 0;
+    PERS string text := "";
+    PERS num got := 0;
+    VAR num answer;
+    PROC main()
+        TPReadFK answer, "Which one?", "Left", "Right", "", "", "None";
+        key := answer;
+        TPReadNum answer, "How many?";
+        number := answer;
+        text := UIAlphaEntry(\\Message:="Who?");
+        RMQReadWait message;
+        RMQGetMsgHeader message \\Header:=header \\SenderId:=sender;
+        RMQGetMsgData message, answer;
+        got := answer;
+        RMQSendMessage sender, "thanks";
+    ENDPROC
+ENDMODULE
+"""
+
+
+@pytest.fixture(params=list(Generation), ids=lambda g: f"rws{g.value}")
+def asking(request, tmp_path):
+    """A controller whose program asks."""
+    with make_cabinet(
+        tmp_path, request.param, program=ASKING, clock="real", speed=SPEED
+    ) as cabinet:
+        cabinet.start()
+        service = serve_rws(cabinet, request.param)
+        yield Served(cabinet, service, request.param, tmp_path)
+        service.close()

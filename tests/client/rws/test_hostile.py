@@ -40,6 +40,13 @@ FLOWS = {
     "log": lambda c: flows.log.log(c),
     "holder": lambda c: flows.holding.holder(c),
     "backup": lambda c: flows.jobs.backup(c, "b"),
+    "restore": lambda c: flows.jobs.restore(c, "BACKUP/b", wait=3),
+    "dialog": lambda c: flows.dialogs.dialog(c),
+    "answer_dialog": lambda c: flows.dialogs.answer_dialog(c, 1),
+    "queues": lambda c: flows.queues.queues(c),
+    "make_queue": lambda c: flows.queues.make_queue(c, "q"),
+    "send_message": lambda c: flows.queues.send_message(c, "RMQ_T", "num;1"),
+    "receive_message": lambda c: flows.queues.receive_message(c, "q", wait=3),
     "restart": lambda c: flows.jobs.restart(c, wait=3),
     "subscribe": lambda c: flows.subscribing.subscribe(c, [topics.symbol("T/x"), topics.log()]),
     "select_task": lambda c: flows.rapid.select_task(c, "T", True),
@@ -54,12 +61,13 @@ KINDS = (
     "pnl-ctrlstate", "pnl-opmode", "pnl-speedratio", "rap-execution", "rap-task-li", "rap-data",
     "ctrl-identity-info", "pcp-info", "ios-signal-li", "ios-signal", "fs-file", "progress",
     "cfg-dt-instance-li", "elog-message-li", "msh-resource", "rap-sympropvar-li", "rap-builderrs",
-    "user-grant", "user-rmmp-poll", "ms-jointtarget", "ms-robtargets",
+    "user-grant", "user-rmmp-poll", "ms-jointtarget", "ms-robtargets", "rap-uiactive-li",
+    "rap-uiparams-li", "dipc-read-li", "dipc-queue-li",
 )  # fmt: skip
 FIELDS = (
     "ctrlstate", "opmode", "speedratio", "ctrlexecstate", "name", "lvalue", "value", "fs-size",
     "state", "code", "beginposition", "mastership", "dim", "row", "msgtype", "location",
-    "excstate", "active", "status", "rax_1", "eax_a", "x", "q1",
+    "excstate", "active", "status", "rax_1", "eax_a", "x", "q1", "stack", "instr", "dipc-userdef",
 )  # fmt: skip
 WORDS = (
     "",

@@ -9,11 +9,14 @@ strict and as true as before. The short forms are tests: `test_hostile.py`, `tes
 """
 
 import argparse
+import inspect
 import random
+import re
 import sys
 import tempfile
 import time
 from collections import Counter
+from functools import cache
 from itertools import count
 from pathlib import Path
 
@@ -27,24 +30,29 @@ from rapidgen.client.rws.address import parse_address
 from rapidgen.client.rws.core import Login, RwsCore
 from rapidgen.faces.rws import routing
 from rapidgen.faces.rws.asking import Received
+from rapidgen.faces.rws.disks import VOLUMES
 from rapidgen.wire.rws import media
 from rapidgen.wire.rws.bodies import Generation
+from rapidgen.wire.rws.operations import Route
 
 NAMES = (
     "T_ROB1", "MainModule", "x", "list{2}", "count", "do x;1", "aoSpeed", "ROB_1", "SYS", "EIO",
     "CAB_TASKS", "EIO_SIGNAL", "$HOME", "HOME/a.txt", "$HOME/../../etc/passwd", "TEMP/b", "0", "1",
-    "-1", "99999999999999999999", "\u00b2", "", "%00", "%", "%zz", "a" * 5000, "{", "[1,", "\udcff",
+    "-1", "9" * 5000, "RMQ_T_ROB1", "queue", "RAPID/T_ROB1/%$1", "TPAnswer", "HOME/.", "DRV_1",
+    "Local/DRV_1", "Other", "\u00b2", "", "%00", "%", "%zz", "a" * 5000, "{", "[1,", "\udcff",
     "..", "T_ROB1/MainModule/x", "edit", "rapid", "cfg", "motion", "{1}", "nan", "inf",
 )  # fmt: skip
-FIELDS = (
-    "value", "lvalue", "mode", "Delay", "ActivePulse", "privilege", "task", "module", "routine",
-    "modulepath", "replace", "name", "path", "fs-action", "fs-newname", "fs-overwrite",
-    "speed-ratio", "ctrl-state", "opmode", "cycle", "stopmode", "usetsp", "regain", "execmode",
-    "condition", "stopatbp", "alltaskbytsp", "restart-mode", "backup", "filepath", "action-type",
-    "resources", "1", "1-p", "view", "blockurl", "symtyp", "regexp", "recursive", "Type", "Name",
-    "control-station-name", "control-station-id", "pincode", "allow-motion-control", "username",
-    "dattyp", "vartyp",
-)  # fmt: skip
+_READ = re.compile(r"""(?:field|form\.get)\(\s*"([\w-]+)\"""")
+
+
+@cache
+def fields(module: str) -> tuple[str, ...]:
+    """Fields that handlers of a module read; nameless ones are subscriptions and attributes."""
+    found = _READ.findall(inspect.getsource(sys.modules[module]))
+    return (*dict.fromkeys(found), *MORE)
+
+
+MORE = ("resources", "1", "1-p", "Type", "Name", "name1", "line", "startrow", "endcol", "wobj")
 WORDS = (
     *NAMES, "true", "TRUE", "FALSE", "modify", "exec", "motoron", "motoroff", "auto", "man",
     "once", "forever", "stop", "continue", "none", "normal", "create", "copy", "rename", "per",
@@ -52,11 +60,16 @@ WORDS = (
     "[NORMAL,1]", "/fileservice/$HOME/c.cfg", "/fileservice/HOME/d", "(((((((((((((((a+)+)+)+)+",
     "/rw/iosystem/signals/aoSpeed;state", "/rw/rapid/execution;ctrlexecstate", "/rw/elog/0",
     "/rw/panel/opmode", "1e400", "1e9", "2", "[[0,0,0],[1,0,0,0]]", '"a', "'", "\r\nX: y",
+    "[0,0,0,0,0,0]", "num;5", "string;\"a\"", "robtarget;[[", "tool0", "T_ROB1/MainModule/tool",
+    "MODULE Other\nPROC main()\nENDPROC\nENDMODULE", "9" * 5000, "-0", "RMQ_T_ROB1", "444",
+    "active", "[num", "(a+)+!", "1234", "HOME/.", "/fileservice/HOME/b/..", "off", "Before",
 )  # fmt: skip
 QUERIES = (
     "", "", "", "json=1", "mastership=implicit", "resource=module-text", "start=-5&limit=1e9",
     "limit=0", "start=99999", "lang=en", "task=T_ROB1", "task=", "coordinate=Tool", "order=lifo",
-    "elogseqnum=-1", "code=x", "grant=UAS_BACKUP", "&&&=", "action=set", "tool=x&wobj=y",
+    "elogseqnum=-1", "code=x", "stackframe=1", "changecount=9", "resource=robtarget", "text=e",
+    "startrow=1&endrow=-1", "network=Local", "dipc-timeout=-1",
+    "grant=UAS_BACKUP", "&&&=", "action=set", "tool=x&wobj=y",
 )  # fmt: skip
 TYPES = (
     "", "*/*", "text/plain", "application/x-www-form-urlencoded", "application/octet-stream;v=2.0",
@@ -69,6 +82,7 @@ MASTERSHIP = (
     "/rw/mastership/edit/request", "/rw/mastership/rapid?action=request",
     "/rw/mastership/cfg?action=request",
 )  # fmt: skip
+QUEUE = {"dipc-queue-name": "queue", "dipc-queue-size": "2", "dipc-max-msg-size": "444"}
 RARE = ("/ctrl/restart", "action=restart")
 
 
@@ -89,10 +103,16 @@ def answers(number: int, first: int) -> int:
     return failed
 
 
+@cache
+def _routes(generation: Generation) -> tuple[tuple[Route, str], ...]:
+    """How a generation spells what is served, and which module serves it."""
+    found = ((o.route(generation), h.__module__) for o, h in routing.served())
+    return tuple((route, module) for route, module in found if route)
+
+
 def hostile(rng: random.Random, generation: Generation) -> tuple[str, str, bytes, dict[str, str]]:
     """A request that resembles one."""
-    routes = [operation.route(generation) for operation in routing.operations()]
-    route = rng.choice([r for r in routes if r is not None])
+    route, module = rng.choice(_routes(generation))
     names = {name: rng.choice(NAMES) for name in route.pattern.groupindex}
     try:
         target = route.fill(names)
@@ -106,7 +126,8 @@ def hostile(rng: random.Random, generation: Generation) -> tuple[str, str, bytes
     query = rng.choice(QUERIES)
     if query:
         target += f"{'&' if '?' in target else '?'}{query}"
-    pairs = [f"{rng.choice(FIELDS)}={rng.choice(WORDS)}" for _ in range(rng.randrange(8))]
+    chosen = rng.sample(fields(module), rng.randrange(len(fields(module))))
+    pairs = [f"{field}={rng.choice(WORDS)}" for field in chosen for _ in range(rng.choice((1, 2)))]
     body = "&".join(pairs).encode("utf-8", "surrogatepass")
     if rng.random() < 0.1:
         body = rng.randbytes(rng.randrange(200))
@@ -128,6 +149,7 @@ def requests(number: int, first: int) -> int:
         ):
             desk = make_desk(cabinet, generation)
             desk.sessions.is_too_fast = lambda: False
+            cabinet.controller.operator.ask("T_ROB1", "TPReadFK", "how many?", ("1", "2"), int)
             for seed in range(first, first + number // 3):
                 rng = random.Random(seed)
                 method, target, body, headers = hostile(rng, generation)
@@ -136,6 +158,7 @@ def requests(number: int, first: int) -> int:
                 caller = Caller(desk)
                 for path in rng.sample(MASTERSHIP, rng.randrange(3)):
                     caller.post(path)
+                caller.post(f"/rw/dipc{'?action=dipc-create' if caller.is_one else ''}", QUEUE)
                 status, wrong = _sent(caller, (method, target, body, headers))
                 statuses[status] += 1
                 if wrong:
@@ -169,6 +192,7 @@ def _is_worse(desk) -> bool:
     good = Caller(desk, "Admin")
     reply = good.send("GET", "/rw/system")
     fine = reply.status == 200 and media.read(reply.body, reply.header("content-type")).items
+    fine = fine and all(good.send("GET", f"/fileservice/{v}").status == 200 for v in VOLUMES)
     desk.sessions.end(good.session)
     if not fine:
         print("a good client is refused")

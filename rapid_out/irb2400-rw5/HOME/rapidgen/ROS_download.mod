@@ -8,7 +8,7 @@ MODULE ROS_download
     ! Each point is checked when it comes; nothing is handed over before -3 has come and
     ! everything was right. Then the points go through the ring to the motion task.
 
-    CONST string ROS_BUILD_DOWNLOAD := "7495a2bd6ba3";
+    CONST string ROS_BUILD_DOWNLOAD := "2ba6be63f6d7";
 
     ! A trajectory is being received, and still may become one.
     VAR bool ROS_receiving := FALSE;
@@ -194,7 +194,6 @@ MODULE ROS_download
             ! that is longer.
             IF points{2}.duration > needed needed := points{2}.duration;
             points{2}.duration := 0;
-            points{2}.dwell := FALSE;
         ENDIF
         points{1}.duration := needed;
         ROS_receiving := FALSE;

@@ -9,7 +9,7 @@ MODULE ROS_motion
     ! check was made before a point was put in. A point whose successor is there is passed
     ! through its zone; without one it is a stop point, so the planner never runs dry in a corner.
 
-    CONST string ROS_BUILD_MOTION := "7495a2bd6ba3";
+    CONST string ROS_BUILD_MOTION := "2ba6be63f6d7";
 
     ! With \T in the move the speed is only formal.
     LOCAL CONST speeddata SPEED := [1000,500,1000,1000];
@@ -210,10 +210,10 @@ MODULE ROS_motion
         ELSE
             take_time part_after(next);
         ENDIF
-        IF point.dwell THEN
-            WaitUntil ROS_abort <> ROS_abort_done \MaxTime:=point.duration \TimeFlag:=waited \PollRate:=0.04;
-        ELSEIF point.duration = 0 THEN
+        IF point.duration = 0 THEN
             ! The robot stands there already.
+        ELSEIF point.dwell THEN
+            WaitUntil ROS_abort <> ROS_abort_done \MaxTime:=point.duration \TimeFlag:=waited \PollRate:=0.04;
         ELSEIF stops THEN
             move fine;
         ELSE

@@ -11,7 +11,7 @@ MODULE ROS_supervisor
     ! which an old path must not go on: e-stop, motors off, program stop, change of mode.
     ! A pause: StopMove alone, so that the path is kept, and StartMove when it is asked for.
 
-    CONST string ROS_BUILD_SUPERVISOR := "7495a2bd6ba3";
+    CONST string ROS_BUILD_SUPERVISOR := "2ba6be63f6d7";
 
     LOCAL VAR intnum asked_to_stop;
     LOCAL VAR intnum asked_to_look;
@@ -32,8 +32,7 @@ MODULE ROS_supervisor
     PROC main()
         ROS_start_task ROS_shown_supervisor, ROS_BUILD_SUPERVISOR = ROS_BUILD_ID;
         ! What was under way when this task ended is over.
-        IF ROS_active() OR (ROS_paused >= 0 AND IsStopMoveAct(\FromNonMoveTask)) halt ROS_REASON_POWER_FAILURE;
-        ROS_paused := -1;
+        IF ROS_active() halt ROS_REASON_POWER_FAILURE;
         mode := OpMode();
         IDelete asked_to_stop;
         CONNECT asked_to_stop WITH on_request;

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from rapidgen.client.errors import ConnectionFailed, ConnectionLost, RobotTimeout
 from rapidgen.client.rws.core import RwsCore
 from rapidgen.client.rws.effects import Flow, Pause
-from rapidgen.client.rws.errors import Busy, LoginFailed, RwsError
+from rapidgen.client.rws.errors import Busy, LoginFailed, NotObeyed, RwsError
 from rapidgen.client.rws.flows.asking import ask
 from rapidgen.client.rws.flows.connecting import close, connect
 from rapidgen.client.rws.flows.files import volume
@@ -54,11 +54,27 @@ def backup(core: RwsCore, name: str, *, volume_name: str = "BACKUP") -> Flow[str
 def restart(core: RwsCore, *, wait: float = 180.0) -> Flow[None]:
     """Restart the controller (a warm start, no other kind), and wait s until it serves again.
 
-    RAPID stops. Returns when it is back and has tasks. Raises RobotTimeout (RG602).
+    RAPID stops. Returns when it is back and has tasks. Raises RobotTimeout (RG602), NotObeyed
+    (RG655): it was agreed to, and nothing restarts.
     """
+    yield from _restarted(core, ops.RESTART, {"restart-mode": "restart"}, wait)
+
+
+def restore(core: RwsCore, path: str, *, wait: float = 180.0) -> Flow[None]:
+    """Restart with what a backup on the controller (`BACKUP/name`) holds: modules, cfg, HOME.
+
+    What is there now is gone: `backup` first. RAPID stops. Raises as `restart`; RwsError (RG650):
+    it is no backup.
+    """
+    form = {"backup": f"/fileservice/{volume(core, path)}"}
+    yield from _restarted(core, ops.RESTORE, form, wait)
+
+
+def _restarted(core: RwsCore, operation: RwsOperation, form: Fields, wait: float) -> Flow[None]:
+    """Ask for something that restarts the controller, and wait s until it serves again."""
     yield from take(core, "cfg")
     try:
-        yield from ask(core, ops.RESTART, form={"restart-mode": "restart"})
+        yield from ask(core, operation, form=form)
     except ConnectionLost:
         pass  # it was quicker than its answer; whether it restarts is looked at below
     except RwsError:
@@ -72,7 +88,10 @@ def restart(core: RwsCore, *, wait: float = 180.0) -> Flow[None]:
 
 
 def _gone(core: RwsCore, wait: float) -> Flow[None]:
-    """Wait until the mastership of this session is gone: with it the old run of the controller."""
+    """Wait until the mastership of this session is gone: with it the old run of the controller.
+
+    Raises NotObeyed (RG655).
+    """
     until = core.clock() + wait
     while core.clock() < until:
         try:
@@ -82,6 +101,8 @@ def _gone(core: RwsCore, wait: float) -> Flow[None]:
         if who is None or not who.mine:
             return
         yield Pause(_LOOK)
+    yield from give(core, "cfg")
+    raise NotObeyed.because("RG655", f"{core.where} agreed to restart, and did not in {wait:g} s")
 
 
 def wait_ready(core: RwsCore, *, wait: float = 180.0) -> Flow[None]:

@@ -81,10 +81,14 @@ def _told(
         if item.kind in _TWINS:
             continue
         name = topic.name if topic is not None else item.title
+        if item.kind == "rap-ui-ev":
+            name = "dialogs"  # known by its class: it links to nothing [code: OmniCore App SDK]
         if item.kind == "elog-message-ev":
             value = item.text("seqnum") or item.links.get("self", "").rpartition("/")[2]
             domain = item.links.get("self", "").split("/")[-2:][0]
             name = f"log {domain}"
+        elif item.kind == "dipc-msg-ev":
+            value = item.text("dipc-data")
         elif item.fields:
             value = next(iter(item.fields.values()))
         elif topic is not None and topic.operation is ops.SYMBOL:

@@ -11,7 +11,7 @@ from rapidgen.faces.rws.disks import disk_path
 from rapidgen.faces.rws.paging import page
 from rapidgen.faces.rws.routing import serves
 from rapidgen.system.adding import Addition, Loaded, add, identity_text
-from rapidgen.system.cfg import Attribute, CfgText, Instance, Scalar, Section, parse_cfg, write_cfg
+from rapidgen.system.cfg import Attribute, CfgText, Instance, Section, parse_cfg, scalar, write_cfg
 from rapidgen.wire.rws import operations as ops
 from rapidgen.wire.rws.bodies import Item
 from rapidgen.wire.rws.codes import OK
@@ -128,16 +128,6 @@ def _with(office: "Office", asked: RwsRequest, instances: tuple[Instance, ...]) 
     office.cabinet.cfg = replace(cfg, domains=domains)
 
 
-def _scalar(text: str) -> Scalar:
-    """A value as a cfg file holds it."""
-    for kind in (int, float):
-        try:
-            return kind(text)
-        except ValueError:
-            continue
-    return text
-
-
 def _attribute(name: str, value: str, *, is_one: bool) -> Attribute | None:
     """`Attr=v` in RWS 1.0, `Attr=[v,1]` in 2.0; None: a flag that is false."""
     if not is_one:
@@ -146,7 +136,7 @@ def _attribute(name: str, value: str, *, is_one: bool) -> Attribute | None:
         value = value[1:-1].rpartition(",")[0]
     if value.lower() in ("true", "false"):
         return Attribute(name) if value.lower() == "true" else None
-    return Attribute(name, (_scalar(value),))
+    return Attribute(name, (scalar(value),))
 
 
 @serves(ops.CFG_SET)

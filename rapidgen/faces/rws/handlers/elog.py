@@ -4,7 +4,7 @@ from dataclasses import replace
 from datetime import timedelta
 from typing import TYPE_CHECKING
 
-from rapidgen.faces.rws.asking import Denied, RwsRequest, Served, show
+from rapidgen.faces.rws.asking import Denied, RwsRequest, Served, show, whole
 from rapidgen.faces.rws.disks import disk_path
 from rapidgen.faces.rws.paging import page
 from rapidgen.faces.rws.routing import serves
@@ -49,9 +49,8 @@ def get_events(office: "Office", asked: RwsRequest) -> Served:
         return show(Item("elog-domain", domain, told))
     after = asked.query.get("elogseqnum", "")
     if after:
-        if not after.isdecimal():
-            raise Denied(400, "E_INVALIDARG", "elogseqnum")
-        events = [e for e in events if e.sequence > int(after)]
+        newest = whole("elogseqnum", after)
+        events = [e for e in events if e.sequence > newest]
     return page(asked, [_item(office, domain, e) for e in events], 50, domain)
 
 

@@ -71,7 +71,7 @@ def write(office: "Office", asked: RwsRequest) -> Served:
 def delete(office: "Office", asked: RwsRequest) -> None:
     """Delete a file, or a folder with all that is in it."""
     path = _path(office, asked)
-    if _is_volume(asked.names["path"]):
+    if _is_volume(office, path):
         raise Denied(403, "E_REJECT", "a volume cannot be deleted", -2)
     try:
         if path.is_dir():
@@ -82,8 +82,9 @@ def delete(office: "Office", asked: RwsRequest) -> None:
         raise _missing(asked, asked.names["path"]) from error
 
 
-def _is_volume(path: str) -> bool:
-    return "/" not in path.strip("/")
+def _is_volume(office: "Office", path: Path) -> bool:
+    """Whether it is a disk itself, however it was spelled: `HOME/.`, `HOME/a/..`."""
+    return path.parent == office.controller.files.folder
 
 
 @serves(ops.FILE_ACTION)
@@ -130,10 +131,10 @@ def rename(office: "Office", asked: RwsRequest) -> None:
 
 
 def _two(office: "Office", asked: RwsRequest) -> tuple[Path, Path]:
-    here = asked.names["path"]
-    if _is_volume(here):
+    here, path = asked.names["path"], _path(office, asked)
+    if _is_volume(office, path):
         raise Denied(403, "E_REJECT", "a volume stays what it is", -2)
-    return _path(office, asked), _new(office, asked, None, here.rpartition("/")[0])
+    return path, _new(office, asked, None, here.rpartition("/")[0])
 
 
 def _new(office: "Office", asked: RwsRequest, folder: Path | None, words: str) -> Path:

@@ -7,7 +7,7 @@ from math import isfinite
 from typing import TYPE_CHECKING
 
 from rapidgen.axes.mapping import ABSENT
-from rapidgen.faces.rws.asking import Denied, RwsRequest, Served, show
+from rapidgen.faces.rws.asking import Denied, RwsRequest, Served, show, whole
 from rapidgen.faces.rws.handlers.execution import execution
 from rapidgen.faces.rws.handlers.motion import find_group
 from rapidgen.faces.rws.routing import serves
@@ -46,9 +46,7 @@ def get_system(office: "Office", asked: RwsRequest) -> Served:
 def check_count(office: "Office", asked: RwsRequest) -> Served:
     """Whether the motion system has changed since a count."""
     count = asked.names.get("count") or asked.query.get("changecount", "")
-    if not count.isdecimal():
-        raise Denied(400, "E_INVALIDARG", f"changecount {count}")
-    changed = "TRUE" if int(count) != office.cabinet.restarts else "FALSE"
+    changed = "FALSE" if whole("changecount", count) == office.cabinet.restarts else "TRUE"
     name = asked.kind("changestate", "change-state")
     kind = asked.kind("checkchangecount", "check-changecount")
     return show(Item(kind, "changecount", {name: changed}))
@@ -82,8 +80,7 @@ def axes(office: "Office", asked: RwsRequest) -> Served:
 def axis(office: "Office", asked: RwsRequest) -> Served:
     """One axis, from 1 on; all are calibrated here."""
     number, count = asked.names["axis"], len(find_group(office, asked).config.joints)
-    if not (number.isdecimal() and 1 <= int(number) <= count):
-        raise Denied(400, "E_INVALIDARG", f"axis {number}")
+    whole("axis", number, 1, count)
     return show(
         Item("ms-mechunit-axisstatus", "axisstatus", {"axis-status": "Synchronized"}),
         Item("ms-mechunit-logicalaxis", "logicalaxis", {"logical-axis": number}),
@@ -139,9 +136,11 @@ def lead(office: "Office", asked: RwsRequest) -> None:
 def set_position(office: "Office", asked: RwsRequest) -> None:
     """Put the standing robot elsewhere, degrees and mm: virtual controllers only [VC 7.21]."""
     group = find_group(office, asked)
-    arm = _numbers(asked, "rob_joint") + [0.0] * 6
-    external = _numbers(asked, "ext_joint") + [ABSENT] * 6
-    posture = group.map.from_rapid(arm[:6], external[:6], group.positions())
+    arm, external = _numbers(asked, "rob_joint"), _numbers(asked, "ext_joint")
+    if len(arm) != 6:
+        raise Denied(400, "E_INVALIDARG", "rob_joint has six numbers")
+    external += [ABSENT] * (6 - len(external))
+    posture = group.map.from_rapid(arm, external, group.positions())
     for value, joint in zip(posture, group.config.joints, strict=True):
         if not joint.lower <= value <= joint.upper:
             raise Denied(400, "E_MECHPOS_NOT_IN_LIMIT", f"{joint.name}: {value:g}")

@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from rapidgen.faces.rws.asking import Denied, RwsRequest, Served, show
+from rapidgen.faces.rws.asking import Denied, RwsRequest, Served, show, whole
 from rapidgen.faces.rws.routing import serves
 from rapidgen.wire.rws import operations as ops
 from rapidgen.wire.rws.bodies import Item
@@ -83,15 +83,13 @@ def get_speed(office: "Office", asked: RwsRequest) -> Served:
 @serves(ops.SET_SPEED)
 def set_speed(office: "Office", asked: RwsRequest) -> None:
     """The override in percent, in automatic mode."""
-    text = asked.field("speed-ratio")
-    if not text.isdecimal() or not 0 <= int(text) <= 100:
-        raise Denied(400, "E_INVALIDARG", f"speed-ratio {text}")
+    percent = whole("speed-ratio", asked.field("speed-ratio"), 0, 100)
     if office.controller.mode != "auto":
         raise Denied(403, "E_MODE_REJECT", "only in automatic mode", -2)
     if not asked.is_one:
         office.masters.need(asked, "rapid")
     for group in office.controller.motion.groups.values():
-        group.override = int(text) / 100
+        group.override = percent / 100
     office.controller.operation.changed.notify()
 
 

@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from rapidgen.faces.rws.asking import Denied, RwsRequest, Served, show
+from rapidgen.faces.rws.asking import Denied, RwsRequest, Served, show, whole
 from rapidgen.faces.rws.handlers.execution import execution
 from rapidgen.faces.rws.handlers.tasks import find_task
 from rapidgen.faces.rws.routing import serves
@@ -80,11 +80,10 @@ def pointer_to_cursor(office: "Office", asked: RwsRequest) -> None:
     """Program pointer of one task to a statement of the routine in which it stands."""
     task = _movable(office, asked)
     asked.field("module")
-    row = asked.field(asked.kind("line", "begin-position-row"))
-    if not row.isdecimal() or len(row) > 6:
-        raise Denied(400, "E_INVALIDARG", f"row {row}")
+    field = asked.kind("line", "begin-position-row")
+    row = whole(field, asked.field(field))
     try:
-        office.controller.tasks[task.name].pp_to_statement(int(row))
+        office.controller.tasks[task.name].pp_to_statement(row)
     except CannotStep as error:
         raise Denied(400, "E_ILLEGAL_ENTRYPOINT", str(error)) from error
 
@@ -94,10 +93,8 @@ def get_frame(office: "Office", asked: RwsRequest) -> Served:
     """One frame of the stack, from the innermost on; 400 where there is none [VC 6.16]."""
     task = find_task(office, asked.names["task"], asked)
     frames = task.stack()[::-1]
-    number = asked.query.get("stackframe", "1")
-    if not (number.isdecimal() and 1 <= int(number) <= len(frames)):
-        raise Denied(400, "E_INVALIDARG", "No such stack frame")
-    place = frames[int(number) - 1]
+    number = whole("stackframe", asked.query.get("stackframe", "1"), 1, len(frames))
+    place = frames[number - 1]
     row, column = str(place.span.line), str(place.span.column)
     told = {
         "execlevel": "Normal",

@@ -66,23 +66,25 @@ def load(office: "Office", asked: RwsRequest) -> None:
     if mode not in ("add", "replace"):
         raise Denied(400, "E_INVALIDARG", f"loadmode {mode}")
     path = disk_path(office, words, asked)
-    files = _listed(path, asked, words)
     folder = words.rpartition("/")[0]
+    files = _listed(path, asked, words)
+    places = [disk_path(office, f"{folder}/{file}", asked) for file in files]
+    for file, place in zip(files, places, strict=True):
+        if not place.is_file():
+            raise Denied(400 if asked.is_one else 404, "E_FILE_NOT_FOUND", file)
     try:
         if mode == "replace":
             for name in _own(office, task):
                 office.cabinet.programs.unload(task, name)
-        for file in files:
-            office.cabinet.programs.load(
-                task, path.parent / file, f"{folder}/{file}", replaced=False
-            )
+        for file, place in zip(files, places, strict=True):
+            office.cabinet.programs.load(task, place, f"{folder}/{file}", replaced=False)
     except CannotLoad as fault:
         raise load_refused(asked, fault, words) from fault
     office.program_names[task.name] = path.stem
 
 
 def _listed(path: Path, asked: RwsRequest, words: str) -> list[str]:
-    """Files of a program, which lie in its folder. Denied: it is none, or one is not there."""
+    """Files of a program, which lie in its folder. Denied: it is none."""
     try:
         root = fromstring(path.read_bytes())
     except OSError as error:
@@ -92,9 +94,6 @@ def _listed(path: Path, asked: RwsRequest, words: str) -> list[str]:
     files = [(e.text or "").strip() for e in root.iter() if e.tag == "Module"]
     if root.tag != "Program" or not files or any("/" in f or "\\" in f or not f for f in files):
         raise Denied(400, "E_INVALID_PROGRAMFILE", words)
-    for file in files:
-        if not (path.parent / file).is_file():
-            raise Denied(400 if asked.is_one else 404, "E_FILE_NOT_FOUND", file)
     return files
 
 
@@ -115,20 +114,23 @@ def unload(office: "Office", asked: RwsRequest) -> None:
 def save(office: "Office", asked: RwsRequest) -> None:
     """Write the program's modules and its program file into a folder, made where it is none."""
     task = find_task(office, asked.names["task"], asked)
-    folder = disk_path(office, asked.field("path"), asked)
+    words = asked.field("path")
+    folder = disk_path(office, words, asked)
     name = asked.form.get("name") or office.program_names.get(task.name) or task.name
     if "/" in name or "\\" in name:
         raise Denied(400, "E_INVALID_PATH", name)
+    file = disk_path(office, f"{words}/{name}.pgf", asked)
     try:
         folder.mkdir(exist_ok=True)
     except OSError as error:
-        raise Denied(404, "E_DIR_NOT_EXIST", asked.field("path")) from error
+        raise Denied(404, "E_DIR_NOT_EXIST", words) from error
     listed = []
     for own in _own(office, task):
         module = task.program.modules.get(own.lower())
         text = module_text(task, module) if module else office.cabinet.programs.text(task, own)
-        office.write_file(folder / f"{own}.mod", (text or "").encode("latin-1", "replace"))
+        place = disk_path(office, f"{words}/{own}.mod", asked)
+        office.write_file(place, (text or "").encode("latin-1", "replace"))
         listed.append(f"<Module>{escaped(own)}.mod</Module>")
     head = '<?xml version="1.0" encoding="ISO-8859-1" ?>'
     whole = f"{head}\n<Program>{''.join(listed)}</Program>\n"
-    office.write_file(folder / f"{name}.pgf", whole.encode("latin-1", "replace"))
+    office.write_file(file, whole.encode("latin-1", "replace"))

@@ -6,7 +6,7 @@ between clients it is any text of at most 444 bytes.
 
 from typing import TYPE_CHECKING
 
-from rapidgen.faces.rws.asking import Denied, RwsRequest, Served, show
+from rapidgen.faces.rws.asking import Denied, RwsRequest, Served, show, whole
 from rapidgen.faces.rws.client_queues import KINDS, ClientQueue, ClientText
 from rapidgen.faces.rws.routing import serves
 from rapidgen.runtime.compiler.predefined import find_type
@@ -60,21 +60,12 @@ def get_queue(office: "Office", asked: RwsRequest) -> Served:
     return show(_item("dipc-queue", find(office, asked.names["queue"])))
 
 
-def _number(asked: RwsRequest, name: str, most: int) -> int:
-    text = asked.field(name)
-    if not (text.isdecimal() and len(text) < 9 and 1 <= int(text) <= most):
-        raise Denied(400, "E_INVALIDARG", f"{name}: {text}")
-    return int(text)
-
-
 @serves(ops.CREATE_QUEUE)
 def create(office: "Office", asked: RwsRequest) -> Served:
     """A queue of this client's; it ends with the session."""
     name = asked.field("dipc-queue-name")
-    size, largest = (
-        _number(asked, "dipc-queue-size", 10_000),
-        _number(asked, "dipc-max-msg-size", LARGEST),
-    )
+    size = whole("dipc-queue-size", asked.field("dipc-queue-size"), 1, 10_000)
+    largest = whole("dipc-max-msg-size", asked.field("dipc-max-msg-size"), 1, LARGEST)
     spec = QueueSpec(max_messages=size, max_size=largest)
     if not name or "/" in name:
         raise Denied(400, "E_INVALIDARG", f"dipc-queue-name: {name}")
@@ -123,14 +114,15 @@ def send(office: "Office", asked: RwsRequest) -> None:
 def _to_task(office: "Office", name: str, data: str, sender: str, user: str) -> None:
     kind, _, literal = data.partition(";")
     found = find_type(kind.strip().lower())
-    if office.controller.queues.named(name) is None:
+    queue = office.controller.queues.named(name)
+    if queue is None or not queue.spec.open:
         raise Denied(404, "E_INVALIDSLOTID", f"no queue {name}")
     try:
         if found is None or not found.is_value:
             raise Denied(400, "E_INVALIDARG", f"no type {kind}")
         value = parse_value(literal, found, (), escaped=True)
-        number = float(user or 0)
-        office.controller.queues.send(name, Message(found, (), value, sender, number))
+        number = whole("dipc-userdef", user or "0")
+        office.controller.queues.send(name, Message(found, (), value, sender, float(number)))
     except (NotALiteral, ValueError) as error:
         raise Denied(400, "E_INVALIDARG", f"no message {data}") from error
     except RapidError as error:

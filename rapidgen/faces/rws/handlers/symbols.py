@@ -1,6 +1,7 @@
 """RAPID data: read, written, described, looked for."""
 
 import re
+import warnings
 from collections.abc import Iterator
 from copy import deepcopy
 from dataclasses import dataclass
@@ -21,8 +22,10 @@ from rapidgen.wire.rws.bodies import Item
 if TYPE_CHECKING:
     from rapidgen.faces.rws.office import Office
 
-_ELEMENT = re.compile(r"(\w+)\{\s*(\d+(?:\s*,\s*\d+)*)\s*\}")
+_ELEMENT = re.compile(r"(\w+)\{\s*(\d{1,9}(?:\s*,\s*\d{1,9})*)\s*\}")
 _KINDS = {"PERS": ("per", "pers"), "VAR": ("var", "var"), "CONST": ("con", "constant")}
+_SLOW = re.compile(r"\)[*+{]|(?:[*+{].*){4}", re.DOTALL)
+"""Patterns that could take for ever: repeated groups, more than three repetitions."""
 LARGEST = 16_000
 """Characters of a value that is given whole [mem: the limit itself is not known]."""
 
@@ -155,9 +158,13 @@ def search(office: "Office", asked: RwsRequest) -> Served:
         tasks = [office.controller.tasks[find_task(office, parts[1], asked).name]]
     module = parts[2] if len(parts) > 2 else ""
     try:
-        pattern = re.compile(form.get("regexp") or ".*", re.IGNORECASE)
-    except re.error as error:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # of `[[`, which Python would like to be told from sets
+            pattern = re.compile(form.get("regexp") or ".*", re.IGNORECASE)
+    except (re.error, OverflowError, RecursionError) as error:
         raise Denied(400, "E_INVALIDARG", "regexp") from error
+    if _SLOW.search(pattern.pattern):
+        raise Denied(400, "E_INVALIDARG", "regexp: groups that repeat, or too many repetitions")
     kind, type_name = form.get("symtyp", "any").lower(), form.get("dattyp", "").lower()
     found = [
         Item(f"{item.kind}-li", item.title, item.fields)

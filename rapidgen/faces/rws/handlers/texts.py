@@ -134,11 +134,14 @@ def set_range(office: "Office", asked: RwsRequest) -> None:
 
 
 def _put(office: "Office", asked: RwsRequest, module: _Module, text: str) -> None:
-    name = asked.names["module"]
-    file = ModuleFile(module.file.name, module.file.path, text.encode("latin-1", "replace"))
+    name, programs = asked.names["module"], office.cabinet.programs
+    file = ModuleFile(module.file.name, module.file.path, text.encode())
+    new = office.controller.parse_module(file).name or name
     try:
-        put = office.cabinet.programs.put(module.task, file, replaced=True)
+        if new.lower() != name.lower():
+            if any(m.name.lower() == new.lower() for m in programs.modules(module.task)):
+                raise CannotLoad("E_MOD_AMBNAME")
+            programs.unload(module.task, name)
+        programs.put(module.task, file, replaced=True)
     except CannotLoad as fault:
         raise load_refused(asked, fault, name) from fault
-    if put.lower() != name.lower():
-        office.cabinet.programs.unload(module.task, name)

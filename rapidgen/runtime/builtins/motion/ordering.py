@@ -47,10 +47,8 @@ def order(
     group, how = moving_group(task), "by its axes, in the nearest configuration"
     if not _goes_by_its_axes(task, given, events):
         how = "not at all"
-        stay = JointMove(target=group.path_target, **common(task, group, given))
+        stay = JointMove(target=group.path_target, events=events, **common(task, group, given))
         _put(task, given, group, stay)
-        for event in events:
-            event.act()
     place = here(task)
     at = place() if place is not None else None
     file = f"{Path(at.span.path).name}:{at.span.line}" if isinstance(at, Location) else task.name

@@ -145,7 +145,7 @@ export interface ForgetTrajectory {
 /** A request and the number that its reply will have. */
 export interface FromPage {
   readonly id: number;
-  readonly request: Act | SetMode | SetOverride | SetPace | AnswerQuestion | Jog | JogTo | Copy | SetSignal | Cut | Afflict | Listen | ReadSource | SetBreakpoint | RemoveBreakpoint | Proceed | RunTo | RunFor | StopOnErrors | LookAt | Evaluate | Assign | SetWatch | Cover | Seek | Play | ReadCurves | DropTrajectory | RunTrajectory | ForgetTrajectory;
+  readonly request: Act | SetMode | SetOverride | SetPace | AnswerQuestion | Jog | JogTo | Copy | SetSignal | Cut | Afflict | Listen | ReadSource | ReadOrigin | SetBreakpoint | RemoveBreakpoint | Proceed | RunTo | RunFor | StopOnErrors | LookAt | Evaluate | Assign | SetWatch | Cover | Seek | Play | ReadCurves | DropTrajectory | RunTrajectory | ForgetTrajectory;
 }
 
 /** What the routine that is looked at holds, and the watch list. */
@@ -281,6 +281,12 @@ export interface ReadCurves {
   readonly signal: string;
   readonly begin: number;
   readonly end: number;
+}
+
+/** The reply's text is a SourceOrigin, of a source by its number. */
+export interface ReadOrigin {
+  readonly do: "origin";
+  readonly number: number;
 }
 
 /** The reply's text is a source. */
@@ -501,6 +507,12 @@ export interface SignalValues {
   readonly values: Readonly<Record<string, number>>;
 }
 
+/** The answer to ReadOrigin: each line that a template made, the template and its line. */
+export interface SourceOrigin {
+  readonly lines: readonly (readonly [number, string, number])[];
+  readonly templates: Readonly<Record<string, string>>;
+}
+
 /** A frame of simple_message, or bytes that are none; `way` is seen from the program. */
 export interface SpokenLine {
   readonly time: number;
@@ -537,4 +549,4 @@ export interface TrajectoryFinding {
 
 export type ToPage = AllSignals | Connections | Conversation | Covered | Debugging | Dialogs | DroppedTrajectory | HeldValues | LoadedPrograms | Log | PanelState | Playback | Pointers | Positions | Replied | Scene | Screen | SignalValues | Targets;
 
-export type Request = Act | Afflict | AnswerQuestion | Assign | Copy | Cover | Cut | DropTrajectory | Evaluate | ForgetTrajectory | Jog | JogTo | Listen | LookAt | Play | Proceed | ReadCurves | ReadSource | RemoveBreakpoint | RunFor | RunTo | RunTrajectory | Seek | SetBreakpoint | SetMode | SetOverride | SetPace | SetSignal | SetWatch | StopOnErrors;
+export type Request = Act | Afflict | AnswerQuestion | Assign | Copy | Cover | Cut | DropTrajectory | Evaluate | ForgetTrajectory | Jog | JogTo | Listen | LookAt | Play | Proceed | ReadCurves | ReadOrigin | ReadSource | RemoveBreakpoint | RunFor | RunTo | RunTrajectory | Seek | SetBreakpoint | SetMode | SetOverride | SetPace | SetSignal | SetWatch | StopOnErrors;

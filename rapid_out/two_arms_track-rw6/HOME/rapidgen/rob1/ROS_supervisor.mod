@@ -11,7 +11,7 @@ MODULE ROS_supervisor
     ! which an old path must not go on: e-stop, motors off, program stop, change of mode.
     ! A pause: StopMove alone, so that the path is kept, and StartMove when it is asked for.
 
-    CONST string ROS_BUILD_SUPERVISOR := "c77e4c52459c";
+    CONST string ROS_BUILD_SUPERVISOR := "fb4d5984ee5e";
 
     LOCAL VAR intnum asked_to_stop;
     LOCAL VAR intnum asked_to_look;
@@ -32,8 +32,7 @@ MODULE ROS_supervisor
     PROC main()
         ROS_start_task ROS_shown_supervisor_1, ROS_BUILD_SUPERVISOR = ROS_BUILD_ID;
         ! What was under way when this task ended is over.
-        IF ROS_active() OR (ROS_paused_1 >= 0 AND IsStopMoveAct(\FromNonMoveTask)) halt ROS_REASON_POWER_FAILURE;
-        ROS_paused_1 := -1;
+        IF ROS_active() halt ROS_REASON_POWER_FAILURE;
         mode := OpMode();
         IDelete asked_to_stop;
         CONNECT asked_to_stop WITH on_request;

@@ -9,7 +9,7 @@ MODULE ROS_motion
     ! check was made before a point was put in. A point whose successor is there is passed
     ! through its zone; without one it is a stop point, so the planner never runs dry in a corner.
 
-    CONST string ROS_BUILD_MOTION := "c77e4c52459c";
+    CONST string ROS_BUILD_MOTION := "fb4d5984ee5e";
 
     ! With \T in the move the speed is only formal.
     LOCAL CONST speeddata SPEED := [5000,500,5000,1000];
@@ -195,10 +195,10 @@ MODULE ROS_motion
         IF NOT point.dwell point.duration := point.duration * 100 / taken;
         ! The robot stands at the first point, and at one whose successor is not here yet, or is a dwell.
         stops := first OR next = ROS_head_2 OR ROS_ring_2{next MOD ROS_RING_SIZE + 1}.dwell;
-        IF point.dwell THEN
-            WaitUntil ROS_abort_2 <> ROS_abort_done_2 \MaxTime:=point.duration \TimeFlag:=waited \PollRate:=0.04;
-        ELSEIF point.duration = 0 THEN
+        IF point.duration = 0 THEN
             ! The robot stands there already.
+        ELSEIF point.dwell THEN
+            WaitUntil ROS_abort_2 <> ROS_abort_done_2 \MaxTime:=point.duration \TimeFlag:=waited \PollRate:=0.04;
         ELSEIF stops THEN
             move fine;
         ELSE

@@ -4,6 +4,7 @@ import { h, say, section } from "../dom";
 import type { Debugging, Proceed, Pointers, SeenBreakpoint, SeenPlace, SeenValue } from "../messages";
 import type { MakePanel, View } from "../panel";
 import { SourceEditor } from "../program/editor";
+import { Origins } from "../program/origin";
 import { Sources } from "../program/sources";
 
 const REASONS = { breakpoint: "At a breakpoint", step: "Stepped", cursor: "At the cursor", error: "Error", pause: "Paused", time: "Paused after a time step" };
@@ -24,8 +25,10 @@ class ProgramPanel {
   readonly element: HTMLElement;
   private readonly sources: Sources;
   private readonly editor: SourceEditor;
+  private readonly origins: Origins;
   private task = "";
   private module = "";
+  private template = ""; // instead of the module that it has made
   private level = -1;
   private visible = false;
   private pointers: Pointers | null = null;
@@ -34,9 +37,10 @@ class ProgramPanel {
   private expressions: string[] = [];
 
   private readonly tasks = h("select", { "aria-label": "Task", onchange: () => this.choose(this.tasks.value) });
+  private readonly templates = h("optgroup", { label: "Templates" });
   private readonly modules = h("select", { "aria-label": "Module", onchange: () => {
     this.follow.checked = false;
-    void this.open(this.modules.value);
+    void this.read(this.modules.value, 1);
   } });
   private readonly follow = h("input", { type: "checkbox", id: "follow", checked: true });
   private readonly go = h("button", { type: "button", class: "primary", title: "F5, F6",
@@ -63,7 +67,12 @@ class ProgramPanel {
   constructor(private readonly view: View) {
     const { link } = view;
     this.sources = new Sources(link);
+    this.origins = new Origins(link, this.sources, {
+      module: (name, line) => void this.read(name, line),
+      template: (name, line) => void this.read(name, line),
+    });
     this.editor = new SourceEditor({
+      moved: (line) => this.tellOrigin(line),
       toggle: (line) => this.toggle(line),
       value: (expression) => link.ask({ do: "evaluate", expression }).catch(() => null),
     });
@@ -79,6 +88,7 @@ class ProgramPanel {
         h("div", { class: "row commands" }, this.go, ...this.steps, this.cursor),
         this.halt),
       this.editor.element,
+      this.origins.element,
       section("Call stack", this.stack),
       live(section("Values", this.variables)),
       section("Watch list", this.watch, live(add)),
@@ -89,6 +99,7 @@ class ProgramPanel {
         "modules with NOSTEPIN: a breakpoint in one is noticed.")));
     link.on("loaded", (loaded) => {
       this.sources.take(loaded);
+      this.origins.forget();
       this.tasks.replaceChildren(...this.sources.tasks.map((name) => h("option", { value: name }, name)));
       this.choose(this.sources.tasks.includes(this.task) ? this.task : this.sources.tasks[0] ?? "");
     });
@@ -147,12 +158,37 @@ class ProgramPanel {
   }
 
   private async open(module: string, again = false): Promise<void> {
-    if ((module === this.module && !again) || !module) return;
+    if ((module === this.module && !this.template && !again) || !module) return;
     this.module = this.modules.value = module;
+    this.template = "";
     const text = await this.sources.text(this.task, module).catch((why: Error) => `! ${why.message}`);
-    if (module !== this.module) return;
+    if (module !== this.module || this.template) return;
     this.editor.open(text);
     this.mark();
+    const origin = await this.origins.of(this.task, module);
+    if (module !== this.module || this.template) return;
+    this.templates.replaceChildren(...Object.keys(origin?.templates ?? {}).map((name) => h("option", { value: name }, name)));
+    if (this.templates.childElementCount) this.modules.append(this.templates);
+    else this.templates.remove();
+    this.tellOrigin(this.editor.line);
+  }
+
+  /** Read a module, or a template of the one that is read, from a line on. */
+  private async read(name: string, line: number): Promise<void> {
+    this.follow.checked = false;
+    const text = (await this.origins.of(this.task, this.module))?.templates[name];
+    if (text === undefined) {
+      await this.open(name);
+    } else {
+      this.template = this.modules.value = name;
+      this.editor.open(text);
+      this.mark();
+    }
+    this.editor.go(line);
+  }
+
+  private tellOrigin(line: number): void {
+    void this.origins.show({ task: this.task, module: this.module, template: this.template, line });
   }
 
   private get seenTask(): Pointers["tasks"][number] | undefined {
@@ -179,10 +215,15 @@ class ProgramPanel {
   }
 
   private mark(): void {
-    const at = (place: SeenPlace | null | undefined): number | null =>
-      place && place.module === this.module ? place.line : null;
-    const own = this.debugging?.breakpoints.filter((point) => point.module.toLowerCase() === this.module.toLowerCase()) ?? [];
-    const number = this.sources.number(this.task, this.module);
+    const at = (place: SeenPlace | null | undefined): number | null => {
+      if (!place) return null;
+      if (!this.template) return place.module === this.module ? place.line : null;
+      const [template, line] = place.made.split(":");
+      return template === this.template ? Number(line) : null;
+    };
+    this.cursor.disabled = !this.debugging?.halt || this.template !== "";
+    const own = this.template ? [] : this.debugging?.breakpoints.filter((point) => point.module.toLowerCase() === this.module.toLowerCase()) ?? [];
+    const number = this.template ? undefined : this.sources.number(this.task, this.module);
     this.editor.mark({
       breakpoints: new Map(own.map((point) =>
         [point.line, point.log ? "log" : point.condition || point.hits ? "conditional" : "plain"])),
@@ -192,6 +233,7 @@ class ProgramPanel {
   }
 
   private toggle(line: number): void {
+    if (this.template) return this.view.notice("Breakpoints are set in modules, not in templates", "fault");
     const there = this.debugging?.breakpoints.find((point) => point.line === line && point.module === this.module);
     if (there) this.view.order({ do: "unbreak", number: there.number });
     else this.set({ module: this.module, line });
@@ -210,7 +252,7 @@ class ProgramPanel {
     this.debugging = debugging;
     const halt = debugging.halt;
     say(this.go, halt ? "Go on" : "Pause");
-    for (const button of [...this.steps, this.cursor]) button.disabled = !halt;
+    for (const button of this.steps) button.disabled = !halt;
     this.halt.hidden = !halt;
     if (halt) {
       const place = halt.place ? `${halt.task} · ${halt.place.module}, line ${halt.place.line}` : halt.task;

@@ -25,6 +25,8 @@ export interface EditorActions {
   toggle(line: number): void;
   /** The value of an expression as text, or null. */
   value(expression: string): Promise<string | null>;
+  /** The cursor is in a line. */
+  moved(line: number): void;
 }
 
 const NONE: Marks = { breakpoints: new Map(), program: null, motion: null, covered: {} };
@@ -158,6 +160,9 @@ export class SourceEditor {
     this.extensions = [
       signs(actions), values(actions), marksOf, rapid, theme, highlightActiveLine(),
       EditorState.readOnly.of(true),
+      EditorView.updateListener.of((update) => {
+        if (update.selectionSet) actions.moved(update.state.doc.lineAt(update.state.selection.main.head).number);
+      }),
       EditorView.contentAttributes.of({ "aria-label": "Source", "aria-readonly": "true" }),
       keymap.of([{ key: "F9", run: () => {
         actions.toggle(this.line);

@@ -1,0 +1,63 @@
+"""Dialogs of the pendant (UI instructions): what a program asks, and the answer from afar."""
+
+from rapidgen.client.rws.core import RwsCore
+from rapidgen.client.rws.effects import Flow, Pause
+from rapidgen.client.rws.errors import NotObeyed, RwsError
+from rapidgen.client.rws.flows.asking import ask
+from rapidgen.client.rws.model import Dialog
+from rapidgen.client.rws.values import RapidValue, write
+from rapidgen.wire.rws import operations as ops
+
+_LOOKS = 20
+_LOOK = 0.1
+"""s between two looks whether the dialog has gone."""
+
+
+def dialog(core: RwsCore) -> Flow[Dialog | None]:
+    """The dialog that a program waits in, with its parameters; None: there is none."""
+    try:
+        return (yield from _waiting(core))
+    except RwsError as error:
+        if error.status != 404:  # nothing waits [VC 6.16]
+            raise
+        return None
+
+
+def _waiting(core: RwsCore) -> Flow[Dialog]:
+    body, _ = yield from ask(core, ops.DIALOG)
+    told = [item for item in body.all("rap-uiactive-li", "rap-uiactive") if item.text("stack")]
+    if not told:
+        raise NotObeyed.because("RG655", f"{core.where} tells no dialog")
+    stack = told[0].text("stack")
+    # Some controllers have no reading side of parameters [VC 6.16, VC 7.21].
+    names = {"stack": stack}
+    found, _ = yield from ask(core, ops.DIALOG_PARAMETERS, names, accepted=(400, 404))
+    values = {item.title: item.text("value") for item in found.all("rap-uiparams-li")}
+    return Dialog(told[0].text("instr"), stack, values)
+
+
+def answer_dialog(core: RwsCore, value: RapidValue) -> Flow[None]:
+    """Answer the dialog that waits: a number of a key or a button, a num, a text.
+
+    Returns when it is gone. Raises RwsError (RG650; 404: none waits), NotObeyed (RG655): it was
+    agreed to, and waits still.
+    """
+    waiting = yield from _waiting(core)
+    if waiting.kind.lower().startswith("tp"):
+        yield from _set(core, waiting, "TPAnswer", write(value))
+        yield from _set(core, waiting, "TPCompleted", "TRUE")
+    else:
+        yield from _set(core, waiting, "Result", write(value))
+    for _ in range(_LOOKS):
+        now = yield from dialog(core)
+        if now is None or now.stack != waiting.stack:
+            return
+        yield Pause(_LOOK)
+    raise NotObeyed.because(
+        "RG655", f"{core.where} agreed to an answer, and {waiting.kind} waits still"
+    )
+
+
+def _set(core: RwsCore, waiting: Dialog, parameter: str, value: str) -> Flow[None]:
+    names = {"stack": waiting.stack, "parameter": parameter}
+    yield from ask(core, ops.SET_DIALOG_PARAMETER, names, {"value": value})
