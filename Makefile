@@ -188,7 +188,7 @@ rws-requests: $(STAMP) ## 1 min: 100,000 hostile requests to the face, a good cl
 	$(BIN)/python -m tests.faces.rws.campaign requests 100000
 
 rws-cuts: $(STAMP) ## 1 h: deployments over the web services cut at every request, before and after it was done
-	RAPIDGEN_LONG=1 $(BIN)/python -m pytest -n 2 -q -s --timeout 0 tests/deploy/rws/test_cuts.py
+	RAPIDGEN_LONG=1 $(BIN)/python -m pytest -n 2 -v --timeout 0 tests/deploy/rws/test_cuts.py
 
 two-workers: $(STAMP) ## 5 min: what a second worker of a campaign is worth, beside two processes of their own
 	$(BIN)/python benchmarks/two_workers.py

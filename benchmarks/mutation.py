@@ -1,7 +1,8 @@
 """Which share of all mutants of the generated modules does the suite notice?
 
     python benchmarks/mutation.py [--every N] [--offset N] [--jobs N | --cluster ADDRESS]
-        [--budget S] [--output FILE] [--again] [--only MODULE ...] [--themes THEME ...] [ROBOT]
+        [--budget S] [--output FILE] [--again] [--row NAME] [--only MODULE ...] [--themes THEME ...]
+        [ROBOT]
 
 One fixed operator list (tests/proving/mutation.py); every place in a routine where an operator
 fits is a mutant, equivalent ones included. `--every N` takes each N-th, from `--offset` on. A
@@ -15,7 +16,8 @@ Survivors are listed by module, with their lines: each is a missing case, or the
 other words. `--only` looks at some modules alone,
 `--themes` judges by the cases of some themes alone; benchmarks/cell.yaml is a ROBOT with signals,
 tools, routines and data.
-`--again` goes on with the survivors of FILE, with cases that were not tried or did not exist.
+`--again` goes on with the survivors of FILE, with cases that were not tried or did not exist;
+`--row "pairs 3"`: under that setting of the suite instead of the default one.
 """
 
 import argparse
@@ -36,6 +38,8 @@ from rapidgen.generate import build, make_system
 from rapidgen.proving.campaign import Campaign, Limits
 from rapidgen.proving.cluster import Cluster
 from rapidgen.proving.results import Results
+from rapidgen.proving.settings import possible, settings
+from rapidgen.proving.settings import rows as assumptions
 from rapidgen.proving.suite import CASES
 from rapidgen.proving.workers import Local
 from tests.proving.judging import HANGS, VERDICTS, Learning, Question, grounds, verdicts
@@ -57,12 +61,14 @@ def hired(context):
 
 
 def newest(results, key):
-    """The key and the verdict of the last time that a mutant was judged; None: it never was."""
-    verdict, last = None, ""
+    """The key and the verdict of the last time that a mutant was judged, with what was tried at
+    any time; None: it never was."""
+    verdict, last, tried = None, "", ()
     while (found := results.known(key)) is not None:
         verdict, last = VERDICTS.validate_python(found, strict=False), key
+        tried += verdict.tried
         key += "+"
-    return last, verdict
+    return last, verdict and replace(verdict, tried=tried)
 
 
 def main():
@@ -90,7 +96,10 @@ def main():
 
 def judge_all(chosen, known, rows, left, results):
     """Put the verdicts on the mutants that are `left` in their places in `rows`."""
-    given = grounds(CONFIG, SYSTEM, CHOSEN, hired)
+    row = ARGUMENTS.row
+    setting = settings(CONFIG, possible(CONFIG, assumptions(2)))[row]
+    cases = [case for case in CHOSEN if not (row and case.once)]
+    given = grounds(CONFIG, SYSTEM, cases, hired, setting, f" [{row}]" if row else "")
     learning = Learning(given.cases)
     questions, keys = [], []
     for n in left:
@@ -141,6 +150,7 @@ if __name__ == "__main__":
     parser.add_argument("--cluster", metavar="ADDRESS")
     parser.add_argument("--output", type=Path)
     parser.add_argument("--again", action="store_true")
+    parser.add_argument("--row", default="", metavar="NAME")
     parser.add_argument("--only", nargs="*", default=(), metavar="MODULE")
     parser.add_argument("--themes", nargs="*", default=(), metavar="THEME")
     ARGUMENTS = parser.parse_args()

@@ -4,11 +4,11 @@
 
 Every example of robots/examples, and of the IRB 120 the configurations in which any two of profile,
 commissioning, main and control port meet; each under the settings in which any two assumptions
-about controllers meet. One table at the end. Reports go to FILE (JSON lines) as they come: what has
-been run on the same tree is not run again, so that a run may be broken off and go on later, or be
-done in parts (`--part 1/3`) of which the last one prints the whole table. `--plan` only
-counts, and loads
-each configuration.
+about controllers meet. What differs most from the IRB 120 comes first. One table at the end.
+Reports go to FILE (JSON lines) as they come, results of each case into a folder beside it: what
+has been run on the same tree is not run again, so that a run may be broken off anywhere and go on
+later, or be done in parts (`--part 1/3`) of which the last one prints the whole table. `--plan`
+only counts, and loads each configuration.
 """
 
 import argparse
@@ -40,7 +40,9 @@ CHOICES = {
 
 def runs():
     """Label, configuration and overrides of each run."""
-    examples = sorted(BASE.parent.glob("*.yaml"))
+    examples = sorted(
+        BASE.parent.glob("*.yaml"), key=lambda p: (p.name.startswith("irb120"), p.name)
+    )
     found = [(path.stem, path, ()) for path in examples]
     for row in covering(CHOICES)[1:]:
         overrides = tuple(text for texts in row.values() for text in texts.split())
@@ -67,7 +69,19 @@ def done(of):
 
 def proven(label, path, overrides, of):
     config = load_config(str(path), overrides=overrides)
-    report = as_json(prove(config, seeds=100, jobs=GIVEN.jobs, strength=GIVEN.together))
+    kept = GIVEN.output.with_suffix("") / of / f"{label.replace(' ', '_')}-{GIVEN.together}.jsonl"
+    kept.parent.mkdir(parents=True, exist_ok=True)
+    proof = prove(
+        config,
+        seeds=100,
+        jobs=GIVEN.jobs,
+        strength=GIVEN.together,
+        results=kept,
+        resume=True,
+    )
+    if proof.broken_off:
+        return None
+    report = as_json(proof)
     outcomes = report.pop("outcomes")
     report |= {"label": label, "tree": of, "cases": len(outcomes)}
     report["broken"] = [outcome for outcome in outcomes if not outcome["passed"]]
@@ -106,7 +120,11 @@ def main():
         return False
     GIVEN.output.parent.mkdir(parents=True, exist_ok=True)
     for label, path, overrides in left:
-        reports[label] = proven(label, path, overrides, of)
+        report = proven(label, path, overrides, of)
+        if report is None:
+            print(f"{label}: broken off")
+            return True
+        reports[label] = report
         with GIVEN.output.open("a", encoding="utf-8") as file:
             file.write(json.dumps(reports[label]) + "\n")
         print(f"{label}: {reports[label]['elapsed']:.0f} s", flush=True)

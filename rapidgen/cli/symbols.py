@@ -1,6 +1,6 @@
 """`rapidgen symbols`: RAPID data of a controller, over Robot Web Services."""
 
-from typing import Annotated
+from typing import Annotated, Literal
 
 import typer
 
@@ -13,7 +13,9 @@ def symbols(
         str, typer.Argument(help="TASK, TASK/MODULE or TASK/MODULE/NAME; none: all tasks.")
     ] = "",
     value: Annotated[str, typer.Argument(help="RAPID literal to set: 12.5, TRUE, [1,2].")] = "",
-    kind: Annotated[str, typer.Option(help="per, var, con or any.")] = "per",
+    kind: Annotated[
+        Literal["per", "var", "con", "any"], typer.Option(help="per, var, con or any.")
+    ] = "per",
     yes: options.Yes = False,
     user: options.User = "",
     secrets: options.Secrets = None,
@@ -36,6 +38,8 @@ def symbols(
         literal = read(value) if value else None
     except ValueError as fault:
         raise typer.BadParameter(f"'{value}' is no RAPID literal") from fault
+    if value and len(parts) < 2:
+        raise typer.BadParameter(f"'{name}' is no datum: TASK/MODULE/NAME")
     with controller(host, user, secrets, fingerprint) as found:
         if literal is not None:
             if not found.identity().is_virtual:
@@ -49,6 +53,9 @@ def symbols(
         tasks = parts[:1] or [task.name for task in found.tasks()]
         module = parts[1] if len(parts) == 2 else ""
         all_of = [s for t in tasks for s in found.symbols(t, module=module, kind=kind)]
+    if module and not all_of:
+        hint = f"`rapidgen symbols {host} {parts[0]} --kind any` lists what there is"
+        raise typer.BadParameter(f"no data of kind {kind} in {name}: {hint}")
     if as_json:
         typer.echo(json.dumps([asdict(one) for one in all_of], indent=2))
         return 0

@@ -109,6 +109,24 @@ class CameraKeys(Part):
 
 
 @dataclass(frozen=True)
+class ForceKeys(Part):
+    """The force sensor at each robot's hand: what it is said to measure, nothing is touched."""
+
+    readings: Annotated[
+        list[Annotated[list[float], Rule("Six numbers.", min_length=6, max_length=6)]],
+        Rule(
+            "What FCGetForce reads, in turn, and then the last: force x, y, z (N), "
+            "torque x, y, z (Nm).",
+            min_length=1,
+        ),
+    ] = field(default_factory=lambda: [[0.0] * 6])
+    mass: Annotated[float, Rule("Mass of the load that FCLoadID finds, kg.", ge=0)] = 0.0
+    center: Annotated[Vector, Rule("Where its centre is, mm.")] = field(
+        default_factory=lambda: [0.0, 0.0, 0.0]
+    )
+
+
+@dataclass(frozen=True)
 class ThingKeys(Part):
     """Something that the page draws: it is looked at, nothing runs into it."""
 
@@ -146,6 +164,7 @@ class CellKeys(Part):
     cameras: Annotated[dict[Identifier, CameraKeys], Rule("Cameras by name.")] = field(
         default_factory=dict
     )
+    force: Annotated[ForceKeys | None, Rule("Force sensors of the robots.")] = None
     things: Annotated[dict[Identifier, ThingKeys], Rule("What the page draws around robots.")] = (
         field(default_factory=dict)
     )
@@ -172,6 +191,7 @@ class CellDescription:
     loads: Mapping[str, Load] = field(default_factory=dict)
     devices: Mapping[str, Sequence[ReactionKeys]] = field(default_factory=dict)
     cameras: Mapping[str, CameraKeys] = field(default_factory=dict)
+    force: ForceKeys | None = None
     folder: Path = Path()
     """Where its files are."""
     things: tuple[Thing, ...] = ()
@@ -212,6 +232,7 @@ def load_cell(path: Path) -> CellDescription:
         {name: load_of(load, ("loads", name), report) for name, load in keys.loads.items()},
         keys.devices,
         keys.cameras,
+        keys.force,
         path.parent,
         tuple(
             Thing(

@@ -35,6 +35,7 @@ CELL_SECTIONS = (
     cell.ReactionKeys,
     cell.CameraKeys,
     cell.SeenKeys,
+    cell.ForceKeys,
     cell.ThingKeys,
 )
 
@@ -102,6 +103,7 @@ def _key_of(part: type) -> str:
         cell.ReactionKeys: "`devices.NAME` (a list of these)",
         cell.CameraKeys: "`cameras.NAME`",
         cell.SeenKeys: "`cameras.NAME.images` (a list of lists of these)",
+        cell.ForceKeys: "`force`",
         cell.ThingKeys: "`things.NAME`",
         schema.GroupKeys: "`groups.NAME`",
         schema.JointKeys: "`joints.NAME`",

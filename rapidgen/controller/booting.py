@@ -12,7 +12,7 @@ from rapidgen.config.model import GroupConfig, RobotConfig
 from rapidgen.config.registry import is_path
 from rapidgen.controller.mechanics import DEFAULT_ROBOT, mechanics
 from rapidgen.controller.starts import in_front, stands, start_of, usual_start
-from rapidgen.controller.surroundings import Surroundings, cameras_of, furnish
+from rapidgen.controller.surroundings import Surroundings, cameras_of, force_of, furnish
 from rapidgen.diagnostics import Diagnostic, refusal, suggest
 from rapidgen.system.model import System
 
@@ -215,6 +215,8 @@ def _surrounded(found: Bootable, cell: "CellDescription | None", wishes: Wishes)
             guessed.flags if guessed is not None else (),
             guessed.heard if guessed is not None else None,
             cameras_of(cell, is_guess=guessed is not None),
+            force_of(cell),
+            guessed.blank if guessed is not None else (),
             is_guess=guessed is not None,
             is_any_robot=guessed is not None and not wishes.robot and not found.system.robot_types,
         ),

@@ -22,6 +22,7 @@ from rapidgen.machine.arc_equipment import ArcEquipment
 from rapidgen.machine.cameras import cameras
 from rapidgen.machine.costs import Costs
 from rapidgen.machine.files import FileSystem
+from rapidgen.machine.force import ForceSensors
 from rapidgen.machine.io import IOSystem
 from rapidgen.machine.meetings import Meetings
 from rapidgen.machine.network.faulty import FaultyNetwork
@@ -167,6 +168,8 @@ class VirtualController:
         """The hands of a YuMi: `hands["L"].part = 12.0` puts something between the fingers."""
         self.cameras = cameras(system.cameras, surroundings.cameras)
         """By lower-case name."""
+        self.force = ForceSensors(surroundings.force)
+        """Of the robots."""
         self.configuration = SystemParameters(system, tuple(robots))
         self.options = Options(
             accounting="statement" if tracing or switch_at_pers else accounting,

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 _THOUGHT: Final = 0.5
 """Seconds that a program waits."""
 _WAYS: Final = 3
-_MOST: Final = 100
+_MOST: Final = 60
 _NUMBERS: Final = "1", "2", "3", "100", "0", "0", "0", "1", "0", "0"
 """What follows a word or a number: more values than most take."""
 _OTHERS: Final = "0", "0", *"1" * 8
@@ -66,15 +66,15 @@ class Heard:
     stands: Mapping[str, str] = field(default_factory=dict)
 
     def messages(self) -> list[bytes]:
-        """What is said, in turn."""
+        """What is said, in turn: with counted values once, all else twice."""
         marks = self.separators or (" ",)
         tail = "".join(self.separators)
-        texts = []
+        counted, texts = [], []
         for code, count in self.sized:
             for mark in marks[:_WAYS]:
                 end = "".join(one for one in self.separators if one != mark)
                 for behind in dict.fromkeys(self._behind(count)):
-                    texts.append(mark.join((str(code), *behind)) + mark + end)
+                    counted.append(mark.join((str(code), *behind)) + mark + end)
         sized = {code for code, _ in self.sized}
         others = (str(number) for number in self.numbers if number not in sized)
         for first in (*others, *self.beginnings):
@@ -83,7 +83,9 @@ class Heard:
         texts += sorted(whole, key=lambda word: _LAST.search(word) is not None)
         said = [text.encode("latin-1", "replace") for text in (*self.values, *texts)]
         said += [number.to_bytes(4, "little") + bytes(8) for number in self.numbers if number >= 0]
-        return (said[:_MOST] or [b"1"]) * 2
+        return [text.encode("latin-1", "replace") for text in counted] + (
+            said[:_MOST] or [b"1"]
+        ) * 2
 
     def _behind(self, count: int) -> Iterator[tuple[str, ...]]:
         """So many numbers: a position, a turn, axes or a target, of where the robot stands; of
@@ -227,8 +229,10 @@ class Partner:
         if endpoint.peer is None:
             self._ends[self._network.connect("127.0.0.1", endpoint.local[1])] = None
             return
-        pairs = ((e, (e.local == endpoint.peer, e.peer == endpoint.local)) for e in self._ends)
-        mine = next((e for e, same in pairs if any(same) and not e.closed), None)
+        # Of a port that was listened at before, older ends may still be open.
+        ends = sorted(self._ends, key=lambda end: end.local != endpoint.peer)
+        same = (e for e in ends if e.local == endpoint.peer or e.peer == endpoint.local)
+        mine = next((end for end in same if not end.closed), None)
         if mine is None or not mine.connected or mine.fault is not None:
             return
         message = self._left.pop(0)

@@ -16,9 +16,10 @@ from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 from typing import Literal, cast
 
-from rapidgen.config.cell import CameraKeys, CellDescription, CellSignalKeys, SeenKeys
+from rapidgen.config.cell import CameraKeys, CellDescription, CellSignalKeys, ForceKeys, SeenKeys
 from rapidgen.config.model import Load, Placement, Tool, WorkObject
 from rapidgen.controller.absent import absent
+from rapidgen.controller.blank import Blank, blanks
 from rapidgen.controller.conversing import Heard, heard
 from rapidgen.controller.flags import Flag, flags
 from rapidgen.controller.polling import Polled, polled
@@ -90,6 +91,8 @@ class Guess:
     """Data that programs look at and do not set."""
     heard: Heard = field(default_factory=Heard)
     """What programs listen for at their sockets."""
+    blank: tuple[Blank, ...] = ()
+    """Tools and work objects whose values another task would have."""
 
 
 def guess(
@@ -145,6 +148,7 @@ def guess(
             if kind == "wobjdata"
         ),
         loads={name: _LOAD for name, kind in made.items() if kind == "loaddata"},
+        force=ForceKeys(),
         cameras={
             name: CameraKeys([[SeenKeys(name)]])
             for name in (*system.cameras, *(n for n, kind in made.items() if kind == "cameradev"))
@@ -167,10 +171,14 @@ def guess(
         for spec, scopes in zip(system.tasks, tasks, strict=True)
         for flag in flags(spec, scopes, kinds)
     )
+    blank = blanks((spec.name, s) for spec, s in zip(system.tasks, tasks, strict=True))
+    named += [Named(row.name, kind, span) for row, (kind, span) in blank.items()]
     listens = heard((scope for scopes in tasks for scope in scopes), stands)
     routines = "".join(s.stub(stands.get(s.type, "")) for s in stubs.values())
     names = tuple(named), tuple(unknown)
-    return Guess(cell, *names, tuple(rows), data, made_units, routines, looked, listens)
+    return Guess(
+        cell, *names, tuple(rows), data, made_units, routines, looked, listens, tuple(blank)
+    )
 
 
 def _can_be_made(kind: str) -> bool:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Protocol
 
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, error, suggest
 from rapidgen.machine.cameras import Camera, Seen
+from rapidgen.machine.force import Measured
 from rapidgen.machine.io import Awaited, IOSystem
 from rapidgen.machine.log import EventLog
 from rapidgen.machine.meetings import Meetings
@@ -16,12 +17,14 @@ from rapidgen.machine.network.sockets import SocketTable
 from rapidgen.machine.operator import Operator
 from rapidgen.machine.scheduler import S, Scheduler
 from rapidgen.motion.system import MotionSystem
+from rapidgen.runtime.compiler import predefined
 from rapidgen.runtime.task.task import Task
 from rapidgen.system.model import ModuleFile, SignalSpec, System
 
 if TYPE_CHECKING:
     from rapidgen.config.cell import CellDescription, ReactionKeys
     from rapidgen.controller.answering import Said
+    from rapidgen.controller.blank import Blank
     from rapidgen.controller.conversing import Heard
     from rapidgen.controller.flags import Flag
     from rapidgen.controller.polling import Polled
@@ -52,6 +55,10 @@ class Surroundings:
     """What programs listen for at sockets that nobody else is at."""
     cameras: Mapping[str, Camera] = field(default_factory=dict)
     """What cameras see, by lower-case name."""
+    force: Measured = field(default_factory=Measured)
+    """What force sensors measure."""
+    blank: "tuple[Blank, ...]" = ()
+    """Data that a predefined one stands in for."""
     is_guess: bool = False
     """Whether dialogs are answered that nobody else is there for, and I/O units are as named."""
     is_any_robot: bool = False
@@ -164,6 +171,14 @@ def cameras_of(cell: "CellDescription", *, is_guess: bool) -> dict[str, Camera]:
     }
 
 
+def force_of(cell: "CellDescription") -> Measured:
+    """What the force sensors of a cell measure."""
+    keys = cell.force
+    if keys is None:
+        return Measured()
+    return Measured([tuple(row) for row in keys.readings], keys.mass, tuple(keys.center))
+
+
 def _data(cell: "CellDescription") -> Iterator[tuple[str, str, str]]:
     from rapidgen.generate.context import load_literal, tool_literal, work_object_literal
 
@@ -211,6 +226,8 @@ def settle(controller: Booted, around: Surroundings) -> Guessed:
         if signal.name.casefold() in around.guessed:
             controller.scheduler.after(round(_PATIENCE * S), give)
 
+    for row in around.blank:
+        controller.task(row.task)[f"{row.module}:{row.name}"] = predefined.value(row.stands)
     if around.guessed:
         controller.io.on_awaited = answer
     if around.polled:

@@ -179,7 +179,7 @@ def confirm(question: str, *, yes: bool, ask: Callable[[str], bool]) -> None:
             "RG533",
             None,
             "nobody is there to answer: nothing was changed",
-            "look at `rapidgen plan`, then say --yes",
+            f"it would have been asked: {question} Where that is right, say --yes",
         )
     if not ask(question):
         raise refused("RG533", "not confirmed: nothing was changed", "run it again to be asked")

@@ -143,6 +143,8 @@ def group_context(config: RobotConfig, group: GroupConfig, build_id: str) -> dic
         "hello": hello_reply(config, group, build_id),
         **_streams(config, joints),
         "exposed": exposed,
+        # Programs set these, or wait for them.
+        "used_signals": [s for s in exposed if s["is_set"] or str(s["kind"])[0] != "A"],
         "marks": any(signal["is_set"] for signal in exposed),
         "routines": _routines(group),
         "data": _data(group),

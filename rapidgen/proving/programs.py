@@ -32,8 +32,8 @@ from rapidgen.system.model import ModuleFile, System
 BEGIN, END, WHOLE = RawStreamFlag.BEGIN, RawStreamFlag.END, RawStreamFlag.WHOLE
 ALL = BEGIN | END | WHOLE
 _KINDS = (RawInstruction.MOVE_J, RawInstruction.MOVE_L, RawInstruction.MOVE_ABSJ)
-_BATCH = 8
-"""Instructions that fit into one message on every robot."""
+_WORDS = 245
+"""Words of instructions that fit into one message."""
 _NAMES = {
     RawInstruction.MOVE_ABSJ: "MoveAbsJ",
     RawInstruction.MOVE_J: "MoveJ",
@@ -45,7 +45,8 @@ _NAMES = {
 @dataclass(frozen=True, slots=True)
 class RawOrder:
     """A move: the joints at its end (rad, m), the pose that they reach, `via` on a circle. `speed`
-    (m/s, rad/s) and `zone` (m, rad; None: a stop point) stand in every instruction; `frames` are
+    (m/s), `turn` of the tool and of rotary external axes (rad/s), `linear` of the other ones (m/s)
+    and `zone` (m, rad; None: a stop point) stand in every instruction; `frames` are
     the numbers of tool and work object, `marks` signals on the way: number, value, kind, place."""
 
     kind: RawInstruction
@@ -56,11 +57,13 @@ class RawOrder:
     zone: float | None = 0.005
     frames: tuple[int, int] | None = None
     marks: tuple[tuple[float, ...], ...] = ()
+    turn: float = 2.0
+    linear: float = 1.0
 
     @property
     def speeds(self) -> tuple[float, ...]:
         """speeddata: TCP, orientation, linear and rotary external axes."""
-        return self.speed, 2.0, 1.0, 2.0
+        return self.speed, self.turn, self.linear, self.turn
 
     @property
     def zones(self) -> tuple[float, ...]:
@@ -98,16 +101,14 @@ class Programmer:
     ) -> messages.RawContent:
         """A program in messages of some instructions; the last reply, or the first refusal."""
         self.number += 1
-        place = self.bench.position if start is None else start
-        for at in range(0, len(orders), _BATCH):
-            some = orders[at : at + _BATCH]
-            own = flags
-            if at:
-                own &= ~BEGIN
-            if at + _BATCH < len(orders):
-                own &= ~END
-            words = [*(millionths(place) if not at else []), *(w for o in some for w in o.words)]
-            told = self.say(words, len(some), own, first=at)
+        words, own, at = millionths(self.bench.position if start is None else start), flags, 0
+        for number, order in enumerate(orders, 1):
+            words += order.words
+            last = number == len(orders)
+            if not last and len(words) + len(orders[number].words) <= _WORDS:
+                continue
+            told = self.say(words, number - at, own if last else own & ~END, first=at)
+            words, own, at = [], flags & ~BEGIN, number
             if isinstance(told, messages.RawPointsRefused):
                 break
         return told

@@ -24,7 +24,7 @@ from rapidgen.proving.model import Finding, Proof, Verdict, is_program
 from rapidgen.proving.plan import Ground, drawn, named
 from rapidgen.proving.report import series
 from rapidgen.proving.results import Results
-from rapidgen.proving.settings import Setting, assumed, rows, settings
+from rapidgen.proving.settings import Setting, assumed, possible, rows, settings
 from rapidgen.proving.smaller import smaller
 from rapidgen.proving.suite import CASES
 from rapidgen.proving.workers import Local, Workers, each, in_a_fork
@@ -108,7 +108,8 @@ def prove(
     driver = DriverUnderTest.of(config)
     started = time.monotonic()
     report = Proof(config.name, driver.system.build_id)
-    report.rows = {"as asked": tuple(assuming)} if assuming else rows(strength)
+    asked = {"as asked": tuple(assuming)} if assuming else rows(strength)
+    report.rows = possible(config, asked)
     attempts = _attempts(config, report.rows, only) if cases or only else []
     _LOG.info("%s: %d attempts, %d settings", config.name, len(attempts), len(report.rows))
     with (
@@ -157,7 +158,7 @@ def _attempts(
     """Setting by setting, so that a worker seldom boots."""
     return [
         Attempt(number, name, rows.get(name, ()), setting)
-        for name, setting in settings(config, dict(rows)).items()
+        for name, setting in settings(config, rows).items()
         for number, case in enumerate(CASES)
         if not (config.commissioning and case.background)
         if case.name in only or (not only and (setting.coverage or not case.once))

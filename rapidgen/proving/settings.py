@@ -163,13 +163,17 @@ def rows(strength: int = 2) -> dict[str, tuple[str, ...]]:
     return found
 
 
-def settings(config: RobotConfig, rows: "dict[str, tuple[str, ...]]") -> dict[str, Setting]:
+def possible(config: RobotConfig, rows: Mapping[str, Sequence[str]]) -> dict[str, tuple[str, ...]]:
+    """The rows without what this configuration's driver cannot do without."""
+    ceiling = any(group.tcp_speed_limit < _CEILING for group in config.groups)
+    return {
+        name: tuple(text for text in texts if not (ceiling and text == NOT_WITH_CEILINGS))
+        for name, texts in rows.items()
+    }
+
+
+def settings(config: RobotConfig, rows: Mapping[str, Sequence[str]]) -> dict[str, Setting]:
     """A setting for each row, and the default for each further motion group."""
-    if any(group.tcp_speed_limit < _CEILING for group in config.groups):
-        rows = {
-            name: tuple(text for text in texts if text != NOT_WITH_CEILINGS)
-            for name, texts in rows.items()
-        }
     found = {name: assumed(texts) for name, texts in rows.items()}
     if "" in found:
         found[""] = replace(found[""], coverage=True)

@@ -105,11 +105,13 @@ class Switches:
     ERR_NOT_MOVETASK [mem]."""
 
     modules_told: bool = True
-    """ModExist tells of every module of its task [mem]. False: of those alone that Load brought."""
+    """ModExist tells of every module of its task: it looks among loaded ones, then among installed
+    ones [manual 3HAC050917]. False: of those alone that Load brought."""
 
     data_of_tasks: bool = True
-    """GetDataVal and SetDataVal with \\TaskName reach persistents of another task, as public
-    programs for recovery read robtargets of T_ROB1 [code]. False: ERR_TASKNAME [mem]."""
+    """GetDataVal and SetDataVal with \\TaskName reach persistents of another task: that is what the
+    argument is for [manual 3HAC050917 lists it], and public programs for recovery read robtargets
+    of T_ROB1 so [code]. False: ERR_TASKNAME [mem]."""
 
     search_pattern: Literal["whole", "part"] = "whole"
     """\\Object of SetDataSearch has to fit a whole name, as ABB's programs for hands with cameras

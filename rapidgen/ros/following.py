@@ -72,6 +72,7 @@ class UnderWay:
         self.ending = asyncio.Event()
         self.over = asyncio.Event()
         self.is_replaced = False
+        self.is_called_off = False
 
     def cancel(self) -> None:
         """End it, on the follower's loop; `follow` returns when the robot stands."""
@@ -80,6 +81,11 @@ class UnderWay:
     def replace(self) -> None:
         """End it in favour of another one."""
         self.is_replaced = True
+        self.ending.set()
+
+    def call_off(self) -> None:
+        """End it before it begins: somebody wants the robot to stand."""
+        self.is_called_off = True
         self.ending.set()
 
 
@@ -99,6 +105,7 @@ class Follower:
         self._now = now
         self._note = note
         self._current: UnderWay | None = None
+        self._unsent: set[UnderWay] = set()
         self._stood = 0.0
         """s of `_samples`: when the robot was last seen where the motion under way began."""
 
@@ -114,6 +121,23 @@ class Follower:
 
         `under` is how it is cancelled, also before this is called.
         """
+        self._unsent.add(under)
+        try:
+            return await self._judged_and_carried_out(goal, tell, under)
+        finally:
+            self._unsent.discard(under)
+            if self._current is under:
+                self._current = None
+            under.over.set()
+
+    def call_off(self) -> None:
+        """End the goals that wait for their moment or for another one's end."""
+        for under in self._unsent:
+            under.call_off()
+
+    async def _judged_and_carried_out(
+        self, goal: Goal, tell: Callable[[GoalFeedback], None], under: UnderWay
+    ) -> Outcome:
         try:
             asked = judge(goal, self._robot.group.names, self._policy.defaults, self._now())
             await self._enter(under)
@@ -121,12 +145,7 @@ class Follower:
             return refused.outcome
         except RobotError as error:
             return _aborted(Code.INVALID_GOAL, error)
-        try:
-            return await self._carried_out(asked, under, tell)
-        finally:
-            if self._current is under:
-                self._current = None
-            under.over.set()
+        return await self._carried_out(asked, under, tell)
 
     async def _enter(self, under: UnderWay) -> None:
         """Take the place of the goal under way, once nobody has it. Raises GoalRefused."""
@@ -146,6 +165,7 @@ class Follower:
     ) -> Outcome:
         if await self._waited(asked.start or 0.0, under):
             return _ended_early(under, "before it started: nothing moved")
+        self._unsent.discard(under)
         try:
             asked = self._fitted(asked)
             execution = await self._accepted(asked.trajectory, under)
@@ -422,6 +442,8 @@ async def _stopped(execution: AsyncExecution) -> Outcome | None:
 
 
 def _ended_early(under: UnderWay, where: str) -> Outcome:
+    if under.is_called_off:
+        return Outcome(Ending.ABORTED, Code.INVALID_GOAL, f"stopped on request {where}")
     if under.is_replaced:
         return Outcome(Ending.ABORTED, Code.INVALID_GOAL, f"replaced by a newer goal {where}")
     return Outcome(Ending.CANCELED, Code.SUCCESSFUL, f"cancelled {where}")

@@ -135,8 +135,11 @@ class RobotLink:
         return await follower.follow(goal, tell, under)
 
     async def stop(self) -> State | None:
-        """Stop the robot, whoever moved it. Raises RobotError."""
-        return await self._there().stop()
+        """Stop the robot, whoever moved it; goals that wait end, too. Raises RobotError."""
+        robot = self._there()
+        if self._follower is not None:
+            self._follower.call_off()
+        return await robot.stop()
 
     async def pause(self) -> None:
         """Hold what moves on its path. Raises RobotError."""

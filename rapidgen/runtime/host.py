@@ -8,6 +8,7 @@ from rapidgen.machine.arc_equipment import ArcEquipment
 from rapidgen.machine.cameras import Camera
 from rapidgen.machine.costs import Costs
 from rapidgen.machine.files import FileSystem
+from rapidgen.machine.force import ForceSensors
 from rapidgen.machine.io import IOSystem
 from rapidgen.machine.log import EventLog
 from rapidgen.machine.meetings import Meetings
@@ -84,6 +85,8 @@ class Host(Protocol):
     """What tasks weld with."""
     cameras: dict[str, Camera]
     """By lower-case name."""
+    force: ForceSensors
+    """Of the robots."""
     hands: Hands
     """The hands of a YuMi."""
 

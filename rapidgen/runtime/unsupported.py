@@ -34,9 +34,8 @@ _GROUPS: Final[tuple[tuple[str, str], ...]] = (
         SiSetCyclic IVarValue""",
     ),
     (
-        "force control (option 661-2) is not simulated",
-        """FCCalib FCAct FCDeact FCRefStart FCRefStop FCPress1LStart FCPressL FCPressC FCPressEnd
-        FCLoadID""",
+        "a search by force needs something to touch, which is not simulated",
+        "FCRefStart FCRefStop",
     ),
     ("linked motors are not simulated", "Linked_m_exe"),
     (

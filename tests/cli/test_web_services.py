@@ -75,6 +75,28 @@ def test_signals_and_symbols_are_shown_and_set(host, capsys):
     assert json.loads(said(capsys))["value"] == "[4,5,6]"
 
 
+@pytest.mark.parametrize(
+    ("words", "code", "hint"),
+    [
+        (["symbols", "T_ROB1/nothing"], 2, "T_ROB1 --kind any"),
+        (["symbols", "T_ROB1/MainModule/nothing"], 1, "rapidgen symbols"),
+        (["symbols", "T_NONE"], 1, "rapidgen symbols"),
+        (["symbols", "T_ROB1", "5"], 2, "TASK/MODULE/NAME"),
+        (["symbols", "T_ROB1/MainModule/x", "TRUE"], 1, "type"),
+        (["symbols", "--kind", "pers"], 2, "'per'"),
+        (["io", "nothing"], 1, "rapidgen io"),
+        (["io", "nothing", "1"], 1, "rapidgen io"),
+        (["log", "--domain", "99"], 1, "domain 0"),
+        (["start"], 2, "THE ROBOT MAY MOVE"),
+    ],
+)
+def test_what_is_not_there_is_told_with_what_there_is(host, capsys, words, code, hint):
+    assert main([words[0], host, *words[1:]]) == code
+    output = capsys.readouterr()
+    assert output.out.count("\n") == 0 or words == ["start"]
+    assert hint in output.err
+
+
 @pytest.mark.parametrize(("answer", "code"), [("Grant", 0), ("Deny", 1)])
 def test_in_manual_mode_the_pendant_is_asked_and_that_is_announced(
     answer, code, tmp_path, monkeypatch, capsys

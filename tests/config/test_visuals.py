@@ -51,11 +51,25 @@ def test_a_mesh_is_found_as_ros_finds_it(home, name):
         ("package://arm/meshes/\0.stl", "not there"),
         ("package://nobody/a.stl", "not found"),
         ("package://arm/meshes/out.stl", "outside"),
+        ("package://arm/meshes/away/secret.stl", "outside"),
+        ("package://arm/meshes/%2e%2e/%2e%2e/%2e%2e/secret.stl", "not there"),
+        ("package://arm//{root}/secret.stl", "outside"),
+        ("package://arm/meshes/loop.stl", "not there"),
+        ("package://arm/meshes/folder.stl", "no file"),
+        ("package://arm/" + "m" * 5000 + ".stl", "not there"),
+        ("file://{root}/src/arm/meshes/%2e%2e/%2e%2e/%2e%2e/secret.stl", "outside"),
+        ("file://secret.stl", "not there"),
+        ("file:{root}/secret.stl", "not there"),
+        ("FILE://{root}/secret.stl", "package://"),
         ("", "no STL"),
     ],
 )
 def test_no_other_file_is_read(home, name, why):
-    (home / "src" / "arm" / "meshes" / "out.stl").symlink_to(home / "secret.stl")
+    meshes = home / "src" / "arm" / "meshes"
+    (meshes / "out.stl").symlink_to(home / "secret.stl")
+    (meshes / "away").symlink_to(home)
+    (meshes / "loop.stl").symlink_to(meshes / "loop.stl")
+    (meshes / "folder.stl").mkdir()
     with pytest.raises(NoMesh, match=why):
         found(home, name.replace("{root}", str(home)))
 

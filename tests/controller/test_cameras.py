@@ -38,6 +38,7 @@ PROGRAM = r"""MODULE cam
  PROC changes()
   CamSetProgramMode Cam1;
   CamLoadJob Cam1, "a.job";
+  TPWrite CamGetLoadedJob(Cam1);
   CamSetParameter Cam1, "Gain" \NumVal:=3;
   CamSetRunMode Cam1;
   CamGetParameter Cam1, "gain" \NumVar:=found;
@@ -79,7 +80,7 @@ def test_images_come_in_turn_with_what_the_cell_says_is_in_them(files):
 
 def test_jobs_and_parameters_are_changed_in_program_mode(files):
     lines, ended, now, _ = shown(files, cell=files / "cell.yaml", entry="changes")
-    assert lines == ["gain 3", "2", "run mode"]
+    assert lines == ["a.job", "gain 3", "2", "run mode"]
     assert ended == "finished"
     assert now == pytest.approx(1.2, abs=0.1), "a job takes a second"
 

@@ -135,6 +135,18 @@ def test_a_server_that_counts_values_hears_as_many_of_where_the_robot_stands(tmp
     assert {"moved", "on", "off"} <= set(shown)
 
 
+def test_of_two_clients_at_a_port_the_one_speaks_that_is_waited_for(tmp_path):
+    two = (
+        "MODULE two\n VAR socketdev s;\n VAR socketdev c;\n VAR socketdev d;\n VAR string said;\n"
+        ' PROC main()\n  SocketCreate s;\n  SocketBind s, "127.0.0.1", 5000;\n'
+        "  SocketListen s;\n  SocketAccept s, c;\n  SocketAccept s, d;\n"
+        '  SocketReceive d \\Str:=said;\n  IF said = "a" TPWrite said;\n ENDPROC\nENDMODULE\n'
+    )
+    ended, shown, _, _ = run(tmp_path, two, cell="guess")
+    assert ended == "finished"
+    assert shown == ["a"]
+
+
 def test_a_client_finds_somebody_who_answers_and_then_falls_silent(tmp_path):
     ended, shown, where, _ = run(tmp_path, CLIENT, cell="guess")
     assert shown == ["got 12"], "as many bytes as it reads"

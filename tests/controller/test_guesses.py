@@ -60,6 +60,12 @@ ENDS = {
         " PROC main()\n  WaitSyncTask sync1, both;\n ENDPROC\n",
         "ERR_TASKNAME",
     ),
+    "a tool that another task would fill is tool0": (
+        " PERS tooldata grip;\n PERS wobjdata table;\n VAR robtarget p;\n PROC main()\n"
+        "  p := CRobT(\\Tool:=grip \\WObj:=table);\n"
+        "  MoveL p, v100, fine, grip \\WObj:=table;\n ENDPROC\n",
+        "Tool and work object contradict",
+    ),
     "a signal may be named by a text": (
         " VAR signaldo grip;\n PROC main()\n"
         '  AliasIO "hand_" + ArgName(grip), grip;\n  SetDO grip, 1;\n ENDPROC\n',

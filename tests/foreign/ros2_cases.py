@@ -292,12 +292,21 @@ def life_cycle(cell, found):
 
 @case(robot="irb14000")
 def two_groups(cell, found):
-    sent = {}
+    sent, both = {}, set(cell.names("rob_l") + cell.names("rob_r"))
+    until(
+        lambda: both <= {name for _, told in cell.heard["states"] for name in told.name},
+        30,
+        "no joint_states of both groups",
+    )
     for group in ("rob_l", "rob_r"):
         here = cell.sim.positions(group)
         names = cell.names(group)
-        order = [s for s in cell.heard["states"] if set(s[1].name) == set(names)][-1][1]
-        now = dict(zip(order.name, order.position, strict=True))
+        states = [message for _, message in cell.heard["states"]]
+        now = next(
+            dict(zip(told.name, told.position, strict=True))
+            for told in reversed(states)
+            if set(told.name) == set(names)
+        )
         rows = [[now[n] for n in names], [now[n] + 0.1 for n in names]]
         sent[group] = here, cell.send(cell.goal(rows, 2.0, group), group)
     for _, one in sent.values():

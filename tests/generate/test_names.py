@@ -1,13 +1,17 @@
 """RAPID compares names without case, and a module's names meet those of its task [K §2.3, 2.12]."""
 
+from pathlib import Path
+
 import pytest
 
 from rapidgen.config import load_config, shipped_names
 from rapidgen.generate import build, layout, make_system
 from rapidgen.rapid import check, format_source, parse
+from rapidgen.rapid.builtins import signatures
 from rapidgen.rapid.syntax import nodes
 
 ROBOTS = ["irb120", "irb14000"]
+CELL = Path(__file__).parents[2] / "benchmarks" / "cell.yaml"
 
 
 def declared(module):
@@ -47,6 +51,21 @@ def test_no_routine_hides_a_name_that_it_might_mean(name):
             inner = [d.name.casefold() for d in [*routine.parameters, *routine.data]]
             assert len(set(inner)) == len(inner), routine.name
             assert not outer & set(inner), (routine.name, outer & set(inner))
+
+
+@pytest.mark.parametrize("name", [*ROBOTS, str(CELL)])
+def test_no_name_hides_one_of_rapids_own(name):
+    """RAPID allows it [K §2.3]; who reads `Close` thinks of a file."""
+    rapids = {*signatures.routine_names(), *signatures.type_names(), *signatures.predefined()}
+    own = {word.casefold() for word in rapids}
+    for file in build(load_config(name)).files:
+        if file.kind != "module":
+            continue
+        module = parse(file.data, path=file.path)
+        words = {word for word, _ in declared(module)}
+        for routine in module.routines:
+            words |= {d.name for d in [*routine.parameters, *routine.data]}
+        assert not own & {word.casefold() for word in words}, file.path
 
 
 @pytest.mark.parametrize("name", ROBOTS)

@@ -122,6 +122,8 @@ class Grounds:
     setting: Setting
     text: str
     """Of the program that judges; another one is refused."""
+    row: str = ""
+    """Behind the names of tried cases: what the setting is called."""
     usual: dict[str, float] = field(default_factory=dict)
     """s of CPU of each case: how long a mutant is waited for."""
     costs: dict[str, int] = field(default_factory=dict)
@@ -138,10 +140,11 @@ def grounds(
     cases: Sequence[Behaviour],
     hire: Callable[[Grounds], Workers],
     setting: Setting | None = None,
+    row: str = "",
 ) -> Grounds:
     """Run all cases once. Raises ValueError when one does not hold without a mutation."""
     names = tuple(case.name for case in cases)
-    bare = Grounds(config, system, names, setting or Setting(), _own_text())
+    bare = Grounds(config, system, names, setting or Setting(), _own_text(), row)
     with hire(bare) as workers:
         outcomes = list(each(workers, names, _as_it_is))
     for outcome in outcomes:
@@ -219,7 +222,7 @@ class Judge:
     def __init__(self, given: Grounds) -> None:
         self._usual, self._costs, self._lines = given.usual, given.costs, given.lines
         self._worth = _worth(given.lines)
-        self._names = given.cases
+        self._names, self._row = given.cases, given.row
         self._bench = Bench(given.config, given.system, given.setting)
         self._bench.compile()
 
@@ -254,13 +257,13 @@ class Judge:
         concerned = [
             case
             for case in self.concerned(mutant, question.learned)
-            if case.name not in question.already
+            if case.name + self._row not in question.already
         ]
         tried: tuple[str, ...] = ()
         for case in concerned:
             if _spent() - started >= question.budget:
                 return "", tried, len(concerned) - len(tried)
-            tried = (*tried, case.name)
+            tried = (*tried, case.name + self._row)
             try:
                 by = in_a_fork(partial(self._noticed_by, case))
             except STUMBLES:

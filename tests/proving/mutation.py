@@ -4,6 +4,7 @@ The suite is worth as much as the share of them that it notices. Nobody picks: e
 routine where an operator fits is a mutant, equivalent ones included.
 """
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass, fields
 
@@ -43,6 +44,8 @@ _SWAPS = {
 }
 # Words to an operator or the log change no behaviour that a client or a robot could notice.
 _TALK = frozenset({"tpwrite", "tperase", "errwrite", "skipwarn"})
+# `IF a < b a := b;` does the same at equality, whichever of the two relations it has.
+_BOUND = re.compile(r"IF (.+) (<=?|>=?) (.+) \1 := \3;?")
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,6 +73,7 @@ def mutants(data: bytes, path: str) -> Iterator[Mutant]:
     source = module.source
 
     around = _statements(module)
+    same_at_equality = set()
 
     def mutant(start: int, end: int, new: str, change: str, token: int) -> Mutant:
         text = source.text[:start] + new + source.text[end:]
@@ -91,6 +95,8 @@ def mutants(data: bytes, path: str) -> Iterator[Mutant]:
             inner = source.text[first:last]
             token = node.condition.first
             yield mutant(first, last, f"(NOT ({inner}))", f"condition negated: {inner}", token)
+        if isinstance(node, CompactIf) and (bound := _BOUND.fullmatch(source.text[start:end])):
+            same_at_equality.add(start + bound.start(2))
         if isinstance(node, Assignment | ProcedureCall | Connect | Raise | Retry | TryNext):
             if isinstance(node, ProcedureCall) and node.name.casefold() in _TALK:
                 continue
@@ -100,8 +106,10 @@ def mutants(data: bytes, path: str) -> Iterator[Mutant]:
         for token in range(first, last + 1):
             word = source.tokens[token]
             swapped = _SWAPS.get(word.upper())
-            if swapped is not None and not _is_sign(source.tokens, token):
-                at = source.starts[token]
+            at = source.starts[token]
+            if swapped is None or at in same_at_equality:
+                continue
+            if not _is_sign(source.tokens, token):
                 yield mutant(at, at + len(word), swapped, f"{word} -> {swapped}", token)
 
 

@@ -124,6 +124,29 @@ def test_a_case_that_did_not_notice_it_before_is_not_tried_again(judge):
     assert judge.judge(Question(every, already=names)).tried == ()
 
 
+def test_what_did_not_notice_it_under_one_setting_is_tried_under_another(judge, given):
+    mutant = changed("ROS_socket", b"ROS_part_bytes := 0;\n        RETURN", b"RETURN")
+    every = replace(mutant, statement=0)
+    names = tuple(case.name for case in judge.concerned(every, Learned()))
+    other = Judge(replace(given, row=" [pairs 3]", kept=[]))
+    assert other.judge(Question(every, budget=0, already=names)).left == len(names)
+    other.close()
+
+
+def test_a_bound_that_is_set_to_itself_is_no_mutant():
+    data = b"""MODULE m
+    PROC p()
+        VAR num a;
+        VAR num b;
+
+        IF a < b a := b;
+        IF a < b b := a;
+    ENDPROC
+ENDMODULE
+"""
+    assert [m.line for m in mutants(data, "m.mod") if m.change == "< -> <="] == [7]
+
+
 def test_verdicts_are_the_same_whatever_the_workers_and_where_it_was_broken_off(given, tmp_path):
     file = file_of("ROS_socket")
     some = list(mutants(file.data, file.path))[:24:3]

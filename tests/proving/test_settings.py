@@ -8,6 +8,7 @@ from itertools import combinations, product
 import pytest
 
 from rapidgen.cli.app import main
+from rapidgen.config import load_config
 from rapidgen.motion.settings import MotionSettings
 from rapidgen.proving.behaviour import Behaviour
 from rapidgen.proving.blame import blamed, smallest
@@ -18,6 +19,7 @@ from rapidgen.proving.settings import (
     NEEDED,
     Setting,
     assumed,
+    possible,
     questions,
     rows,
     said,
@@ -179,3 +181,10 @@ def test_bounds_are_wider_where_work_takes_longer_and_never_narrower(costs, slow
     setting = assumed([f"costs={costs}"])
     assert setting.slowness == slowness
     assert setting.latest_interrupt == pytest.approx(0.03)
+
+
+def test_what_a_configuration_cannot_be_proven_under_is_not_blamed_either():
+    """A driver with a ceiling needs CalcRobT in its background task."""
+    row = {"one": ("calc_in_background=false", "settle=0.2")}
+    assert possible(load_config("irb120"), row) == row
+    assert possible(load_config("irb14000"), row) == {"one": ("settle=0.2",)}

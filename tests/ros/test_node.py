@@ -1,5 +1,7 @@
 """The node against a stand-in of rclpy, with a controller in real time."""
 
+import time
+
 import pytest
 from standin import Duration, FollowJointTrajectory, JointTolerance, JointTrajectoryPoint, Time
 
@@ -130,6 +132,17 @@ def test_services_and_speed(up):
     assert (refused.successful, "1 to 100" in refused.reason) == (False, True)
     assert node.services["stop"]().success
     assert ended(handle)[0] == "aborted"
+
+
+def test_stop_ends_a_goal_that_waits_for_its_moment(up):
+    node = up()
+    later = goal(0.0, 0.5)
+    later.trajectory.header.stamp = Time(sec=int(time.time()) + 30, nanosec=0)
+    handle = action(node).send(later)
+    assert node.services["stop"]().success
+    status, code, text = ended(handle)
+    assert (status, code) == ("aborted", -1)
+    assert "stopped on request before it started" in text
 
 
 def test_up_before_the_robot_and_says_why_it_waits(driver_type):

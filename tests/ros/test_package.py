@@ -4,11 +4,13 @@ import ast
 import random
 import xml.etree.ElementTree as ET
 from io import BytesIO
+from itertools import combinations
 
 import numpy as np
 import pytest
 import yourdfpy
 from ruamel.yaml import YAML
+from trimesh import transformations
 
 from rapidgen.axes.frames import to_matrix
 from rapidgen.axes.kinematics import Kinematics
@@ -81,6 +83,45 @@ def test_srdf_names_links_and_joints_that_the_urdf_has():
     assert {group.attrib["name"] for group in srdf.findall("group")} == {
         "rob_l", "rob_l_arm", "rob_r", "rob_r_arm", "robots"
     }  # fmt: skip
+
+
+@pytest.mark.parametrize("name", ["irb120", "irb2400", "irb5400", "irb14050"])
+def test_nothing_of_an_arm_collides_with_itself_at_home(name):
+    """With move_group a start state in collision has no plan, whatever is asked for."""
+    files = package(name)
+    text = files[f"config/{name}_rapidgen.urdf"]
+    urdf = ET.fromstring(text)
+    srdf = ET.fromstring(files[f"config/{name}_rapidgen.srdf"])
+    robot = yourdfpy.URDF.load(BytesIO(text.encode()), load_meshes=False)
+    home = next(srdf.iter("group_state"))
+    robot.update_cfg({j.attrib["name"]: float(j.attrib["value"]) for j in home.iter("joint")})
+    bars = {
+        link.attrib["name"]: _points_in_bar(link.find("collision"), robot, link.attrib["name"])
+        for link in urdf.iter("link")
+        if link.find("collision") is not None
+    }
+    allowed = {
+        frozenset((pair.attrib["link1"], pair.attrib["link2"]))
+        for pair in srdf.iter("disable_collisions")
+    }
+    assert len(bars) > 2
+    for (one, (a, thick)), (other, (b, thin)) in combinations(bars.items(), 2):
+        apart = np.linalg.norm(a[:, None] - b[None], axis=2).min() - thick - thin
+        assert apart > 0 or frozenset((one, other)) in allowed, (one, other, apart)
+    # What a folded arm can hit stays looked at.
+    assert frozenset((next(iter(bars)), list(bars)[-1])) not in allowed
+
+
+def _points_in_bar(collision, robot, link):
+    """Points (n, 3) of the axis in the world, and the radius, m."""
+    origin, cylinder = collision.find("origin"), collision.find("geometry/cylinder")
+    xyz, rpy = ([float(v) for v in origin.attrib[key].split()] for key in ("xyz", "rpy"))
+    at = robot.get_transform(link, "world") @ transformations.translation_matrix(xyz)
+    at = at @ transformations.euler_matrix(*rpy)
+    half = float(cylinder.attrib["length"]) / 2
+    ends = np.linspace(-half, half, 50)
+    axis = np.stack([0 * ends, 0 * ends, ends, ends**0])
+    return (at @ axis)[:3].T, float(cylinder.attrib["radius"])
 
 
 @pytest.fixture

@@ -10,7 +10,7 @@ from rapidgen.axes import frames
 from rapidgen.axes.kinematics import Kinematics
 from rapidgen.axes.mapping import JointMap
 from rapidgen.config import load_config
-from rapidgen.view.appearance import appearance
+from rapidgen.view.appearance import Meshes, appearance
 from rapidgen.view.robots import side_by_side
 from tests.docs.tree import ROOT
 
@@ -119,3 +119,27 @@ def test_what_is_not_to_be_had_is_said(tmp_path, monkeypatch):
     assert len(found.faults) == 3
     assert "larger" in found.faults[0]
     assert str(tmp_path) not in found.of(group).urdf
+
+
+def test_meshes_together_have_a_limit_too_and_xml_of_others_declares_nothing(tmp_path, monkeypatch):
+    monkeypatch.setattr("rapidgen.view.appearance.MOST", 100)
+    meshes = Meshes()
+    for name, data in (
+        ("one.stl", b"x" * 60),
+        ("two.stl", b"y" * 41),
+        ("three.stl", b"z" * 40),
+        ("four.dae", b"<!DOCTYPE a><a/>"),
+    ):
+        (tmp_path / name).write_bytes(data)
+    monkeypatch.setattr("rapidgen.view.appearance.LARGEST", 70)
+    named = [meshes.beside(f"{name}.stl", tmp_path) for name in ("one", "two", "three", "one")]
+    assert [bool(name) for name in named] == [True, False, True, True]
+    assert named[0] == named[3]
+    assert [len(data) for data in meshes.files.values()] == [60, 40]
+    monkeypatch.setattr("rapidgen.view.appearance.MOST", 200)
+    assert meshes.beside("four.dae", tmp_path) == ""
+    assert meshes.beside("../gone.stl", tmp_path) == meshes.beside("../gone.stl", tmp_path) == ""
+    said = ["two.stl is larger", "four.dae: it has a document type", "'../gone.stl' is not there"]
+    assert len(meshes.faults) == len(said)
+    for fault, wanted in zip(meshes.faults, said, strict=True):
+        assert fault.startswith(wanted)

@@ -52,6 +52,9 @@ def test_the_robot_moves(irb120, open_page):
 def test_from_a_line_to_its_template_and_back(irb120, open_page):
     page = open_page(irb120["view"])
     page.get_by_role("tab", name="Program").click()
+    # It is shown where the program is, which is far down.
+    page.locator(".cm-at-program").wait_for()
+    assert until(page, f"{SEEN}.program") > 50
     modules = page.get_by_label("Module", exact=True)
     modules.select_option("ROS_motion")
     text = until(page, f"{SEEN}.text", lambda text: text and "MODULE ROS_motion\n" in text)
@@ -80,4 +83,6 @@ def test_from_a_line_to_its_template_and_back(irb120, open_page):
     modules.select_option("_head.j2")
     told.get_by_role("button", name="ROS_motion, line 2", exact=True).wait_for()
     assert told.get_by_role("button").count() > 1
+    page.get_by_label("Follow").check()
+    page.locator(".cm-at-program").wait_for()
     page.close()

@@ -87,6 +87,11 @@ def test_sources_pointers_and_a_breakpoint(viewer):
         ("look", {"task": "nobody"}, "there is no task nobody"),
         ("look", {"task": "T_ROB1", "level": -7}, "not understood"),
         ("source", {"number": 99}, "not loaded"),
+        ("origin", {"number": 0}, "no template made it"),
+        ("origin", {"number": 99}, "no template made it"),
+        ("pace", {"value": 0.09}, "not understood"),
+        ("pace", {"value": 101}, "not understood"),
+        ("run-for", {"seconds": 0}, "not understood"),
         ("evaluate", {"expression": ")("}, ""),
         ("evaluate", {"expression": "1;ENDPROC PROC other()"}, "met ';'"),
         ("evaluate", {"expression": "there(1)"}, ""),
@@ -105,6 +110,24 @@ def test_what_cannot_be_done_is_refused_with_a_reason(viewer, do, request_, erro
     assert reply["error"]
     assert error in reply["error"]
     viewer.pass_time(1.0)
+    assert viewer.told["debugging"]["halt"] is None
+
+
+def test_time_goes_at_the_pace_that_is_asked_for_and_is_stepped(viewer):
+    for pace in (0.1, 100, 1):
+        assert viewer.ask("pace", value=pace) == ""
+        assert viewer.cabinet.controller.scheduler.speed == pace
+        viewer.hub.look()
+        assert viewer.told["panel"]["pace"] == pace
+    assert viewer.ask("drive", how="pause") == ""
+    for seconds in (0.004, 0.024, 0.1, 1):
+        before = viewer.cabinet.controller.now
+        assert viewer.ask("run-for", seconds=seconds) == ""
+        viewer.pass_time(5)
+        assert viewer.told["debugging"]["halt"]["reason"] == "time"
+        assert viewer.cabinet.controller.now == pytest.approx(before + seconds, abs=1e-9)
+    assert viewer.ask("drive", how="resume") == ""
+    viewer.pass_time(1)
     assert viewer.told["debugging"]["halt"] is None
 
 

@@ -61,7 +61,8 @@ def page(tmp_path, monkeypatch):
     (tmp_path / "secret.py").write_text("no")
     monkeypatch.setattr(serving, "ASSETS", tmp_path)
     watched = Watched()
-    page = serve_page(watched)
+    (tmp_path / "beside.stl").write_text("secret")
+    page = serve_page(watched, files={"mesh-1.stl": b"solid"})
     page_parts = urlsplit(page.url)
     yield page_parts.port, page_parts.fragment.removeprefix("token="), watched
     page.close()
@@ -147,6 +148,47 @@ def test_no_path_leaves_the_page(page, path):
     assert b"import" not in body
     assert b"root:" not in body
     assert "Content-Security-Policy" in headers or status == 400
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "",
+        ".",
+        "..",
+        "../index.html",
+        "..%2findex.html",
+        "..%2Fsecret.py",
+        "%2e%2e/secret.py",
+        "..%5csecret.py",
+        "%2fetc%2fpasswd",
+        "/etc/passwd",
+        "%252e%252e%252fsecret.py",
+        "beside.stl",
+        "./beside.stl",
+        "mesh-1.stl%00",
+        "mesh-1.stl%00.html",
+        "mesh-1.stl/",
+        "mesh-1.stl/..%2fbeside.stl",
+        "MESH-1.STL",
+        "mesh-1.stl%0d%0aSet-Cookie:%20a=b",
+        "file:%2f%2f%2fetc%2fpasswd",
+        "%ff%fe",
+    ],
+)
+def test_meshes_are_given_out_by_their_names_alone(page, name):
+    port, token, _ = page
+    own = enter(port, token)[1].partition(";")[0]
+    status, headers, body = ask(port, "GET", f"/files/{name}", Cookie=own)
+    assert status in (400, 403, 404)
+    assert b"secret" not in body
+    assert b"root:" not in body
+    assert "Set-Cookie" not in headers
+    assert ask(port, "GET", "/files/mesh-1.stl")[0] == 403
+    status, headers, body = ask(port, "GET", "/files/mesh-1.stl", Cookie=own)
+    assert (status, body) == (200, b"solid")
+    assert headers["X-Content-Type-Options"] == "nosniff"
+    assert headers["Content-Type"].startswith("application/octet-stream")
 
 
 def test_every_answer_has_the_policy(page):

@@ -20,6 +20,30 @@ _MENDS = {
     "E_NOT_ENOUGH_SPACE": "the controller's disk is full: delete old files and backups",
     "E_DEVICE_FULL": "the controller's disk is full: delete old files and backups",
 }
+_NAMELESS = (
+    "E_UNRESOLVED_URL",
+    "E_INVALIDARG",
+    "E_NO_SUCH_SYMBOL",
+    "E_UNEXPECTED",
+    "E_FAIL",
+    "E_DIR_NOT_EXIST",
+    "E_FILE_NOT_FOUND",
+    "E_NO_DATA",
+    "E_INVALIDSLOTID",
+)
+"""Symbols of what is not there, or not so: the path tells what it is."""
+_WHERE = {
+    "/rw/iosystem/": "`rapidgen io HOST`, `signals()`: the signals that there are",
+    "/rw/rapid/symbol": "`rapidgen symbols HOST`, `symbols(task)`: the data that there are; a "
+    "value is one of the datum's type",
+    "/rw/rapid/tasks": "`rapidgen status HOST`, `tasks()`, `modules(task)`: what there is",
+    "/rw/rapid/modules": "`tasks()`, `modules(task)`: what there is",
+    "/rw/rapid/uiinstr": "`dialog()`: what waits, and what it takes",
+    "/rw/dipc": "a queue is made by `make_queue`; those of tasks are RMQ_TASK, and take type;value",
+    "/rw/elog": "domain 0 has the entries of all",
+    "/rw/motionsystem": "`mechanical_units()`: the units that there are",
+    "/fileservice": "`list_files()`: what lies there",
+}
 _REJECTED = (
     "motors on and start are refused after a stop until it is reset at the robot; a signal's "
     "access level must be All to be set from afar"
@@ -40,6 +64,9 @@ class RwsError(RobotError):
         if symbol == "E_UAS_REJECT" and grants:
             words += f" (it takes {' and '.join(grants)})"
         mend = _MENDS.get(symbol) or (_REJECTED if symbol == "E_REJECT" else "")
+        if symbol in _NAMELESS:
+            path = what.partition(" ")[2]
+            mend = next((mend for begin, mend in _WHERE.items() if path.startswith(begin)), "")
         super().__init__(fault("RG650", f"{what} was refused ({status}): {words}", mend))
         self.status = status
         self.symbol = symbol

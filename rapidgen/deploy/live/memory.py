@@ -71,7 +71,11 @@ def rearrange(services: "Controller", work: Work, live: LivePlan) -> None:
 def _leave(services: "Controller", live: LivePlan) -> None:
     """Program pointers of tasks whose modules go to their main: what a stopped program stands in
     cannot be unloaded [code: a RobotWare 6 client]. Other tasks keep theirs."""
-    for module in (*live.clash, *live.unload, *live.replace):
+    # What is to be loaded again may lie there: the driver's own module of that name.
+    tasks = {module.task for module in live.restore}
+    lying = {(t, m.name.casefold()) for t in sorted(tasks) for m in services.modules(t)}
+    again = [m for m in live.restore if (m.task, m.module.casefold()) in lying]
+    for module in (*live.clash, *live.unload, *live.replace, *again):
         if has_main(services, module.task, module.module):
             # Refused where the program has errors: then no pointer stands in it either.
             with suppress(RwsError):

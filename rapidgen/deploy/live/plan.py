@@ -236,6 +236,14 @@ def find_clashes(
     return tuple(InMemory(real[m.task.casefold()], m.module, why=m.why) for m in found)
 
 
+def _by_task(modules: Sequence[InMemory]) -> list[tuple[str, str, bool]]:
+    """Modules of one task and one reason as one text, their reason, whether they are several."""
+    found: dict[tuple[str, str], list[str]] = {}
+    for module in modules:
+        found.setdefault((module.task, module.why), []).append(module.module)
+    return [(f"{t}/{', '.join(names)}", w, len(names) > 1) for (t, w), names in found.items()]
+
+
 def live_steps(
     live: LivePlan, verb: str, host: str, generation: Generation
 ) -> tuple[ManualStep, ...]:
@@ -252,15 +260,16 @@ def live_steps(
     for text in (*live.load, *(live.optional if live.touches_cfg else ())):
         count = sum(len(s.instances) for s in text.sections)
         steps.append(ManualStep(by, f"load {count} instances of {text.domain} by add"))
-    steps += [
-        ManualStep(by, f"save and unload {m.shown}, which {m.why} (--overwrite)")
-        for m in live.clash
-    ]
-    steps += [ManualStep(by, f"unload {m.shown}") for m in live.unload]
+    for shown, why, several in _by_task(live.clash):
+        which = "each of which" if several else "which"
+        steps.append(ManualStep(by, f"save and unload {shown}, {which} {why} (--overwrite)"))
+    steps += [ManualStep(by, f"unload {shown}") for shown, *_ in _by_task(live.unload)]
     if live.replace:
         names = ", ".join(m.shown for m in live.replace)
         steps.append(ManualStep(by, f"load anew: {names}"))
-    steps += [ManualStep(by, f"load {m.shown} again, as it was saved") for m in live.restore]
+    for shown, _, several in _by_task(live.restore):
+        saved = "they were" if several else "it was"
+        steps.append(ManualStep(by, f"load {shown} again, as {saved} saved"))
     if live.is_empty:
         return tuple(steps)
     if live.mode != "AUTO":

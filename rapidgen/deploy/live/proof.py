@@ -121,7 +121,7 @@ def _ports(plan: Plan, proof: ReadBack) -> list[str]:
         where = f"{name} state {proof.host}:{whole(port)}"
         told = _told(proof, whole(port), end)
         if told is None:
-            faults.append(f"nobody serves {where}: is a firewall between?")
+            faults.append(f"nobody serves {where}: is a firewall between, or `sim --ports auto`?")
         elif told != plan.wanted.build_id:
             faults.append(f"{where} serves {told or 'something else'}")
     return faults

@@ -310,6 +310,30 @@ def _heartbeat_in_time(bench: Bench) -> None:
             raise Broken(f"heartbeats of {seconds} s: the last at {last:.3f} s, stops {stops}")
         control.ask(messages.RawHeartbeat(0))
         bench.moves_through(link, bench.wave(4))
+        # Axes may follow late.
+        bench.wait_until_standing()
+
+
+@case("awaits-heartbeat", "a server that awaits a heartbeat leaves the other tasks their time")
+def _awaits(bench: Bench) -> None:
+    """It looks for bytes ten times a second, and once more where the heartbeat is due."""
+    control, looks = bench.control(), []
+
+    def counted(as_before: Instruction) -> Instruction:
+        def counting(*arguments: object) -> object:
+            looks.append(bench.now)
+            return as_before(*arguments)
+
+        return counting
+
+    wrapped(bench.rapid_task("ROS_control"), "SocketReceive", counted)
+    for seconds in (5, 0.7):
+        control.ask(messages.RawHeartbeat(seconds))
+        looks.clear()
+        bench.run(0.65)
+        if not 5 <= len(looks) <= 9:
+            raise Broken(f"in 0.65 s it looked {len(looks)} times for a heartbeat of {seconds} s")
+    control.ask(messages.RawHeartbeat(0))
 
 
 @case("control-fails", "instructions of the control server that report errors", "R3")

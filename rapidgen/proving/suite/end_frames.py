@@ -291,4 +291,6 @@ def _ends_while_fed(bench: Bench) -> None:
     for sequence, wanted in ((_BEGIN, _TAKEN), (_END, far)):
         table.row(sequence, goal, 0.3, wanted)
     table.ask()
+    # Axes may follow late.
+    bench.wait_until_standing(1)
     bench.stays(0.3, "the one before was superseded")

@@ -8,6 +8,7 @@ from rapidgen.proving.link import RawLink
 from rapidgen.proving.messages import RawReason, RawTriState
 from rapidgen.proving.model import Broken
 from rapidgen.proving.stream import BEGIN, END, Streamer
+from rapidgen.proving.suite.motion_task import patience
 from rapidgen.proving.suite.streams import way
 from rapidgen.proving.track import Point, changed, distance, inward
 
@@ -99,6 +100,8 @@ def _controller_error(bench: Bench) -> None:
     """What the controller calls an error, a movement or an emergency stop is one, for so long."""
     names = {s.function: signal_name(bench.config, bench.group, s) for s in STATUS_SIGNALS}
     state = bench.state()
+    # A movement is believed that follows a standstill.
+    bench.run(patience(bench))
     for function, field, on, values in (
         ("standing", "in_motion", 0, (0, 1)),
         ("controller_error", "in_error", 1, (1, 0, 1, 0)),

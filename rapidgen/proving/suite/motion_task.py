@@ -28,7 +28,7 @@ def soon(bench: Bench) -> float:
     Where chance decides which task is next, one may wait for the others.
     """
     waits = 0.15 if bench.setting.random_schedule else 0.1
-    return waits + 0.05 * bench.setting.slowness
+    return waits + 0.06 * bench.setting.slowness
 
 
 @dataclass(frozen=True, slots=True)

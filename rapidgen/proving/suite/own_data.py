@@ -1,12 +1,14 @@
 """Data of the customer's program that clients may read and write: DATA on the control port."""
 
 import math
+import struct
 from dataclasses import replace
 
 from rapidgen.config.model import OwnDatum
 from rapidgen.proving import messages
 from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
+from rapidgen.proving.instructions import fails
 from rapidgen.proving.link import RawLink
 from rapidgen.proving.messages import RawComm, RawContent, RawReason
 from rapidgen.proving.model import Broken
@@ -17,8 +19,10 @@ case = Theme("own data", needs="control")
 
 _BEGIN = {"num": "3", "bool": "FALSE", "string": '"begin"'}
 _FIRST = {"num": (3.0, ""), "bool": (0.0, ""), "string": (0.0, "begin")}
+_LARGEST = struct.unpack("<f", struct.pack("<f", 3.4e38))[0]
+"""What the driver takes for a num, at most."""
 _SOME = {
-    "num": ((-2.5, ""), (2.0**101, "")),
+    "num": ((-2.5, ""), (_LARGEST, ""), (-_LARGEST, ""), (2.0**101, "")),
     "bool": ((1.0, ""), (0.0, "")),
     "string": ((0.0, "x" * 80), (0.0, ""), (0.0, "caf\xe9")),
 }
@@ -72,6 +76,31 @@ def _data(bench: Bench) -> None:
         for index in range(len(listed)):
             told = _asks(control, index)
             not_done(told, RawReason.NO_DATUM, f"datum {index} is in another module")
+
+
+@case("data-reading-fails", "a request for a datum that cannot be read changes nothing", once=True)
+def _reading_fails(bench: Bench) -> None:
+    """Whatever fails of it: its client is dropped, and the next one is served."""
+    listed = bench.group.data
+    texts = [n for n, d in enumerate(listed) if (d.type, d.access) == ("string", "write")]
+    if not texts:
+        return
+    with bench.beside(_with(bench, listed)) as other:
+        # Three of its head, three of what is asked, and two characters with their end.
+        for name, count in (("UnpackRawBytes", 9), ("ByteToStr", 2)):
+            for after in range(count):
+                control = other.control()
+                first = _FIRST["string"]
+                _says(_asks(control, texts[0]), messages.RawDatumReply(texts[0], *first))
+                ends = fails(other, "ROS_control", name, "ERR_ARGVALERR", after=after)
+                asked = messages.RawDatum(texts[0], 1, 0.0, "ab")
+                control.send(messages.encode(asked, RawComm.REQUEST))
+                other.run(1)
+                ends()
+                control.close(then=1)
+                control = other.control()
+                _says(_asks(control, texts[0]), messages.RawDatumReply(texts[0], *first))
+                other.healthy()
 
 
 def _one(control: RawLink, index: int, datum: OwnDatum) -> None:

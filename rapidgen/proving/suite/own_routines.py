@@ -1,10 +1,12 @@
 """Routines of the customer's own that a program calls: arguments, results, errors, how they end."""
 
+import math
 import random
 import struct
 from collections.abc import Sequence
 from dataclasses import replace
 
+from rapidgen.axes.frames import IDENTITY
 from rapidgen.config.model import OwnRoutine
 from rapidgen.proving import messages
 from rapidgen.proving.batches import millionths
@@ -15,6 +17,8 @@ from rapidgen.proving.messages import RawInstruction, RawReason, RawTrajectorySt
 from rapidgen.proving.model import Broken
 from rapidgen.proving.programs import ALL, Programmer, computes, orders, reached
 from rapidgen.proving.suite.control import not_done, stop
+from rapidgen.runtime.builtins.motion.access import data_of
+from rapidgen.runtime.robot_data import NO_OFFSETS
 from rapidgen.system.model import ModuleFile, System
 
 case = Theme("own routines", needs="stream")
@@ -63,6 +67,13 @@ _THESE = {
     "nocell:weld": (),
     "cell:teach": ("robtarget", "jointtarget", "jointtarget"),
 }
+_HALF = math.sqrt(0.5)
+_DISPLACEMENTS = (
+    ((0.05, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0)),
+    ((0.0, 0.0, 0.0), (_HALF, 0.0, 0.0, _HALF)),
+)
+"""Of a customer's program: where a robtarget's zero is, m, and how it lies."""
+_HOLDERS = ("cell", "nocell")
 
 
 def knows_these(bench: Bench) -> bool:
@@ -106,6 +117,10 @@ def _absent(bench: Bench) -> None:
         client.refused(told, RawReason.BAD_VALUE, 0, "a bool that is 2")
         told = _calls(client, WELD, [2143289344, *weld_words(1.0)[1:]])
         client.refused(told, RawReason.NOT_FINITE, 0, "a num that is none")
+        for length in (-1.0, 2.5, 81.0):
+            words = [*weld_words(1.0)[:3], *millionths([length]), *[0] * 21]
+            told = _calls(client, WELD, words)
+            client.refused(told, RawReason.BAD_VALUE, 0, f"a text of {length} characters")
         other.stays(0.5, "no routine was called")
 
 
@@ -129,6 +144,17 @@ def _missing(bench: Bench) -> None:
         _taken(_calls(client, WELD, weld_words(1.0)))
         if _ended(other, client, 4).values[0] != 2:
             raise Broken("a routine behind one that is missing has not run")
+    empty = tuple(ModuleFile(n, f"{n}.mod", f"MODULE {n}\nENDMODULE\n".encode()) for n in _HOLDERS)
+    with bench.beside(_beside(bench, *empty)) as other:
+        client, watcher = Programmer(other), other.watcher()
+        for number, routine in enumerate(other.group.routines):
+            if number == TEACH and not computes(other):
+                continue
+            _taken(_calls(client, number, _zeros(other, routine)))
+            other.stays(0.5, f"there is no {routine.call}")
+            seen = other.progress(watcher)
+            if (seen.reason, seen.reached) != (RawReason.NO_ROUTINE, 0):
+                raise Broken(f"{routine.call} is missing, PROGRESS says {seen}")
 
 
 @case("routine-results", "a routine's parameters and its error come back")
@@ -207,6 +233,61 @@ def _alone(bench: Bench) -> None:
         other.wait_until_at(program[-1].joints, 60)
 
 
+@case("program-displaced", "a displacement of the customer's own program moves no program of ours")
+def _displaced(bench: Bench) -> None:
+    """PDispOn and EOffsOn would take it elsewhere than was checked: it ends before it does."""
+    if not computes(bench):
+        return
+    _displaced_before(bench)
+    if not _has_these(bench):
+        return
+    with bench.beside(_with_module(bench)) as other:
+        client, watcher, modal = Programmer(other), other.watcher(), other.motion_group.modal
+        data = data_of(other.rapid_task("ROS_motion"), other.motion_group)
+        line = replace(orders(other, 4, random.Random(33))[-1], kind=RawInstruction.MOVE_L)
+        line = replace(line, pose=reached(other, line.joints))
+        joints = replace(line, kind=RawInstruction.MOVE_ABSJ, pose=None)
+        for move, displacement in (
+            *((line, displacement) for displacement in (*_DISPLACEMENTS, None)),
+            (joints, _DISPLACEMENTS[0]),
+        ):
+            modal.displacement, data.external_offset = IDENTITY, NO_OFFSETS
+            client.number += 1
+            call = [_CALL, *millionths([LONG, 0.0])]
+            _taken(client.say([*millionths(other.position), *call, *move.words], 2, ALL))
+            # As the routine may do.
+            other.run(4)
+            if displacement is None:
+                data.external_offset = (0.0, 5.0, 0.0, 0.0, 0.0, 0.0)
+            else:
+                modal.displacement = displacement
+            if move is joints:
+                other.wait_until_at(move.joints, 60)
+                return
+            other.stays(7, "a routine has displaced the poses behind it")
+            seen = other.progress(watcher)
+            if (seen.reason, seen.reached) != (RawReason.POSE_MISMATCH, 1):
+                raise Broken(f"poses are displaced, PROGRESS says {seen}")
+
+
+def _displaced_before(bench: Bench) -> None:
+    """Refused, or ended before it moves; without the displacement it moves."""
+    first, *_, last = orders(bench, 3, random.Random(33))
+    client, modal = Programmer(bench), bench.motion_group.modal
+    client.takes("a program", [first])
+    bench.wait_until_at(first.joints, 60)
+    move = replace(last, kind=RawInstruction.MOVE_J, pose=reached(bench, last.joints), zone=None)
+    for displacement in _DISPLACEMENTS:
+        modal.displacement = displacement
+        told = client.send([move])
+        if isinstance(told, messages.RawPointsRefused):
+            client.refused(told, RawReason.POSE_MISMATCH, 0, "poses that are displaced")
+        bench.stays(1, "the customer's program has displaced the poses")
+    modal.displacement = IDENTITY
+    client.takes("a program without a displacement", [move])
+    bench.wait_until_at(move.joints, 60)
+
+
 @case("routine-targets", "targets that a routine leaves come back")
 def _targets(bench: Bench) -> None:
     """Each with its own number, in m and rad; where there is none, none is told."""
@@ -216,6 +297,9 @@ def _targets(bench: Bench) -> None:
         client = Programmer(other)
         first, second = (order.joints for order in orders(other, 3, random.Random(29))[1:])
         (x, y, z), turn = reached(other, first)
+        away = millionths([x + 0.1, y, z, *turn, *first, *first, *second])
+        told = _calls(client, TEACH, away)
+        client.refused(told, RawReason.POSE_MISMATCH, 0, "joints that reach another pose")
         words = millionths([x, y, z, *turn, *first, *first, *second])
         _taken(_calls(client, TEACH, words))
         _ended(other, client, 0)
@@ -306,11 +390,13 @@ def _ended(bench: Bench, client: Programmer, parameter: int) -> messages.RawResu
 
 
 def _with_module(bench: Bench, *more: ModuleFile) -> System:
-    module = ModuleFile("cell", "cell.mod", _MODULE)
+    return _beside(bench, ModuleFile("cell", "cell.mod", _MODULE), *more)
+
+
+def _beside(bench: Bench, *more: ModuleFile) -> System:
+    """The system with these modules beside the driver's in the motion task."""
     tasks = tuple(
-        replace(task, modules=(*task.modules, module, *more))
-        if task.name == bench.group.task
-        else task
+        replace(task, modules=(*task.modules, *more)) if task.name == bench.group.task else task
         for task in bench.system.tasks
     )
     return replace(bench.system, tasks=tasks)

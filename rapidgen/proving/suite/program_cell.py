@@ -319,8 +319,12 @@ def _settings(bench: Bench) -> None:
         client.refused(told, RawReason.BAD_VALUE, 0, f"settings {value}")
     for bits in range(4):
         start = replace(there, joints=bench.position)
+        # As a routine of the customer's may have left them.
+        modal.check_joint, modal.singularities = False, Singularities.WRIST
         _accepted(_sends(client, SETTINGS, [float(bits)], behind=there))
         bench.wait_until_moving()
+        if not modal.check_joint:
+            raise Broken("ConfJ is off in a program that did not ask for it")
         now = (modal.singularities is Singularities.WRIST, not modal.check_linear)
         if now != (bool(bits & 1), bool(bits & 2)):
             raise Broken(f"settings {bits}: SingArea Wrist and ConfL Off are {now}")

@@ -7,11 +7,11 @@ from rapidgen.proving import messages
 from rapidgen.proving.batches import millionths, words_frame
 from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import CORNER_FAILURE, Bench
-from rapidgen.proving.link import RawLink
 from rapidgen.proving.messages import (
     PROGRAM,
     RawInstruction,
     RawReason,
+    RawStreamFlag,
     RawTrajectoryState,
 )
 from rapidgen.proving.model import Broken
@@ -20,6 +20,7 @@ from rapidgen.proving.programs import (
     BEGIN,
     Programmer,
     RawOrder,
+    bent,
     by_hand,
     computes,
     farthest,
@@ -27,12 +28,13 @@ from rapidgen.proving.programs import (
     orders,
     reached,
 )
-from rapidgen.proving.suite.control import done, stop
 from rapidgen.proving.track import SETTLED, Position, changed, distance, inward, small_unit
 
 case = Theme("programs", needs="stream")
 
 MOVE_ABSJ = RawInstruction.MOVE_ABSJ
+_LATER = 0.005
+"""Share of its time that a program may take longer, or shorter, than the same one in RAPID."""
 _SAME = 1e-5
 """m that the TCP may be away from the path of the same program in RAPID."""
 
@@ -41,6 +43,31 @@ _SAME = 1e-5
 def _like_rapid(bench: Bench) -> None:
     """On the same path, in the same time, with no stop point more."""
     like_rapid(bench, 6, random.Random(7))
+    one_like_rapid(Programmer(bench), bench, _turning(bench))
+
+
+def _turning(bench: Bench) -> list[RawOrder]:
+    """Moves that take as long as the tool may turn, or external axes may move."""
+    first = orders(bench, 1, random.Random(8))[0]
+    slow = RawOrder(
+        MOVE_ABSJ, turned_by(bench, first.joints, 0.4), None, speed=0.5, turn=0.2, linear=0.03
+    )
+    if not computes(bench):
+        return [first, slow]
+    back = turned_by(bench, first.joints, 0.1)
+    back_slow = replace(slow, kind=RawInstruction.MOVE_L, joints=back, pose=reached(bench, back))
+    return [first, slow, back_slow]
+
+
+def turned_by(bench: Bench, place: Position, angle: float) -> Position:
+    """A place with the robot's last axis, and external ones, by so much elsewhere."""
+    last = max(joint.axis for joint in bench.group.joints if joint.axis.startswith("rax"))
+    return tuple(
+        inward(joint, value, angle if joint.kind == "revolute" else 0.1)
+        if joint.axis == last or joint.axis.startswith("eax")
+        else value
+        for joint, value in zip(bench.group.joints, place, strict=True)
+    )
 
 
 def like_rapid(bench: Bench, count: int, chance: random.Random) -> None:
@@ -58,7 +85,7 @@ def one_like_rapid(client: Programmer, bench: Bench, program: list[RawOrder]) ->
     with bench.beside(by_hand(bench, program)) as other:
         other.motion_group.jump(home)
         theirs = _moved(other, program, 0.5)
-    if abs(mine[0] - theirs[0]) > 0.02 * theirs[0]:
+    if abs(mine[0] - theirs[0]) > _LATER * theirs[0]:
         raise Broken(f"a program took {mine[0]:.3f} s, {theirs[0]:.3f} s when written in RAPID")
     for one, way in ((mine[1], theirs[1]), (theirs[1], mine[1])):
         far = farthest(bench, one, way)
@@ -71,6 +98,52 @@ def _moved(bench: Bench, program: list[RawOrder], since: float) -> tuple[float, 
     bench.wait_until_at(program[-1].joints, 60)
     bench.run(0.3)
     return movement([sample for sample in bench.track if sample[0] >= since])
+
+
+@case("program-configurations", "a program reaches its poses in the postures that it says")
+def _configurations(bench: Bench) -> None:
+    """From one configuration to another, whatever instruction was before."""
+    if not computes(bench):
+        return
+    client, middle = Programmer(bench), bent(bench)
+    there = RawOrder(MOVE_ABSJ, middle, None, zone=None)
+    client.takes("a program", [there])
+    bench.wait_until_at(middle, 60)
+    for n, joint in enumerate(bench.group.joints):
+        if joint.kind != "revolute" or not joint.lower < -middle[n] < joint.upper:
+            continue
+        turned = changed(middle, n, -middle[n])
+        away = replace(
+            there, kind=RawInstruction.MOVE_J, joints=turned, pose=reached(bench, turned)
+        )
+        back = replace(away, joints=middle, pose=reached(bench, middle))
+        for order in (away, back):
+            client.takes(f"axis {n + 1} on its other side", [order])
+            bench.wait_until_at(order.joints, 90)
+            bench.run(0.5)
+
+
+@case("program-index-wraps", "more instructions than numbers", once=True)
+def _index_wraps(bench: Bench) -> None:
+    """They are counted anew behind the last number that a controller counts exactly."""
+    last, client = messages.INDEX_WRAP, Programmer(bench)
+    program = orders(bench, 10, random.Random(12))
+    some = [replace(o, zone=None) for o in program]
+    client.number += 1
+    words = [*millionths(bench.position), *(w for o in some[:3] for w in o.words)]
+    client.say(words, 3, BEGIN)
+    bench.wait_until_at(some[2].joints, 60)
+    bench.run(0.5)
+    server = bench.controller.task(bench.task("ROS_motionServer"))
+    motion = bench.controller.task(bench.task("ROS_motion"))
+    server["ROS_acceptance:ROS_count"] = server["ROS_stream:accepted"] = last - 3
+    motion["ROS_motion:expected"] = last - 2
+    told = client.say([w for o in some[3:9] for w in o.words], 6, RawStreamFlag.END, first=last - 3)
+    if not isinstance(told, messages.RawPointsAccepted) or told.accepted != 3:
+        raise Broken(f"six instructions from {last - 3} on, the reply is {told}")
+    bench.wait_until_at(some[8].joints, 60)
+    bench.run(0.5)
+    bench.healthy()
 
 
 @case("program-refused", "one wrong instruction refuses a program whole, with its index")
@@ -115,6 +188,14 @@ def _refused(bench: Bench) -> None:
     for order, reason in wrong:
         told = client.send([*right[:3], order, *right[3:]])
         client.refused(told, reason, 3, f"a program with {order}")
+    fastest = 1e-6 * round(1e6 * bench.group.tcp_speed_limit)
+    wrong_too = [replace(right[3], speed=fastest + 1e-3), replace(right[3], zone=0.67)]
+    for order, reason in zip(wrong_too, (RawReason.BAD_SPEED, RawReason.BAD_ZONE), strict=True):
+        client.refused(client.send([*right[:3], order]), reason, 3, f"a program with {order}")
+    # As fast and as wide as may be: 1.5 times that is the widest radius.
+    most = replace(right[3], speed=fastest, zone=2 / 3)
+    told = client.send([*right[:3], most, replace(most, speed=0.0)])
+    client.refused(told, RawReason.BAD_SPEED, 4, f"{most} is right")
     for words in ([99, 0], [0], [-1], [4096 + MOVE_ABSJ, 0], [4096]):
         client.number += 1
         start = millionths(bench.position)
@@ -143,88 +224,6 @@ def _refused(bench: Bench) -> None:
         raise Broken(f"a program was refused, PROGRESS says {told}")
     client.takes("a right program", right)
     bench.wait_until_at(right[-1].joints, 60)
-
-
-@case(
-    "program-prefix",
-    "what ends a program leaves a prefix of it, with index and reason",
-    once=True,
-    needs="control",
-)
-def _prefix(bench: Bench) -> None:
-    """STOP on either port, a cut connection, an emergency stop, a stop of the program, a pause."""
-    control, watcher = bench.control(), bench.watcher()
-    chance = random.Random(5)
-    for ending, reason in _ENDINGS.items():
-        if bench.config.commissioning and ending in ("e-stop", "stop"):
-            continue  # The servers stop with the program, and nobody tells.
-        for at in range(6):
-            program = orders(bench, 7, chance)
-            client = Programmer(bench)
-            start, since = bench.position, bench.now
-            client.takes("a program", program)
-            _reaches(bench, watcher, at)
-            _end(bench, client, control, ending)
-            bench.wait_until_standing(10)
-            bench.run(0.5)
-            told = bench.progress(watcher)
-            if told.reason != reason or not at <= told.reached < len(program):
-                raise Broken(f"{ending} behind instruction {at}: PROGRESS says {told}")
-            bench.stays(1, f"{ending} has ended a program")
-            bench.start_again()
-            bench.stays(2, f"{ending} has ended a program")
-            if ending != "e-stop":
-                bench.followed([start, *(o.joints for o in program)], since=since, corner=0.1)
-            client.link.close(then=1.5)
-
-
-def _reaches(bench: Bench, watcher: RawLink, at: int) -> None:
-    """Let time pass until the robot is on its way behind so many instructions."""
-    bench.wait_until_moving()
-    for _ in range(600):
-        if bench.progress(watcher).reached >= at:
-            return
-    raise Broken(f"{at} instructions are not reached")
-
-
-_ENDINGS = {
-    "STOP": RawReason.STOPPED,
-    "STOP on the control port": RawReason.STOPPED,
-    "a cut connection": RawReason.CLIENT_LOST,
-    "e-stop": RawReason.EMERGENCY_STOP,
-    "stop": RawReason.PROGRAM_STOPPED,
-    "a pause and STOP": RawReason.STOPPED,
-}
-
-
-def _end(bench: Bench, client: Programmer, control: RawLink, ending: str) -> None:
-    if ending == "STOP":
-        client.link.stop()
-    elif ending == "STOP on the control port":
-        stop(control)
-    elif ending == "a cut connection":
-        client.link.close(abort=True)
-    elif ending == "a pause and STOP":
-        done(control.ask(messages.RawPause(1)), "PAUSE")
-        bench.wait_until_standing(3)
-        client.link.stop()
-    else:
-        bench.controller.perform(ending)
-
-
-@case("program-paused", "a paused program goes on where it was", needs="control")
-def _paused(bench: Bench) -> None:
-    """To its end, on its path."""
-    control, watcher, client = bench.control(), bench.watcher(), Programmer(bench)
-    program, start, since = orders(bench, 4, random.Random(9)), bench.position, bench.now
-    client.takes("a program", program)
-    for at in (0, 1):
-        _reaches(bench, watcher, at)
-        done(control.ask(messages.RawPause(1)), "PAUSE")
-        bench.rests(3, 1, "a program is paused")
-        done(control.ask(messages.RawPause(0)), "the end of PAUSE")
-    bench.wait_until_at(program[-1].joints, 60)
-    bench.followed([start, *(o.joints for o in program)], since=since, corner=0.1)
 
 
 @case("program-stream", "a program that comes while the robot moves is executed up to a fault")

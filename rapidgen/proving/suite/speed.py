@@ -4,7 +4,9 @@ What is ordered already is slowed down by SpeedRefresh, what follows gets more t
 """
 
 import math
+import random
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from itertools import pairwise
 
 from rapidgen.motion.moves import Move
@@ -15,11 +17,11 @@ from rapidgen.proving.instructions import at_call
 from rapidgen.proving.link import RawLink
 from rapidgen.proving.messages import RawComm, RawInstruction, RawReason
 from rapidgen.proving.model import Broken
-from rapidgen.proving.programs import Programmer, RawOrder
+from rapidgen.proving.programs import Programmer, RawOrder, computes, farthest, orders, reached
 from rapidgen.proving.stream import BEGIN, END, Streamer
 from rapidgen.proving.suite.control import done, not_done
 from rapidgen.proving.suite.motion_task import begins, soon, unit_of
-from rapidgen.proving.track import Point, changed, inward
+from rapidgen.proving.track import Point, Position, changed, distance, inward
 
 case = Theme("speed", needs="control")
 
@@ -320,6 +322,40 @@ def _program(bench: Bench) -> None:
     client.takes("a program", program)
     bench.wait_until_at(program[-1].joints, 60)
     _as_asked(bench, since, 100, seconds, rate=rate)
+
+
+@case("speed-on-circle", "a circle that is slowed down goes on where it was")
+def _circle(bench: Bench) -> None:
+    """Its end is ordered anew, and is no circle through where the robot was before."""
+    if not computes(bench):
+        return
+    control, client = bench.control(), Programmer(bench)
+    first, *_, last = orders(bench, 4, random.Random(31))
+    client.takes("a program", [first])
+    bench.wait_until_at(first.joints, 60)
+    middle = [(a + b) / 2 for a, b in zip(first.joints, last.joints, strict=True)]
+    (x, y, z), turned = reached(bench, tuple(middle))
+    pose = reached(bench, last.joints)
+    circle = replace(last, kind=RawInstruction.MOVE_C, pose=pose, via=((x, y, z + 0.01), turned))
+    circle = replace(circle, speed=0.03, zone=0.002)
+    back = RawOrder(RawInstruction.MOVE_ABSJ, first.joints, None, zone=None)
+    ways: list[list[Position]] = []
+    seconds = 0.0
+    for share in (None, 0.3, 0.6):
+        client.takes("a circle", [circle, back])
+        bench.wait_until_moving()
+        since = bench.now
+        if share is not None:
+            bench.run(share * seconds)
+            done(control.ask(messages.RawSpeed(30.0)), "SPEED on a circle")
+        bench.until(lambda: distance(bench.position, last.joints) < 0.01, 60, "the circle ends")
+        seconds = seconds or bench.now - since
+        ways.append([place for at, place in bench.track if at >= since])
+        bench.wait_until_at(first.joints, 60)
+        bench.run(0.3)
+    for way in ways[1:]:
+        if (far := farthest(bench, way, ways[0])) > 0.004:
+            raise Broken(f"a circle that was slowed down is left by {far * 1000:.1f} mm")
 
 
 def _moves(bench: Bench, count: int, step: float) -> list[RawOrder]:

@@ -7,6 +7,7 @@ from rapidgen.proving.link import RawLink
 from rapidgen.proving.messages import RawReason, RawStreamFlag, RawTrajectoryState
 from rapidgen.proving.model import Broken
 from rapidgen.proving.stream import BEGIN, END, FLUSH, Streamer
+from rapidgen.proving.suite.motion_task import patience
 from rapidgen.proving.track import Point, distance
 
 case = Theme("streaming", needs="stream")
@@ -21,7 +22,7 @@ def way(bench: Bench, count: int, duration: float = 0.15) -> list[Point]:
 
 
 def _progress(bench: Bench, link: RawLink) -> messages.RawProgress:
-    bench.run(2 * bench.config.state_period)
+    bench.run(patience(bench))
     return bench.progress(link)
 
 

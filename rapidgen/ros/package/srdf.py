@@ -1,13 +1,15 @@
 """A SRDF: planning groups, a home posture, and the pairs of links that may touch.
 
-Only pairs that a joint connects are taken from the collision check: what else can never touch is
-not known without the robot's real shape, and a check too many harms nobody.
+Taken from the collision check are pairs that a joint connects, and bars of one chain that touch
+at home because they are drawn too thick. What else can never touch is not known without the
+robot's real shape, and a check too many harms nobody.
 """
 
 from collections.abc import Sequence
 from xml.etree import ElementTree as ET
 
 from rapidgen.config.model import GroupConfig
+from rapidgen.ros.package.shapes import overlapping
 from rapidgen.ros.package.urdf import Drawn, PlacedRobot, urdf_range
 
 TOGETHER = "robots"
@@ -27,8 +29,17 @@ def draw(robots: Sequence[PlacedRobot], drawn: Drawn, name: str) -> str:
     for element in drawn.root.iter("joint"):
         if element.find("mimic") is not None:
             ET.SubElement(root, "passive_joint", name=element.attrib["name"])
-    for one, other in dict.fromkeys(drawn.adjacent):
-        ET.SubElement(root, "disable_collisions", link1=one, link2=other, reason="Adjacent")
+    home = {
+        robot.prefix + joint: value
+        for robot in robots
+        for group in robot.config.groups
+        for joint, value in home_posture(group)
+    }
+    pairs = dict.fromkeys(drawn.adjacent, "Adjacent")
+    for pair in overlapping(drawn.root, home):
+        pairs.setdefault(pair, "Default")
+    for (one, other), reason in pairs.items():
+        ET.SubElement(root, "disable_collisions", link1=one, link2=other, reason=reason)
     ET.indent(root)
     return ET.tostring(root, encoding="unicode", xml_declaration=True) + "\n"
 

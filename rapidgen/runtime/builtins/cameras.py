@@ -170,6 +170,12 @@ def cam_get_name(task: Task, device: Value) -> str:
     return _camera(task, device).name
 
 
+@builtin("CamGetLoadedJob")
+def cam_get_loaded_job(task: Task, device: Value) -> str:
+    """Name of the job; empty: none is loaded."""
+    return _camera(task, device).job
+
+
 @builtin("CamGetParameter")
 def cam_get_parameter(
     task: Task, device: Value, name: str, number: Ref | None, flag: Ref | None, text: Ref | None

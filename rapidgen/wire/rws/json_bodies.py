@@ -7,7 +7,14 @@ from rapidgen.wire.rws.bodies import Body, Fault, Item, Unreadable
 from rapidgen.wire.rws.codes import OK
 from rapidgen.wire.rws.xhtml import LARGEST
 
-_WITHIN = {"elog-message": "argv", "elog-message-li": "argv", "sys-options": "sys-options-li"}
+_WITHIN = {
+    "elog-message": "argv",
+    "elog-message-li": "argv",
+    "sys-options": "sys-options-li",
+    "sys-energy-state": "mechunits",
+    "sys-energy-state-li": "mechunits",
+    "sys-energy-mec-li": "axes",
+}
 """Under which name items within an item stand; else `attrib` [mem]."""
 _Object = dict[str, object]
 

@@ -19,6 +19,8 @@ from rapidgen.wire.rws.bodies import Generation
 
 LONG = bool(os.environ.get("RAPIDGEN_LONG"))
 HOWS = ("before", "after")
+FAILED = "failed.txt"
+"""What the copies of the process that went wrong have said."""
 
 
 def kinds(log):
@@ -140,9 +142,9 @@ def run_cut(rws, generation, folder, case, wanted=lambda *request: (), again=Non
         except BaseException:
             if not forks.cut:
                 raise
-            print(generation, case, *forks.cut, *line.log[-1])
-            traceback.print_exc()
-            sys.stdout.flush()
+            with (folder / FAILED).open("a") as told:
+                print(generation, case, *forks.cut, *line.log[-1], file=told)
+                traceback.print_exc(file=told)
             os._exit(1)
         if forks.cut:
             os._exit(0)
@@ -193,8 +195,7 @@ def test_cut_at_a_request(rws, generation, case, tmp_path):
             rws, generation, tmp_path, case, lambda number, *_: (how,) if number in some else ()
         )
         assert done == len(some)
-    print(done, "cuts")
-    assert failed == []
+    assert failed == [], (tmp_path / FAILED).read_text()
 
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="copies of a process")
@@ -207,4 +208,4 @@ def test_cut_while_the_file_that_is_switched_last_is_away(rws, tmp_path):
 
     _, done, failed = run_cut(rws, Generation.ONE, tmp_path, "rollback", away, again=True)
     assert done
-    assert failed == []
+    assert failed == [], (tmp_path / FAILED).read_text()

@@ -1,6 +1,7 @@
 """What a plan says and what is refused: a pending restart, modules in the way, a program."""
 
 import json
+import shutil
 from dataclasses import replace
 
 import pytest
@@ -270,6 +271,27 @@ def test_an_update_and_the_way_back(rws, cell, wanted):
         symbol = f"{task}/ROS_common/ROS_BUILD_ID"
         assert transport.services.symbol(symbol) == wanted.build_id
     assert make_plan(transport, wanted).is_empty
+
+
+def test_a_driver_that_was_loaded_by_hand_comes_back_with_its_background_tasks(rws, cell, wanted):
+    """Its tasks stand in modules that are to be loaded again."""
+    cabinet, transport = cell
+    rws.run(transport, wanted)
+    shutil.rmtree(cabinet.controller.files.path("HOME:/rapidgen_deploy"))
+    shutil.rmtree(cabinet.controller.files.path("HOME:/rapidgen"))
+    before = {task: modules(cabinet, task) for task in cabinet.controller.rapid_tasks}
+    rws.pass_time(cabinet, 1.0)
+    assert cabinet.controller.rapid_tasks["T_ROS_CONTROL"].stack()
+    transport = rws.connect(rws.Line(cabinet, Generation.ONE))
+    text = plan_text(rws.run(transport, rws.build(Generation.ONE, "trajectory.capacity=500")))
+    (row,) = (line for line in text.splitlines() if "save and unload T_ROB1/" in line)
+    assert row.count("ROS_") > 3
+    assert row.endswith("each of which has a name of ours (--overwrite)")
+    rws.pass_time(cabinet, 1.0)
+    rws.run(transport, None, "uninstall")
+    assert {t: sorted(modules(cabinet, t)) for t in before} == {
+        t: sorted(names) for t, names in before.items()
+    }
 
 
 def test_old_and_new_modules_in_one_task_are_not_taken_for_new(rws, cell, wanted):

@@ -82,6 +82,37 @@ def test_what_is_no_answer_is_refused_and_the_dialog_stays(caller):
     assert caller.send("GET", wrong).status == 404
 
 
+def test_of_two_dialogs_the_newer_one_is_active(caller):
+    controller = caller.desk.office.cabinet.controller
+    newer = controller.operator.ask("T_OTHER", "TPReadNum", "more?", (), float)
+    (active,) = caller.get("/rw/rapid/uiinstr/active")
+    assert active.text("stack").startswith("RAPID/T_OTHER/")
+    controller.operator.ask("", "RMMP", "may it?", (), str)  # nobody's program waits in it
+    (still,) = caller.get("/rw/rapid/uiinstr/active")
+    assert still == active
+    controller.operator.withdraw(newer)
+    (older,) = caller.get("/rw/rapid/uiinstr/active")
+    assert older.text("stack").startswith("RAPID/T_ROB1/")
+
+
+def test_an_answer_counts_when_it_is_complete_and_in_automatic_mode(caller):
+    controller = caller.desk.office.cabinet.controller
+    assert answer(caller, "TPAnswer", "2") == answer(caller, "TPCompleted", "FALSE") == 204
+    controller.run_for(0.5)
+    assert controller.tasks["T_ROB1"]["key"] == 0
+    controller.set_mode("manual_reduced")
+    assert answer(caller, "TPCompleted", "TRUE") == 403
+    controller.set_mode("auto")
+    controller.run_for(0.5)
+    assert controller.tasks["T_ROB1"]["key"] == 0
+    # What was chosen for a dialog ends with it.
+    assert caller.desk.office.dialogs
+    controller.start_program()
+    controller.run_for(0.1)
+    assert answer(caller, "TPCompleted", "TRUE") == 204
+    assert not caller.desk.office.dialogs
+
+
 def test_who_subscribes_is_told_of_dialogs_and_texts(caller):
     form = {"resources": "1", "1": "/rw/rapid/uiinstr;uievent", "1-p": "1"}
     assert caller.post("/subscription", form) == 201
@@ -95,3 +126,11 @@ def test_who_subscribes_is_told_of_dialogs_and_texts(caller):
     items = [item for event in events for item in media.read(event, "application/xhtml+xml").items]
     told = [(i.text("instr"), i.text("event"), i.text("msg")) for i in items]
     assert told == [("TPWrite", "POST", '"hello"'), ("TPReadNum", "SEND", "")]
+    (waiting,) = controller.operator.questions
+    controller.operator.withdraw(waiting)
+    (event,) = events[2:]
+    (item,) = media.read(event, "application/xhtml+xml").items
+    assert (item.text("instr"), item.text("event")) == ("TPReadNum", "ABORT")
+    assert caller.send("DELETE", "/subscription/1").status == 200
+    controller.operator.write("T_ROB1", "to nobody")
+    assert len(events) == 3

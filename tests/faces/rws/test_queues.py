@@ -83,6 +83,18 @@ def test_messages_between_clients_are_any_text_and_gone_when_read(caller):
     assert send(caller, "other", "more").status == 404
 
 
+def test_the_largest_message_and_what_each_generation_wants(caller):
+    assert create(caller, "mine").status == 201
+    empty = caller.send("GET", f"/rw/dipc/mine{'?action=dipc-read' if caller.is_one else ''}")
+    assert empty.status == (200 if caller.is_one else 204)
+    assert send(caller, "mine", "\u00e9" * 222).status == 204
+    assert code_of(send(caller, "mine", "\u00e9" * 223)) == CODES["E_BUFFER_OVERFLOW"]
+    action = "?action=dipc-send" if caller.is_one else ""
+    assert caller.post(f"/rw/dipc/mine{action}", {"dipc-data": "x"}) == (
+        204 if caller.is_one else 400  # dipc-userdef is missing [VC 7.21]
+    )
+
+
 @pytest.mark.parametrize("data", ["num;seven", "nothing;1", "num", "x" * 445])
 def test_what_is_no_message_for_a_task_is_refused(caller, data):
     assert send(caller, "RMQ_T_ROB1", data).status == 400

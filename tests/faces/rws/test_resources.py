@@ -1,9 +1,13 @@
 """Resources that public clients ask for beside the usual ones: what they show is what is, and a
 success shows elsewhere. Spellings: RWS manual 3HAC050973, [VC 6.16], [VC 7.21]."""
 
+import json
+from datetime import datetime
+
 import pytest
 from served import STARTED, Caller, code_of, make_cabinet, make_desk
 
+from rapidgen.wire.rws import media
 from rapidgen.wire.rws.bodies import Generation
 from rapidgen.wire.rws.codes import CODES
 
@@ -161,6 +165,52 @@ def test_a_program_is_saved_taken_out_and_loaded(caller):
     assert act(caller, program, "loadprog", missing, "load") in (400, 404)
 
 
+def test_a_program_is_loaded_in_place_of_the_rest_or_beside_it(caller):
+    """System modules are no part of a program."""
+    programs = caller.desk.office.cabinet.programs
+    task = caller.desk.office.controller.rapid_tasks["T_ROB1"]
+    home = caller.desk.office.controller.files.path("HOME:")
+    edit(caller)
+    for name, attributes in (("Own", ""), ("Sys", "(SYSMODULE)")):
+        (home / f"{name}.mod").write_text(f"MODULE {name}{attributes}\nENDMODULE\n")
+        form = {"modulepath": f"$HOME/{name}.mod"}
+        assert act(caller, "/rw/rapid/tasks/T_ROB1", "loadmod", form) in (200, 204)
+    (home / "More.mod").write_text("MODULE More\nENDMODULE\n")
+    (home / "more.pgf").write_text("<Program><Module>More.mod</Module></Program>")
+    program, path = "/rw/rapid/tasks/T_ROB1/program", {"progpath": "$HOME/more.pgf"}
+    assert act(caller, program, "loadprog", {**path, "loadmode": "add"}, "load") == 204
+    assert {m.name for m in programs.modules(task)} >= {"MainModule", "Own", "Sys", "More"}
+    assert act(caller, program, "loadprog", {**path, "loadmode": "replace"}, "load") == 204
+    assert {m.name for m in programs.modules(task)} & {"MainModule", "Own", "Sys", "More"} == {
+        "Sys",
+        "More",
+    }
+    assert act(caller, program, "loadprog", {**path, "loadmode": "other"}, "load") == 400
+
+
+def test_a_pointer_is_not_put_while_the_program_runs(caller):
+    assert act(caller, "/rw/rapid/execution", "start", STARTED) == 204
+    caller.desk.office.controller.run_for(0.15)
+    edit(caller)
+    form = {"module": "MainModule", "routine": "main", "userlevel": "FALSE"}
+    where = caller.get("/rw/rapid/tasks/T_ROB1/pcp")
+    put = "/rw/rapid/tasks/T_ROB1/pcp" + ("?action=set-pp-routine" if caller.is_one else "/routine")
+    assert code_of(caller.send("POST", put, form)) == CODES["E_EXEC_STATE"]
+    assert caller.get("/rw/rapid/tasks/T_ROB1/pcp") == where
+
+
+def test_mastership_is_given_back_by_its_number_alone(two):
+    reply = two.send("POST", "/rw/mastership/edit/request-with-id")
+    (item,) = media.read(reply.body, reply.header("content-type")).items
+    number = item.text("mastership-id")
+    other = Caller(two.desk)
+    release = "/rw/mastership/edit/release-with-id"
+    assert other.post(release, {"mastershipid": f"{number}0"}) == 403
+    assert two.get("/rw/mastership/edit")[0].text("mastership") == "remote"
+    assert other.post(release, {"mastershipid": number}) == 204
+    assert two.get("/rw/mastership/edit")[0].text("mastership") == "nomaster"
+
+
 def test_the_stack_and_the_pointer_of_a_stopped_program(caller):
     start = {**STARTED, "cycle": "forever"}
     frame = "?resource=activation-record" if caller.is_one else "/activation-record"
@@ -197,16 +247,39 @@ def test_a_step_is_for_manual_mode(caller):
 # -- the rest ------------------------------------------------------------------------------------
 
 
-def test_sessions_are_listed_one_by_one(caller):
+def test_sessions_are_listed_one_by_one_and_in_two_by_user(caller):
     before = len(caller.get("/users"))
     form = {"username": "me", "application": "app", "location": "here"}
     assert caller.post("/users" if caller.is_one else "/users/register", form) == 201
     other = Caller(caller.desk)
     found = other.get("/users")
-    assert len(found) == before + 1
+    assert len(found) == (before + 1 if caller.is_one else before)
     assert found[0].text("application") == "app"
+    admin = Caller(caller.desk, "Admin")
+    assert len(caller.get("/users")) == len(found) + 1
+    admin.send("GET", "/logout")
     other.send("GET", "/logout")
     assert len(caller.get("/users")) == before
+
+
+def test_nobody_is_local(one):
+    target = "/users?action=set-locale"
+    assert [one.post(target, {"type": t}) for t in ("local", "remote", "here")] == [403, 204, 400]
+
+
+def test_energy_is_told_by_axis(caller):
+    """As in a body of a RobotWare 6: `mechunits`, in each of them `axes`."""
+    if caller.is_one:
+        reply = caller.send("GET", "/rw/system/energy?json=1")
+        (state,) = json.loads(reply.body)["_embedded"]["_state"]
+    else:
+        (state,) = json.loads(caller.send("GET", "/rw/system/energy").body)["state"]
+    (unit,) = state["mechunits"]
+    assert (unit["_title"], [axis["interval-energy"] for axis in unit["axes"]]) == (
+        "ROB_1",
+        ["0"] * 6,
+    )
+    datetime.strptime(state["time-stamp"], "%Y-%m-%d T %H:%M:%S")
 
 
 def test_who_may_less_cannot_be_somebody_who_may_more(tmp_path):
@@ -242,6 +315,69 @@ def test_a_locked_mode_cannot_be_changed(caller):
     assert caller.post(setting, man) == 403
     assert act(caller, path, "unlock") == 204
     assert caller.post(setting, man) == 204
+
+
+@pytest.mark.parametrize(
+    ("mode", "found"),
+    [
+        ("Before", "PERS num 3x := 1;"),
+        ("After", "PERS num x3 := 1;"),
+        ("Replace", "PERS num 3 := 1;"),
+    ],
+)
+def test_a_piece_goes_before_behind_or_in_place_of_another(two, mode, found):
+    base = "/rw/rapid/tasks/T_ROB1/modules/MainModule/text/range"
+    edit(two)
+    place = {"startrow": "2", "startcol": "14", "endrow": "2", "endcol": "14"}
+    assert two.post(base, {**place, "replace-mode": mode, "text": "3"}) == 204
+    (row,) = two.get(f"{base}?startrow=2&startcol=5&endrow=2&endcol=-1")
+    assert row.text("text") == found
+    back = {**place, "startrow": "3", "replace-mode": mode, "text": "3"}
+    assert two.post(base, back) == 400, "it ends before it begins"
+    assert two.post(base, {**place, "replace-mode": "Beside", "text": "3"}) == 400
+
+
+def test_devices_are_those_of_a_network(caller):
+    assert [item.text("name") for item in caller.get("/rw/iosystem/devices?network=Local")] == [
+        "DRV_1"
+    ]
+    assert caller.get("/rw/iosystem/devices?network=Nowhere") == ()
+    search = "/rw/iosystem/devices?action=search"
+    assert caller.post(search, {"network": "Local"}) == 400  # name or state has to be said
+    assert caller.post(search, {"name": "drv"}) == 200
+    if caller.is_one:
+        search = "/rw/iosystem/networks?action=search"
+        assert (caller.post(search), caller.post(search, {"name": "loc"})) == (400, 200)
+
+
+def test_jogging_is_refused_with_its_reason(caller):
+    jog = "/rw/motionsystem" + ("?action=jog" if caller.is_one else "/jog")
+    form = {"jogmode": "AxisGroup1", "mechunit": "ROB_1", "ccount": "0"}
+    assert code_of(caller.send("POST", jog, form)) == CODES["E_MODE_REJECT"]
+    caller.desk.office.controller.set_mode("manual_reduced")
+    assert code_of(caller.send("POST", jog, form)) == CODES["E_REJECT"]
+    assert caller.post(jog, {"jogmode": "AxisGroup1"}) == 400
+
+
+def test_what_is_chosen_for_jogging_wants_mastership_of_rws_1(caller):
+    target = "/rw/motionsystem/mechunits/ROB_1" + ("?action=set" if caller.is_one else "")
+    assert caller.post(target, {"tool": "tool0"}) == (403 if caller.is_one else 204)
+
+
+def test_a_backup_takes_no_other_ones_place_and_a_broken_one_is_told(caller):
+    form = {"backup": "/fileservice/BACKUP/first"}
+    assert act(caller, "/ctrl/backup", "backup", form, "create") == 202
+    again = "/ctrl/backup" + ("?action=backup" if caller.is_one else "/create")
+    assert code_of(caller.send("POST", again, form)) == CODES["E_DIR_EXIST"]
+    if caller.is_one:
+        return
+    folder = caller.desk.office.controller.files.path("BACKUP:/first")
+    for broken, wanted in ((False, 0), (True, CODES["E_FAIL"])):
+        if broken:
+            (folder / "SYSPAR" / "SYS.cfg").write_text("nothing\n")
+        reply = caller.send("POST", "/ctrl/backup/check-restore", form)
+        (job,) = caller.get(reply.header("location"))
+        assert (reply.status, min(job.whole("code"), 0)) == (202, wanted)
 
 
 def test_the_emergency_stop_of_a_virtual_controller(two):

@@ -8,7 +8,7 @@ MODULE ROS_execution
     ! In the motion task. All was checked before it came into the ring; ROS_motion takes it out there, and
     ! leaves an instruction that is under way when the robot was stopped.
 
-    CONST string ROS_BUILD_EXECUTION := "2ba6be63f6d7";
+    CONST string ROS_BUILD_EXECUTION := "52d41bb8c17a";
 
     ! The instruction at hand, and why it could not be carried out, 0: it could.
     VAR ROS_order ROS_ordered;
@@ -17,6 +17,11 @@ MODULE ROS_execution
     LOCAL VAR speeddata speed;
     ! What is other than usual on lines.
     LOCAL VAR num ways := 0;
+    ! The customer's program displaces poses (PDispOn, EOffsOn): they would be others than those checked.
+    LOCAL VAR bool displaced := FALSE;
+    LOCAL CONST extjoint UNMOVED := [0,0,0,0,0,0];
+    ! mm, and of a quaternion at 1 m: as much as rounding may be.
+    LOCAL CONST num STILL := 0.01;
     TASK PERS tooldata ROS_own_tool := [TRUE,[[0,0,0],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];
     TASK PERS wobjdata ROS_own_wobj := [FALSE,TRUE,"",[[0,0,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];
 
@@ -24,6 +29,16 @@ MODULE ROS_execution
     PROC ROS_prepare_program()
         ConfJ \On;
         set_ways 0;
+        look_for_displacement;
+    ENDPROC
+
+    ! What is asked of a displacement is where it leaves a pose that is nowhere.
+    LOCAL PROC look_for_displacement()
+        VAR robtarget zero := [[0,0,0],[1,0,0,0],[0,0,0,0],[0,0,0,0,0,0]];
+
+        zero := ORobT(zero);
+        displaced := VectMagn(zero.trans) > STILL OR zero.extax <> UNMOVED
+            OR Abs(zero.rot.q2) + Abs(zero.rot.q3) + Abs(zero.rot.q4) > STILL / 1000;
     ENDPROC
 
     ! A program that asked for other ways is over.
@@ -86,6 +101,12 @@ MODULE ROS_execution
             WaitTime ROS_ordered.seconds;
             RETURN;
         ENDTEST
+        IF displaced AND ROS_ordered.kind <> ROS_DO_MOVE_ABSJ THEN
+            ROS_order_fault := ROS_REASON_POSE_MISMATCH;
+            ErrWrite "ROS: poses are displaced", "A program displacement or offset is in force, and nobody has checked"
+                \RL2:="where it takes the robot." \RL3:="PDispOff, EOffsOff";
+            RETURN;
+        ENDIF
         zone := ROS_ordered.zone;
         IF stops zone := fine;
         speed := ROS_ordered.speed;

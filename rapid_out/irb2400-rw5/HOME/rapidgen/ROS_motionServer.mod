@@ -9,7 +9,7 @@ MODULE ROS_motionServer
     ! end (ROS_stream). The client's STOP lies in the same stream of bytes behind its points, so
     ! this task never waits for room: it reads, and feeds the ring in between.
 
-    CONST string ROS_BUILD_MOTION_SERVER := "2ba6be63f6d7";
+    CONST string ROS_BUILD_MOTION_SERVER := "52d41bb8c17a";
 
     LOCAL CONST num PORT := 11000;
     ! s between two looks for bytes while the ring is being fed
@@ -140,7 +140,7 @@ MODULE ROS_motionServer
         VAR num bytes;
         VAR num at := 1;
         VAR num length;
-        VAR num type;
+        VAR num kind;
         VAR num number;
 
         bytes := ROS_peek(newcomer);
@@ -151,11 +151,11 @@ MODULE ROS_motionServer
         early_bytes := early_bytes + bytes;
         WHILE at + ROS_HEADER_BYTES + 7 <= early_bytes DO
             UnpackRawBytes early, at, length \IntX:=DINT;
-            UnpackRawBytes early, at + 4, type \IntX:=DINT;
+            UnpackRawBytes early, at + 4, kind \IntX:=DINT;
             IF NOT (ROS_HEADER_BYTES <= length AND length <= ROS_MAX_LENGTH) RETURN ROS_REASON_FRAMING;
             IF at + length + 3 > early_bytes RETURN ROS_REASON_NONE;
-            IF type = ROS_MSG_POINTS OR type = ROS_MSG_PROGRAM RETURN ROS_REASON_SUPERSEDED;
-            IF type = ROS_MSG_JOINT_TRAJ_PT THEN
+            IF kind = ROS_MSG_POINTS OR kind = ROS_MSG_PROGRAM RETURN ROS_REASON_SUPERSEDED;
+            IF kind = ROS_MSG_JOINT_TRAJ_PT THEN
                 UnpackRawBytes early, at + 16, number \IntX:=DINT;
                 IF number = ROS_SEQ_STOP RETURN ROS_REASON_STOPPED;
                 RETURN ROS_REASON_SUPERSEDED;
@@ -269,8 +269,8 @@ MODULE ROS_motionServer
         ENDIF
     ENDPROC
 
-    LOCAL PROC reply(VAR socketdev client, num type, num code)
-        ROS_pack_reply answer, type, code;
+    LOCAL PROC reply(VAR socketdev client, num kind, num code)
+        ROS_pack_reply answer, kind, code;
         linked := ROS_send(client, answer);
     ENDPROC
 

@@ -9,7 +9,7 @@ MODULE ROS_stateServer
     ! moment. Nobody waits for this task. A client that does not read would hold up the others
     ! in a send, so a send that takes too long is broken off, and its client dropped.
 
-    CONST string ROS_BUILD_STATE_SERVER := "2ba6be63f6d7";
+    CONST string ROS_BUILD_STATE_SERVER := "52d41bb8c17a";
 
     LOCAL CONST num PORT := 11002;
     LOCAL CONST num PERIOD := 0.1;
@@ -358,7 +358,7 @@ MODULE ROS_stateServer
         VAR trapdata found;
         VAR errdomain domain;
         VAR num number;
-        VAR errtype type;
+        VAR errtype kind;
         VAR string title;
         VAR string first;
         VAR string second;
@@ -369,11 +369,11 @@ MODULE ROS_stateServer
             RETURN;
         ENDIF
         GetTrapData found;
-        ReadErrData found, domain, number, type \Title:=title \Str1:=first \Str2:=second;
+        ReadErrData found, domain, number, kind \Title:=title \Str1:=first \Str2:=second;
         place := events_put MOD EVENTS + 1;
         domains{place} := domain;
         numbers{place} := number;
-        types{place} := type;
+        types{place} := kind;
         titles{place} := title;
         upper_texts{place} := first;
         lower_texts{place} := second;

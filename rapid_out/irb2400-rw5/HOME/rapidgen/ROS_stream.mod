@@ -9,7 +9,7 @@ MODULE ROS_stream
     ! room. The head of the ring is moved once a batch, when its checksum is right. Behind a fault
     ! the stream is cut: what was accepted before is executed, and nothing that follows.
 
-    CONST string ROS_BUILD_STREAM := "2ba6be63f6d7";
+    CONST string ROS_BUILD_STREAM := "52d41bb8c17a";
 
     ! s of points that wait in the ring before the robot begins to move, or moves on.
     LOCAL CONST num PRELOAD := 0.5;
@@ -238,11 +238,11 @@ MODULE ROS_stream
         code := reason;
         place := accepted;
         ROS_report reason, place;
-        IF NOT ended close reason;
+        IF NOT ended close_stream reason;
     ENDPROC
 
     ! The last point is in the ring.
-    LOCAL PROC close(num reason)
+    LOCAL PROC close_stream(num reason)
         announce;
         ended := TRUE;
         ROS_closed_code := reason;
@@ -293,7 +293,7 @@ MODULE ROS_stream
                 refuse ROS_REASON_SEQUENCE_GAP, 0;
                 RETURN;
             ENDIF
-            close ROS_REASON_NONE;
+            close_stream ROS_REASON_NONE;
         ELSEIF (NOT holding) OR held >= PRELOAD OR has(ROS_STREAM_FLUSH) THEN
             announce;
         ENDIF

@@ -130,11 +130,28 @@ def get_license(office: "Office", asked: RwsRequest) -> Served:
 
 @serves(ops.ENERGY)
 def get_energy(office: "Office", asked: RwsRequest) -> Served:
-    """Energy is not modelled: the state -1 says that no value is valid [RWS manual]."""
-    zeros = ("change-count", "time-stamp", "reset-time", "interval-length", "interval-energy")
-    told = {"state": "-1", "energy-state": "blocked", **dict.fromkeys(zeros, "0")}
-    told["accumulated-energy"] = "0"
-    return show(Item(asked.kind("sys-energy-state-li", "sys-energy-state"), "energy-state", told))
+    """Energy is not modelled: the state -1 says that no value is valid [RWS manual].
+
+    Fields and axes as in a body of a RobotWare 6 that an exporter of metrics has in its tests.
+    """
+    now = date_time(office.controller.scheduler).strftime("%Y-%m-%d T %H:%M:%S")
+    told = {"state": "-1", "energy-state": "blocked", "change-count": "0"}
+    told |= {"time-stamp": now, "reset-time": now, "interval-length": "3600"}
+    told |= {"interval-energy": "0", "accumulated-energy": "0"}
+    none = {"interval-energy": "0"}
+    units = (
+        Item(
+            "sys-energy-mec-li",
+            group.config.mechanical_unit,
+            within=tuple(
+                Item("sys-energy-axis-li", str(i), none)
+                for i, _ in enumerate(group.config.joints, 1)
+            ),
+        )
+        for group in office.controller.motion.groups.values()
+    )
+    kind = asked.kind("sys-energy-state-li", "sys-energy-state")
+    return show(Item(kind, "energy-state", told, within=tuple(units)))
 
 
 @serves(ops.VISION)

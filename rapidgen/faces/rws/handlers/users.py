@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 from rapidgen.faces.rws.asking import Denied, RwsRequest, Served, show
 from rapidgen.faces.rws.rmmp import Privilege
 from rapidgen.faces.rws.routing import serves
+from rapidgen.faces.rws.sessions import Session
 from rapidgen.wire.rws import operations as ops
 from rapidgen.wire.rws.bodies import Generation, Item
 from rapidgen.wire.rws.codes import CODES, NAMES, name_of
@@ -33,7 +34,11 @@ def register(office: "Office", asked: RwsRequest) -> Served:
 
 @serves(ops.USERS)
 def users(office: "Office", asked: RwsRequest) -> Served:
-    """Who is logged in: one entry a session [code: abb-rws-client]; the class is [mem]."""
+    """Who is logged in: one entry a session, in RWS 2.0 one a user [code: abb-rws-client]; of the
+    class it is known that `user` is in it, the rest is [mem]."""
+    sessions: dict[object, Session] = {}
+    for session in office.sessions():
+        sessions.setdefault(session.number if asked.is_one else session.user, session)
     found = [
         Item(
             "user-li",
@@ -46,7 +51,7 @@ def users(office: "Office", asked: RwsRequest) -> Served:
                 "ulocale": "remote",
             },
         )
-        for session in office.sessions()
+        for session in sessions.values()
     ]
     return show(*found, collection=True)
 

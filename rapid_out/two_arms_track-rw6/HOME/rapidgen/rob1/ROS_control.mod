@@ -9,7 +9,7 @@ MODULE ROS_control
     ! heartbeat this task asks the supervisor, by an interrupt: only one task stops the robot, and
     ! starts it again. Only if that does not answer this task stops it. It may hang in a send.
 
-    CONST string ROS_BUILD_CONTROL := "fb4d5984ee5e";
+    CONST string ROS_BUILD_CONTROL := "27b59f080080";
 
     LOCAL CONST num PORT := 11001;
     ! s between two looks at what the robot does, and for new clients.
@@ -330,18 +330,18 @@ MODULE ROS_control
     ! SIGNAL: read one, or write it first.
     LOCAL PROC take_signal(VAR socketdev client)
         VAR num index;
-        VAR num write;
+        VAR num wish;
         VAR num value;
         VAR num fault;
 
         UnpackRawBytes request, 17, index \IntX:=DINT;
-        UnpackRawBytes request, 21, write \IntX:=DINT;
+        UnpackRawBytes request, 21, wish \IntX:=DINT;
         UnpackRawBytes request, 25, value \Float4;
-        IF write <> 0 AND write <> 1 THEN
+        IF wish <> 0 AND wish <> 1 THEN
             fault := ROS_REASON_BAD_VALUE;
         ELSE
             fault := ROS_REASON_NONE;
-            IF write = 1 fault := write_signal(index, value);
+            IF wish = 1 fault := write_signal(index, value);
             IF fault = ROS_REASON_NONE fault := read_signal(index, value);
         ENDIF
         IF fault <> ROS_REASON_NONE THEN

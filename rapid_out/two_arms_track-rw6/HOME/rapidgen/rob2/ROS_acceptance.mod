@@ -8,7 +8,7 @@ MODULE ROS_acceptance
     ! What a trajectory that comes whole and one that comes in batches have in common. The one
     ! who takes a point unpacks it, lets it be checked here, and looks at ROS_fault then.
 
-    CONST string ROS_BUILD_ACCEPTANCE := "fb4d5984ee5e";
+    CONST string ROS_BUILD_ACCEPTANCE := "27b59f080080";
 
     ! s: longest duration of a point
     CONST num ROS_LONGEST := 3600;
@@ -97,16 +97,16 @@ MODULE ROS_acceptance
     ! A joint is outside its limits, or faster than its axis. Gives what is taken in its place:
     ! the limit, if it is outside only by rounding.
     FUNC num ROS_judged(num wanted, num before, num joint)
-        VAR num low;
-        VAR num high;
+        VAR num lowest;
+        VAR num highest;
         VAR num taken;
 
-        low := ROS_low{joint};
-        high := ROS_high{joint};
+        lowest := ROS_low{joint};
+        highest := ROS_high{joint};
         taken := wanted;
-        IF low - ROUNDING <= wanted AND wanted < low taken := low;
-        IF high < wanted AND wanted <= high + ROUNDING taken := high;
-        IF NOT (low <= taken AND taken <= high)
+        IF lowest - ROUNDING <= wanted AND wanted < lowest taken := lowest;
+        IF highest < wanted AND wanted <= highest + ROUNDING taken := highest;
+        IF NOT (lowest <= taken AND taken <= highest)
             ROS_object 100 * joint + not_a_number(wanted, ROS_REASON_JOINT_LIMIT);
         ! How the robot gets to the first point is not the client's business.
         IF ROS_first OR Abs(taken - before) <= ROS_SPEED{joint} * ROS_seconds RETURN taken;

@@ -8,7 +8,7 @@ MODULE ROS_execution
     ! In the motion task. All was checked before it came into the ring; ROS_motion takes it out there, and
     ! leaves an instruction that is under way when the robot was stopped.
 
-    CONST string ROS_BUILD_EXECUTION := "fb4d5984ee5e";
+    CONST string ROS_BUILD_EXECUTION := "27b59f080080";
 
     ! The instruction at hand, and why it could not be carried out, 0: it could.
     VAR ROS_order ROS_ordered;
@@ -17,12 +17,17 @@ MODULE ROS_execution
     LOCAL VAR speeddata speed;
     ! What is other than usual on lines.
     LOCAL VAR num ways := 0;
+    ! The customer's program displaces poses (PDispOn, EOffsOn): they would be others than those checked.
+    LOCAL VAR bool displaced := FALSE;
+    LOCAL CONST extjoint UNMOVED := [0,0,0,0,0,0];
+    ! mm, and of a quaternion at 1 m: as much as rounding may be.
+    LOCAL CONST num STILL := 0.01;
     TASK PERS tooldata ROS_own_tool := [TRUE,[[0,0,0],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];
     TASK PERS wobjdata ROS_own_wobj := [FALSE,TRUE,"",[[0,0,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];
     ! Signals on its way, and triggers for four moves: those of the moves before may be under way.
     LOCAL VAR ROS_mark mark{8};
     LOCAL VAR triggdata trigger{4, 8};
-    LOCAL VAR num set := 0;
+    LOCAL VAR num rank := 0;
 
     ! As in ROS_control: tied to their names when a program begins.
     LOCAL CONST string NAME_1 := "clamp_close";
@@ -37,7 +42,17 @@ MODULE ROS_execution
     PROC ROS_prepare_program()
         ConfJ \On;
         set_ways 0;
+        look_for_displacement;
         link_signals;
+    ENDPROC
+
+    ! What is asked of a displacement is where it leaves a pose that is nowhere.
+    LOCAL PROC look_for_displacement()
+        VAR robtarget zero := [[0,0,0],[1,0,0,0],[0,0,0,0],[0,0,0,0,0,0]];
+
+        zero := ORobT(zero);
+        displaced := VectMagn(zero.trans) > STILL OR zero.extax <> UNMOVED
+            OR Abs(zero.rot.q2) + Abs(zero.rot.q3) + Abs(zero.rot.q4) > STILL / 1000;
     ENDPROC
 
     ! A program that asked for other ways is over.
@@ -109,6 +124,12 @@ MODULE ROS_execution
             set_signal;
             RETURN;
         ENDTEST
+        IF displaced AND ROS_ordered.kind <> ROS_DO_MOVE_ABSJ THEN
+            ROS_order_fault := ROS_REASON_POSE_MISMATCH;
+            ErrWrite "ROS: poses are displaced", "A program displacement or offset is in force, and nobody has checked"
+                \RL2:="where it takes the robot." \RL3:="PDispOff, EOffsOff";
+            RETURN;
+        ENDIF
         zone := ROS_ordered.zone;
         IF stops zone := fine;
         speed := ROS_ordered.speed;
@@ -162,17 +183,17 @@ MODULE ROS_execution
     LOCAL PROC move_and_set(PERS tooldata tool, PERS wobjdata wobj)
         TEST ROS_ordered.kind
         CASE ROS_DO_MOVE_J:
-            TriggJ ROS_ordered.target, speed, trigger{set, 1} \T2:=trigger{set, 2}
-                \T3:=trigger{set, 3} \T4:=trigger{set, 4} \T5:=trigger{set, 5} \T6:=trigger{set, 6}
-                \T7:=trigger{set, 7} \T8:=trigger{set, 8}, zone, tool \WObj:=wobj;
+            TriggJ ROS_ordered.target, speed, trigger{rank, 1} \T2:=trigger{rank, 2}
+                \T3:=trigger{rank, 3} \T4:=trigger{rank, 4} \T5:=trigger{rank, 5} \T6:=trigger{rank, 6}
+                \T7:=trigger{rank, 7} \T8:=trigger{rank, 8}, zone, tool \WObj:=wobj;
         CASE ROS_DO_MOVE_L:
-            TriggL ROS_ordered.target, speed, trigger{set, 1} \T2:=trigger{set, 2}
-                \T3:=trigger{set, 3} \T4:=trigger{set, 4} \T5:=trigger{set, 5} \T6:=trigger{set, 6}
-                \T7:=trigger{set, 7} \T8:=trigger{set, 8}, zone, tool \WObj:=wobj;
+            TriggL ROS_ordered.target, speed, trigger{rank, 1} \T2:=trigger{rank, 2}
+                \T3:=trigger{rank, 3} \T4:=trigger{rank, 4} \T5:=trigger{rank, 5} \T6:=trigger{rank, 6}
+                \T7:=trigger{rank, 7} \T8:=trigger{rank, 8}, zone, tool \WObj:=wobj;
         CASE ROS_DO_MOVE_C:
-            TriggC ROS_ordered.via, ROS_ordered.target, speed, trigger{set, 1} \T2:=trigger{set, 2}
-                \T3:=trigger{set, 3} \T4:=trigger{set, 4} \T5:=trigger{set, 5} \T6:=trigger{set, 6}
-                \T7:=trigger{set, 7} \T8:=trigger{set, 8}, zone, tool \WObj:=wobj;
+            TriggC ROS_ordered.via, ROS_ordered.target, speed, trigger{rank, 1} \T2:=trigger{rank, 2}
+                \T3:=trigger{rank, 3} \T4:=trigger{rank, 4} \T5:=trigger{rank, 5} \T6:=trigger{rank, 6}
+                \T7:=trigger{rank, 7} \T8:=trigger{rank, 8}, zone, tool \WObj:=wobj;
         ENDTEST
     ERROR
         RAISE;
@@ -181,7 +202,7 @@ MODULE ROS_execution
     LOCAL PROC set_triggers()
         VAR num last;
 
-        set := set MOD 4 + 1;
+        rank := rank MOD 4 + 1;
         FOR n FROM 1 TO 8 DO
             last := n;
             IF n > ROS_ordered.marks last := ROS_ordered.marks;
@@ -197,11 +218,11 @@ MODULE ROS_execution
             IF NOT has_1 THEN
                 ROS_order_fault := ROS_REASON_NO_SIGNAL;
             ELSEIF one.kind = ROS_MARK_START THEN
-                TriggIO trigger{set, n}, one.place \Start \DOp:=signal_1, one.value;
+                TriggIO trigger{rank, n}, one.place \Start \DOp:=signal_1, one.value;
             ELSEIF one.kind = ROS_MARK_END THEN
-                TriggIO trigger{set, n}, one.place \DOp:=signal_1, one.value;
+                TriggIO trigger{rank, n}, one.place \DOp:=signal_1, one.value;
             ELSE
-                TriggIO trigger{set, n}, one.place \Time \DOp:=signal_1, one.value;
+                TriggIO trigger{rank, n}, one.place \Time \DOp:=signal_1, one.value;
             ENDIF
         ENDTEST
     ERROR

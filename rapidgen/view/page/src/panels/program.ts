@@ -42,7 +42,7 @@ class ProgramPanel {
     this.follow.checked = false;
     void this.read(this.modules.value, 1);
   } });
-  private readonly follow = h("input", { type: "checkbox", id: "follow", checked: true });
+  private readonly follow = h("input", { type: "checkbox", id: "follow", checked: true, onchange: () => this.point(true) });
   private readonly go = h("button", { type: "button", class: "primary", title: "F5, F6",
     onclick: () => this.drive(this.debugging?.halt ? "resume" : "pause") }, "Pause");
   private readonly steps = (["over", "in", "out"] as const).map((how) =>
@@ -129,7 +129,7 @@ class ProgramPanel {
   shown(visible: boolean): void {
     this.visible = visible;
     document.body.classList.toggle("programs", visible);
-    if (visible) this.point();
+    if (visible) this.point(true);
   }
 
   /** For tests: what the editor shows. */
@@ -154,7 +154,7 @@ class ProgramPanel {
     const names = this.sources.modules(task);
     this.modules.replaceChildren(...names.map((name) => h("option", { value: name }, name)));
     if (task) this.view.order({ do: "look", task, level: -1 });
-    void this.open(names.includes(this.module) ? this.module : names[0] ?? "", true).then(() => this.point());
+    void this.open(names.includes(this.module) ? this.module : names[0] ?? "", true).then(() => this.point(true));
   }
 
   private async open(module: string, again = false): Promise<void> {
@@ -200,13 +200,14 @@ class ProgramPanel {
     return this.debugging?.halt && this.level >= 0 ? stack[this.level] : stack.at(-1);
   }
 
-  /** Go where the program is. */
-  private point(): void {
+  /** Go where the program is; `jump`: what is read now may be elsewhere although the pointer has not moved. */
+  private point(jump = false): void {
     if (!this.visible) return;
     const place = this.place;
     if (place && this.follow.checked) {
+      const go = jump || this.template !== "" || place.module !== this.module || this.debugging?.halt;
       void this.open(place.module).then(() => {
-        if (this.editor.seen.program !== place.line || this.debugging?.halt) this.editor.go(place.line);
+        if (go || this.editor.seen.program !== place.line) this.editor.go(place.line);
         this.mark();
       });
     } else {
@@ -292,7 +293,7 @@ class ProgramPanel {
             }) })
       : h("span", { class: "soft" }, value.text);
     return h("tr", {}, h("th", { scope: "row", title: value.kind }, value.name), h("td", {}, text),
-      remove ? h("td", {}, h("button", { type: "button", class: "quiet", "aria-label": `Do not watch ${value.name}`, onclick: remove }, "×")) : null);
+      remove ? h("td", { class: "live" }, h("button", { type: "button", class: "quiet", "aria-label": `Do not watch ${value.name}`, onclick: remove }, "×")) : null);
   }
 
   private pointRow(point: SeenBreakpoint): HTMLElement {

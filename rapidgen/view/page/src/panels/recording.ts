@@ -126,6 +126,8 @@ class RecordingPanel {
     this.charts = draw(this.data, this.curves);
     for (const chart of this.charts)
       chart.over.addEventListener("click", (event) => this.seek(chart.posToVal(event.offsetX, "x")));
+    // Charts know their scales when they have been drawn, which they put off until what runs now has ended.
+    await Promise.resolve();
     this.cursor();
   }
 

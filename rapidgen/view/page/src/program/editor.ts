@@ -139,6 +139,8 @@ const theme = EditorView.theme({
   ".cm-pointer-program": { color: "var(--accent)" },
   ".cm-pointer-motion": { color: "var(--good)" },
   ".cm-at-program": { backgroundColor: "color-mix(in srgb, var(--accent) 20%, transparent)" },
+  // Colours of words would be hard to read on it.
+  ".cm-at-program *": { color: "var(--ink)" },
   ".cm-at-motion": { boxShadow: "inset 3px 0 var(--good)" },
   ".cm-reached": { color: "var(--good)" },
   ".cm-missed": { color: "var(--bad)" },
