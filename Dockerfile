@@ -1,4 +1,4 @@
-# A virtual controller: docker run -p 11000-11002:11000-11002 rapidgen irb120 --host 0.0.0.0
+# A virtual controller: docker run -p 127.0.0.1:11000-11002:11000-11002 rapidgen-sim irb120 --host 0.0.0.0
 FROM python:3.13-slim AS build
 WORKDIR /src
 COPY . .

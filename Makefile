@@ -73,9 +73,11 @@ $(WHEEL)/env/.made: pyproject.toml $(STAMP) $(PAGE)
 driver-hours: $(STAMP)
 	time $(BIN)/python benchmarks/campaign.py days --hours 4 --watched 0.25
 
-# The documentation as a site: build/site/index.html. A warning is an error, a link into nothing is one.
+# The documentation as a site: build/site/index.html. A warning is an error, a link into nothing is one,
+# and so is a question of docs/start/questions.md that the site's search does not find.
 site: $(STAMP)
 	time $(BIN)/python -m sphinx --fail-on-warning --quiet -d build/site-pages docs build/site
+	$(BIN)/python -m tests.docs.findable build/site
 
 # Workflows, image and changelog: what only a release uses. `.ci/release` makes one in dist/.
 release-lint: $(STAMP)
@@ -187,6 +189,12 @@ rws-requests: $(STAMP) ## 1 min: 100,000 hostile requests to the face, a good cl
 
 rws-cuts: $(STAMP) ## 1 h: deployments over the web services cut at every request, before and after it was done
 	RAPIDGEN_LONG=1 $(BIN)/python -m pytest -n 2 -v --timeout 0 tests/deploy/rws/test_cuts.py
+
+two-workers: $(STAMP) ## 5 min: what a second worker of a campaign is worth, beside two processes of their own
+	$(BIN)/python benchmarks/two_workers.py
+
+image: $(STAMP) ## 5 min: the container image, built and tried by docker or podman
+	.ci/image
 
 endurance: $(STAMP) ## 2 min: memory of an idle driver that is watched for ten simulated hours
 	$(BIN)/python benchmarks/endurance.py

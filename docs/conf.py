@@ -20,6 +20,7 @@ extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx_copybutton"]
 exclude_patterns = ["changes"]
 
 html_theme = "furo"
+html_search_scorer = str(Path(__file__).parent / "assets" / "scorer.js")
 html_title = f"rapidgen {release}"
 html_copy_source = False
 html_show_sphinx = False
@@ -63,7 +64,11 @@ class RapidLexer(RegexLexer):
 
 def write_codes(app: Sphinx) -> None:
     """What `rapidgen explain` says becomes a page of the site."""
-    chapters = (re.sub(r"^#", "##", page(code), flags=re.MULTILINE) for code in codes())
+    chapters = (
+        f"```{{index}} ! single: {code}\n```\n\n"
+        + re.sub(r"^#", "##", page(code), flags=re.MULTILINE)
+        for code in codes()
+    )
     text = "# Diagnostics\n\nWhat `rapidgen explain CODE` says.\n\n" + "\n".join(chapters)
     path = Path(app.srcdir) / "reference" / "codes.md"
     if not path.exists() or path.read_text("utf-8") != text:

@@ -26,7 +26,7 @@ def demo(
     ] = Path("demo_out"),
 ) -> int:
     """Build a driver, boot it on a virtual controller, move it, and report."""
-    from rapidgen.client import Robot
+    from rapidgen.client import Robot, Timeouts
     from rapidgen.config import load_config
     from rapidgen.controller import VirtualController
     from rapidgen.generate import build, write
@@ -47,7 +47,11 @@ def demo(
         _say(f"         {tasks} tasks, RobotWare {model.robotware[0]}, at {address}")
         _say("connect  a Python client, as to a robot")
         # By the controller's own clock: stamps of reception are as late as this machine is busy.
-        with Robot(model, address=address, group=group.name, feedback=True) as robot:
+        # On a machine that is busy the controller is late: nothing is to be stopped for that.
+        patient = Timeouts(hello=10.0, ready=10.0, silence=15.0, heartbeat=15.0)
+        with Robot(
+            model, address=address, group=group.name, feedback=True, timeouts=patient
+        ) as robot:
             robot.wait_until(lambda s: s.status.motion_possible is TriState.TRUE, _SERVERS)
             trajectory = _trajectory(robot)
             _say(f"         rapidgen {robot.driver.version}, {robot.state.status}")

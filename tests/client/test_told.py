@@ -2,6 +2,7 @@
 
 import math
 import struct
+import sys
 import traceback
 from pathlib import Path
 
@@ -69,6 +70,7 @@ def test_a_resampling_that_is_named_mends(irb120):
         check_trajectory(dense.resampled(0.1), irb120, start=HOME)
 
 
+@pytest.mark.skipif(sys.version_info < (3, 11), reason="Python 3.10 shows no notes")
 def test_a_traceback_shows_place_and_mend(tmp_path):
     bad = tmp_path / "cell.yaml"
     bad.write_text("model: irb120\nmodle: irb120\n")

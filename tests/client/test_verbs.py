@@ -189,6 +189,7 @@ def test_record(controller, tmp_path):
 
 
 def test_plot(points, tmp_path, capsys):
+    pytest.importorskip("matplotlib")
     out = tmp_path / "both.svg"
     assert main(["plot", str(points), str(points), "--robot", "irb120", "-o", str(out)]) == 0
     assert capsys.readouterr().out.split() == [str(out)]

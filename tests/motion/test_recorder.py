@@ -63,6 +63,7 @@ def test_a_recording_is_read_back_and_drawn(rapid, tmp_path, capsys):
     assert np.abs(found.commanded - recording.commanded).max() < 1e-9
     assert np.abs(found.tcp - recording.tcp).max() < 1e-9
     assert found.motion_pointer == recording.motion_pointer
+    pytest.importorskip("matplotlib")
     assert main(["plot", str(path)]) == 0
     html, png = (Path(name) for name in capsys.readouterr().out.split())
     assert png.read_bytes().startswith(b"\x89PNG")
