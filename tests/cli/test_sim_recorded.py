@@ -7,7 +7,7 @@ import sys
 import pytest
 import typer
 
-from rapidgen.cli.sim import _recording
+from rapidgen.cli.sim import _look, _recording
 from rapidgen.controller.booting import Wishes, load_target
 from rapidgen.controller.cabinet import Cabinet
 from rapidgen.view.recording.reader import RecordingFile
@@ -19,9 +19,14 @@ def cabinet():
         yield cabinet
 
 
-def test_a_restart_begins_another_file(cabinet, tmp_path):
+@pytest.fixture(scope="module")
+def look():
+    return _look(load_target(["irb120"], Wishes()))
+
+
+def test_a_restart_begins_another_file(cabinet, look, tmp_path):
     path = tmp_path / "run.mcap"
-    with _recording(cabinet, path, ["T_ROB1:ERRNO"]):
+    with _recording(cabinet, look, path, ["T_ROB1:ERRNO"]):
         cabinet.controller.run_for(1.0)
         cabinet.ask_restart()
         cabinet.run(lambda: cabinet.restarts > 0)
@@ -34,10 +39,10 @@ def test_a_restart_begins_another_file(cabinet, tmp_path):
 
 
 @pytest.mark.parametrize("watch", ["ERRNO", "nobody:ERRNO", "T_ROB1:"])
-def test_a_watch_names_a_task_and_an_expression(cabinet, tmp_path, watch):
+def test_a_watch_names_a_task_and_an_expression(cabinet, look, tmp_path, watch):
     with (
         pytest.raises(typer.BadParameter, match="T_ROB1, T_ROS_RECV"),
-        _recording(cabinet, tmp_path / "run.mcap", [watch]),
+        _recording(cabinet, look, tmp_path / "run.mcap", [watch]),
     ):
         pytest.fail("it went on")
     assert list(tmp_path.iterdir()) == []
@@ -46,7 +51,7 @@ def test_a_watch_names_a_task_and_an_expression(cabinet, tmp_path, watch):
 def test_a_watch_is_for_a_recording(cabinet):
     with (
         pytest.raises(typer.BadParameter, match="--record"),
-        _recording(cabinet, None, ["T_ROB1:1"]),
+        _recording(cabinet, None, None, ["T_ROB1:1"]),
     ):
         pytest.fail("it went on")
 

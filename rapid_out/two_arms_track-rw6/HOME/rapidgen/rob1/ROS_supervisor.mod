@@ -11,7 +11,7 @@ MODULE ROS_supervisor
     ! which an old path must not go on: e-stop, motors off, program stop, change of mode.
     ! A pause: StopMove alone, so that the path is kept, and StartMove when it is asked for.
 
-    CONST string ROS_BUILD_SUPERVISOR := "27b59f080080";
+    CONST string ROS_BUILD_SUPERVISOR := "1b6ac70d39cc";
 
     LOCAL VAR intnum asked_to_stop;
     LOCAL VAR intnum asked_to_look;
@@ -32,7 +32,9 @@ MODULE ROS_supervisor
     PROC main()
         ROS_start_task ROS_shown_supervisor_1, ROS_BUILD_SUPERVISOR = ROS_BUILD_ID;
         ! What was under way when this task ended is over.
-        IF ROS_active() halt ROS_REASON_POWER_FAILURE;
+        IF ROS_active() OR (ROS_paused_1 >= 0 AND IsStopMoveAct(\FromNonMoveTask)) halt ROS_REASON_POWER_FAILURE;
+        ! A controller that has just been given the driver says 0, which would be a pause.
+        ROS_paused_1 := -1;
         mode := OpMode();
         IDelete asked_to_stop;
         CONNECT asked_to_stop WITH on_request;
