@@ -1,7 +1,6 @@
 """One file put in its place whole: a full disk or a Ctrl-C leaves what was there before."""
 
 import os
-import secrets
 import stat
 from pathlib import Path
 
@@ -40,7 +39,7 @@ def _status(target: Path) -> os.stat_result | None:
 
 
 def _replace(target: Path, data: bytes, before: os.stat_result | None) -> None:
-    fresh = target.parent / f".rapidgen-{secrets.token_hex(8)}"
+    fresh = target.parent / f".rapidgen-{os.urandom(8).hex()}"
     descriptor = os.open(fresh, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666)
     try:
         with open(descriptor, "wb") as file:

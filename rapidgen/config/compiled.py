@@ -6,10 +6,10 @@ read it, and is not written where Python itself may write nothing (`PYTHONDONTWR
 installation that cannot be written).
 """
 
-import hashlib
 import json
 import os
 import sys
+import zlib
 from pathlib import Path
 
 from rapidgen import __version__
@@ -43,13 +43,14 @@ def shipped_groups(name: str) -> tuple[GroupConfig, ...]:
 
 def _key(source: Path) -> str:
     """Of the file's bytes, and of the code as Python tells its own: size and time."""
-    made = hashlib.blake2b(f"{__version__} {source.name}\n".encode(), digest_size=16)
-    made.update(source.read_bytes())
+    data = source.read_bytes()
+    # No digest of hashlib's: it loads OpenSSL, which a short run does not need.
+    parts = [__version__, source.name, f"{len(data)} {zlib.crc32(data)}"]
     for entry in sorted(os.scandir(_FOLDER), key=lambda entry: entry.name):
         if entry.name.endswith(".py"):
             stat = entry.stat()
-            made.update(f"{entry.name} {stat.st_size} {stat.st_mtime_ns}\n".encode())
-    return made.hexdigest()
+            parts.append(f"{entry.name} {stat.st_size} {stat.st_mtime_ns}")
+    return "\n".join(parts)
 
 
 def _keep(path: Path, found: object) -> None:

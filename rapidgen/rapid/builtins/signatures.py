@@ -29,7 +29,7 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cache
-from importlib.resources import files
+from pathlib import Path
 from types import MappingProxyType
 from typing import Final, Literal
 
@@ -55,6 +55,7 @@ Value = float | bool | str | tuple["Value", ...]
 """A RAPID value that is known before the run: records and arrays are tuples."""
 
 _WITHOUT_ROUTINES: Final = frozenset(("constants", "data", "names", "types"))
+_FOLDER: Final = Path(__file__).parent
 _HEADER: Final = re.compile(
     r"^(PROC|FUNC (\w+)) (\w+)(\(.*?\))(?:[ ]+!([^\n]*))?$", re.MULTILINE | re.DOTALL
 )
@@ -130,13 +131,13 @@ class Predefined:
 
 
 def _read(name: str) -> str:
-    return (files("rapidgen.rapid") / "builtins" / f"{name}.rapid").read_text("utf-8")
+    return (_FOLDER / f"{name}.rapid").read_text("utf-8")
 
 
 @cache
 def _themes() -> tuple[str, ...]:
     """The files with routines; one of a family has its types and data, too."""
-    found = (files("rapidgen.rapid") / "builtins").iterdir()
+    found = _FOLDER.iterdir()
     names = sorted(file.name for file in found if file.name.endswith(".rapid"))
     return tuple(n for name in names if (n := name.removesuffix(".rapid")) not in _WITHOUT_ROUTINES)
 
