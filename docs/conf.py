@@ -21,6 +21,9 @@ exclude_patterns = ["changes"]
 
 html_theme = "furo"
 html_search_scorer = str(Path(__file__).parent / "assets" / "scorer.js")
+html_static_path = ["assets"]
+html_css_files = ["versions.css"]
+html_js_files = [("versions.js", {"defer": "defer"})]
 html_title = f"rapidgen {release}"
 html_copy_source = False
 html_show_sphinx = False
