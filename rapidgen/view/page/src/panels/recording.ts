@@ -39,6 +39,7 @@ class RecordingPanel {
     h("option", { value: 0, selected: true }, "all"));
   private readonly video = h("button", { type: "button", onclick: () => this.film() }, "Film the robots");
   private filming: MediaRecorder | null = null;
+  private filmed = 0;
   private readonly curves = h("div", { class: "curves" });
   private readonly cut = h("p", { class: "halt", role: "status", hidden: true });
 
@@ -157,7 +158,11 @@ class RecordingPanel {
     if (!stage) return this.view.notice("There is no picture without WebGL", "fault");
     const pieces: Blob[] = [];
     const film = new MediaRecorder(stage.element.captureStream(30), { mimeType: "video/webm" });
-    film.ondataavailable = (event) => pieces.push(event.data);
+    this.filmed = 0;
+    film.ondataavailable = (event) => {
+      pieces.push(event.data);
+      this.filmed += event.data.size;
+    };
     film.onstop = () => {
       this.filming = null;
       say(this.video, "Film the robots");
@@ -165,13 +170,14 @@ class RecordingPanel {
     };
     this.filming = film;
     say(this.video, "End the film");
-    film.start();
+    // In pieces, as they are encoded: a film is as long as what has come.
+    film.start(250);
     stage.draw();
   }
 
   /** For tests. */
-  get seen(): { time: number | undefined; charts: number; cursor: number | null | undefined } {
-    return { time: this.playback?.time, charts: this.charts.length, cursor: this.charts[0]?.cursor.left };
+  get seen(): { time: number | undefined; charts: number; cursor: number | null | undefined; filmed: number } {
+    return { filmed: this.filmed, time: this.playback?.time, charts: this.charts.length, cursor: this.charts[0]?.cursor.left };
   }
 }
 
