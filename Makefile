@@ -149,7 +149,7 @@ motion-campaign: $(STAMP) ## 10 min: 10,000 random programs with random stops
 reach: $(STAMP) ## 3 min: 10,000 poses of every shipped model, by formula or search
 	$(BIN)/python benchmarks/reach.py
 
-two-workers: $(STAMP) ## 2 min: what a second worker is worth to a campaign
+two-workers: $(STAMP) ## 2 min: what a second worker of a campaign is worth, beside two processes of their own
 	$(BIN)/python benchmarks/two_workers.py
 
 exploration: $(STAMP) ## 1 min: schedules until known defects of drivers are found
@@ -189,9 +189,6 @@ rws-requests: $(STAMP) ## 1 min: 100,000 hostile requests to the face, a good cl
 
 rws-cuts: $(STAMP) ## 1 h: deployments over the web services cut at every request, before and after it was done
 	RAPIDGEN_LONG=1 $(BIN)/python -m pytest -n 2 -v --timeout 0 tests/deploy/rws/test_cuts.py
-
-two-workers: $(STAMP) ## 5 min: what a second worker of a campaign is worth, beside two processes of their own
-	$(BIN)/python benchmarks/two_workers.py
 
 image: $(STAMP) ## 5 min: the container image, built and tried by docker or podman
 	.ci/image

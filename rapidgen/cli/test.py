@@ -186,7 +186,7 @@ def _check_names(names: list[str]) -> None:
                 "RG801",
                 None,
                 f"there is no case '{name}'",
-                suggest(name, known) or f"the cases are: {', '.join(known)}",
+                suggest(name, known) or "`rapidgen test CONFIG --list` shows the cases",
             )
             for name in wrong
         )

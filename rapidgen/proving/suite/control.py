@@ -383,6 +383,15 @@ _REQUESTS = (
 )
 
 
+@case("first-start", "a driver that starts for the first time orders nothing", background=True)
+def _first_start(bench: Bench) -> None:
+    """Its persistents say 0 then, also where 0 would mean a pause or a trajectory."""
+    heard = watched_orders(bench)
+    bench.run(2)
+    if heard:
+        raise Broken(f"nobody has asked for anything, the driver orders {heard[0]}")
+
+
 @case("supervisor-gone", "a supervisor that does not answer", "R7b", background=True)
 def _supervisor_is_gone(bench: Bench) -> None:
     """Should the supervisor not answer nothing moves, and nobody is told that it was done."""

@@ -28,21 +28,13 @@ def _prefix(bench: Bench) -> None:
     """STOP on either port, a cut connection, an emergency stop, a stop of the program, a pause."""
     control, watcher = bench.control(), bench.watcher()
     chance = random.Random(5)
-    for ending, reason in _ENDINGS.items():
-        if bench.config.commissioning and ending in ("e-stop", "stop"):
-            continue  # The servers stop with the program, and nobody tells.
+    for ending in _endings(bench):
         for at in range(6):
             program = orders(bench, 7, chance)
             client = Programmer(bench)
             start, since = bench.position, bench.now
             client.takes("a program", program)
-            _reaches(bench, watcher, at)
-            _end(bench, client, control, ending)
-            bench.wait_until_standing(10)
-            bench.run(0.5)
-            told = bench.progress(watcher)
-            if told.reason != reason or not at <= told.reached < len(program):
-                raise Broken(f"{ending} behind instruction {at}: PROGRESS says {told}")
+            _ended(client, control, watcher, ending, at, len(program))
             bench.stays(1, f"{ending} has ended a program")
             bench.start_again()
             bench.stays(2, f"{ending} has ended a program")
@@ -61,9 +53,7 @@ def _kinds(bench: Bench) -> None:
     """Moves of each kind, settings, a tool and an object by values, waits, a signal."""
     control, watcher, chance = bench.control(), bench.watcher(), random.Random(6)
     outputs = [s.name for s in bench.config.signals if (s.kind, s.access) == ("DO", "write")]
-    for ending, reason in _ENDINGS.items():
-        if bench.config.commissioning and ending in ("e-stop", "stop"):
-            continue
+    for ending in _endings(bench):
         for at in range(1, 30):
             program, sets = _all_kinds(bench, chance)
             if at > len(program) - 2:
@@ -76,13 +66,7 @@ def _kinds(bench: Bench) -> None:
             told = client.say(words, len(program), ALL)
             if not isinstance(told, messages.RawPointsAccepted):
                 raise Broken(f"a program of all kinds is right, the reply is {told}")
-            _reaches(bench, watcher, at)
-            _end(bench, client, control, ending)
-            bench.wait_until_standing(10)
-            bench.run(0.5)
-            seen = bench.progress(watcher)
-            if seen.reason != reason or not at <= seen.reached < len(program):
-                raise Broken(f"{ending} behind instruction {at}: PROGRESS says {seen}")
+            seen = _ended(client, control, watcher, ending, at, len(program))
             bench.start_again()
             bench.stays(1, f"{ending} has ended a program")
             for name in outputs[:1]:
@@ -142,6 +126,27 @@ _ENDINGS = {
     "stop": RawReason.PROGRAM_STOPPED,
     "a pause and STOP": RawReason.STOPPED,
 }
+
+
+def _endings(bench: Bench) -> list[str]:
+    """Those of which anybody tells: servers of a driver in commissioning stop with the program."""
+    unheard = ("e-stop", "stop") if bench.config.commissioning else ()
+    return [ending for ending in _ENDINGS if ending not in unheard]
+
+
+def _ended(
+    client: Programmer, control: RawLink, watcher: RawLink, ending: str, at: int, length: int
+) -> messages.RawProgress:
+    """End a program of some length behind an instruction; what PROGRESS says of it then."""
+    bench = client.bench
+    _reaches(bench, watcher, at)
+    _end(bench, client, control, ending)
+    bench.wait_until_standing(10)
+    bench.run(0.5)
+    told = bench.progress(watcher)
+    if told.reason != _ENDINGS[ending] or not at <= told.reached < length:
+        raise Broken(f"{ending} behind instruction {at}: PROGRESS says {told}")
+    return told
 
 
 def _end(bench: Bench, client: Programmer, control: RawLink, ending: str) -> None:
