@@ -161,6 +161,11 @@ class CancelResponse(Enum):
     ACCEPT = 2
 
 
+class Parameter:
+    def __init__(self, name, type_=None, value=None):
+        self.name, self.value = name, value
+
+
 class RCLError(RuntimeError):
     pass
 
@@ -363,11 +368,18 @@ class LifecycleNode:
     def add_on_set_parameters_callback(self, callback):
         self._on_set = callback
 
+    def set_parameters(self, parameter_list):
+        results = []
+        for parameter in parameter_list:
+            assert isinstance(parameter, Parameter)
+            results.append(self._on_set([parameter]))
+            if results[-1].successful:
+                self._parameters[parameter.name] = parameter.value
+        return results
+
     def set(self, name, value):
-        result = self._on_set([SimpleNamespace(name=name, value=value)])
-        if result.successful:
-            self._parameters[name] = value
-        return result
+        """As a service of ROS does it."""
+        return self.set_parameters([Parameter(name, value=value)])[0]
 
     def create_publisher(
         self,
@@ -433,6 +445,7 @@ def modules():
         "rclpy.action": "ActionServer CancelResponse GoalResponse",
         "rclpy.callback_groups": "ReentrantCallbackGroup",
         "rclpy.lifecycle": "LifecycleNode TransitionCallbackReturn",
+        "rclpy.parameter": "Parameter",
         "rclpy.qos": "QoSProfile",
         "rclpy.qos_overriding_options": "QoSOverridingOptions",
         "rclpy.signals": "SignalHandlerOptions",

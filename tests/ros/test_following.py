@@ -250,12 +250,30 @@ def test_a_controller_that_is_gone_aborts():
         assert outcome.status is Ending.ABORTED
 
 
+@pytest.mark.parametrize("cancelled", [False, True])
+@pytest.mark.parametrize("after", [0.0, 0.03, 0.08])
+def test_a_link_that_is_lost_while_a_goal_is_sent_leaves_open_whether_it_moves(after, cancelled):
+    """-1 says that nothing has moved: nobody knows that any more, nor behind a lost STOP."""
+    asked, under = goal(*(0.01 * n for n in range(50)), seconds=0.2), UnderWay()
+    with station() as s:
+
+        def fault():
+            s.controller.power_loss()
+            if cancelled:
+                under.cancel()
+
+        outcome = s.run(_after(s, after, s.follow(asked, under), fault))
+        assert (outcome.status, outcome.code) == (Ending.ABORTED, Code.PATH_TOLERANCE_VIOLATED)
+        assert ("STOP" if cancelled else "connection") in outcome.text
+
+
 def test_a_link_that_is_lost_before_the_stamp_aborts_at_once():
     with station() as s:
         began = s.loop.time()
         asked = replace(THERE, stamp=began + 600.0)
         outcome = s.run(_after(s, 1.0, s.follow(asked), s.controller.power_loss))
-        assert outcome.status is Ending.ABORTED
+        # Nothing was sent: nothing can have moved.
+        assert (outcome.status, outcome.code) == (Ending.ABORTED, Code.INVALID_GOAL)
         assert "connection" in outcome.text
         assert s.loop.time() - began < 60.0
 

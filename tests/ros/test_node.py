@@ -130,8 +130,25 @@ def test_services_and_speed(up):
     assert node.set("speed", 50.0).successful
     refused = node.set("speed", 500.0)
     assert (refused.successful, "1 to 100" in refused.reason) == (False, True)
+    assert node.get_parameter("speed").value == 50.0
     assert node.services["stop"]().success
     assert ended(handle)[0] == "aborted"
+
+
+def test_the_parameter_speed_ends_with_the_motion(up):
+    node = up()
+    refused = node.set("speed", 50.0)
+    assert (refused.successful, "no trajectory" in refused.reason) == (False, True)
+    handle = action(node).send(goal(0.0, 0.5, seconds=3.0))
+    assert handle.fed.wait(60)
+    assert node.set("speed", 50.0).successful
+    assert ended(handle)[0] == "succeeded"
+    assert node.get_parameter("speed").value == 100.0
+
+
+def test_a_parameter_that_would_change_nothing_is_refused(up):
+    refused = up().set("replace", "approach")
+    assert (refused.successful, "when the node is configured" in refused.reason) == (False, True)
 
 
 def test_stop_ends_a_goal_that_waits_for_its_moment(up):
