@@ -321,7 +321,11 @@ class CallChecker:
         value = constant(argument.value, self.findings.here)
         if isinstance(value, int | float) and not 1 <= value <= _RAW_BYTES:
             self.report(
-                "RG319", f"a raw byte index lies in 1 to {_RAW_BYTES}, not {value:g}", argument
+                "RG319",
+                f"a raw byte index lies in 1 to {_RAW_BYTES}, not {value:g}",
+                argument,
+                notes=("the error comes when it is executed",),
+                severity=Severity.WARNING,
             )
 
 
