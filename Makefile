@@ -155,6 +155,13 @@ two-workers: $(STAMP) ## 2 min: what a second worker of a campaign is worth, bes
 exploration: $(STAMP) ## 1 min: schedules until known defects of drivers are found
 	$(BIN)/python benchmarks/exploration.py --jobs 2
 
+# RESULTS keeps them: the next call goes on there.
+RESULTS ?= build/schedules
+EXPLORED := irb120 robots/examples/irb2400-rw5.yaml robots/examples/irb910sc-rw6.yaml \
+	robots/examples/irb120_basic-rw6.yaml robots/examples/irb460-rw7.yaml
+schedules-100k: $(STAMP) ## 2 h: 100,000 random schedules of the drivers of five robots, the curve of new pairs
+	$(BIN)/python benchmarks/exploration.py --of $(EXPLORED) --seeds 20000 --jobs 2 --results $(RESULTS)
+
 ceiling: $(STAMP) ## 2 min: how fast the TCP is in 1,000 random trajectories under a ceiling
 	$(BIN)/python benchmarks/ceiling.py
 
