@@ -104,7 +104,7 @@ foreign: $(STAMP)
 
 # What takes too long for `make test`, each with its time on two cores: `make campaigns` lists them.
 campaigns:
-	@sed -n 's/^\([a-z-]*\):.*## \([^:]*\): \(.*\)/\1|\2|\3/p' Makefile | \
+	@sed -n 's/^\([a-z0-9-]*\):.*## \([^:]*\): \(.*\)/\1|\2|\3/p' Makefile | \
 		while IFS='|' read -r name time what; do printf '%-20s%-14s%s\n' "$$name" "$$time" "$$what"; done
 
 properties: $(STAMP) ## 15 min: every property test with examples of its own drawing, more of them
@@ -215,7 +215,7 @@ bench: $(STAMP) ## 10 min: the figures of docs/develop/performance.md that need 
 side-by-side: $(STAMP) ## 15 min: what has become slower between two trees; OLD=... NEW=...
 	$(BIN)/python benchmarks/side_by_side.py $(OLD) $(NEW)
 
-.PHONY: $(shell sed -n 's/^\([a-z-]*\):.*\#\# .*/\1/p' Makefile)
+.PHONY: $(shell sed -n 's/^\([a-z0-9-]*\):.*\#\# .*/\1/p' Makefile)
 
 clean:
 	rm -rf $(VENV) build dist .mypy_cache .ruff_cache .pytest_cache
