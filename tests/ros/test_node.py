@@ -89,6 +89,15 @@ def test_a_goal_from_end_to_end(up):
     assert states.header.stamp.sec > 0
 
 
+def test_what_is_told_is_reliable_volatile_and_ten_deep(up):
+    node = up()
+    assert set(node.topics) == {"joint_states", "/diagnostics", "robot_status"}
+    for topic in node.topics.values():
+        told = topic.qos.reliability, topic.qos.durability, topic.qos.depth
+        assert told == ("RELIABLE", "VOLATILE", 10)
+        assert topic.overriding is not None
+
+
 def test_refused_is_aborted_with_its_reason(up):
     node = up()
     status, code, text = ended(action(node).send(goal(0.0, 9.0, 0.0)))
