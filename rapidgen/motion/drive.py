@@ -87,6 +87,11 @@ class Drive:
         return self.motion.planned(self._scheduler.now)
 
     @property
+    def goes_on(self) -> bool:
+        """Whether the law has way left: it moves, or is about to after a moment's rest."""
+        return self.planned()[0] < self.motion.law.place
+
+    @property
     def settled(self) -> int:
         """When it stands and the settling time is over too, scheduler ns."""
         return self.motion.end + round(self.settings.settle * S)

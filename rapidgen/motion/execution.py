@@ -164,7 +164,7 @@ class PathExecution:
 
     def clear(self) -> None:
         """Drop what is left of the path; a moving robot brakes on it first."""
-        if self.drive.planned()[1] > 0.0 and not self._braking():
+        if self.drive.goes_on and not self._braking():
             self.brake(quick=False)
         motion, path = self.motion, self.path
         lost = path.cut(motion.law.place)

@@ -355,7 +355,7 @@ class MotionGroup:
             self._stops[_BRAKES] = None
             execution.at_rest = self._brakes_off
             execution.coast()
-        elif self._drive.planned()[1] > 0.0:
+        elif self._drive.goes_on:
             execution.brake(quick=quick)
         execution.settle()
 

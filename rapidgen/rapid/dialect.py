@@ -2,18 +2,19 @@
 
 from dataclasses import dataclass
 
+from rapidgen.system.releases import UNTOLD
+
 
 @dataclass(frozen=True, slots=True)
 class Dialect:
     """The RobotWare version that decides what exists: (major, minor)."""
 
-    robotware: tuple[int, int] = (6, 0)
-    """6.0: some RobotWare 6; nobody has said which."""
+    robotware: tuple[int, int] = UNTOLD
 
     @property
     def told(self) -> bool:
         """Whether the release is known. Where it is not, what another one brings is no fault."""
-        return self.robotware != (6, 0)
+        return self.robotware != UNTOLD
 
     @property
     def has_radix(self) -> bool:

@@ -9,6 +9,7 @@ from rapidgen.machine.scheduler import S
 from rapidgen.motion import MotionSettings
 from rapidgen.motion.events import CORNER_PATH_FAILURE, TIME_NOT_MET
 from rapidgen.motion.faults import MotionFault, Refusal
+from rapidgen.motion.group import MotionGroup
 
 MS = 1_000_000
 
@@ -140,6 +141,46 @@ def test_stop_start_and_is_standing(cell, joint):
     line = cell.path[:, 1] / 30 - cell.path[:, 0] / 60
     assert np.abs(line).max() < 1e-9
     assert cell.shares()[1] <= 1.001
+
+
+def _stop(group):
+    group.stop("move task")
+
+
+@pytest.mark.parametrize("end", [_stop, MotionGroup.clear_path])
+def test_a_stop_holds_at_a_missed_corner(make_cell, joint, end):
+    """Also while the robot comes to rest there, when nothing moves any more as planned."""
+    ends = []
+    for milliseconds in range(930, 1130, 10):
+        cell = make_cell()
+
+        def program(task, group=cell.group):
+            group.move(task, joint(20, z=10, time=1.0))
+            task.sleep(0.12)
+            group.move(task, joint(40, time=1.0))
+
+        cell.at(milliseconds / 1000, lambda group=cell.group: end(group))
+        cell.start(program)
+        cell.sample(lambda: False, limit=1.5)
+        assert cell.events(CORNER_PATH_FAILURE) == 1
+        assert cell.group.is_standing
+        ends.append(math.degrees(cell.group.positions()[0]))
+    assert max(ends) < 22
+    assert ends == sorted(ends)
+
+
+@pytest.mark.parametrize("end", [_stop, MotionGroup.clear_path])
+def test_a_stop_holds_for_a_robot_that_has_not_come_to_rest_from_another(make_cell, joint, end):
+    for milliseconds in range(40, 140, 10):
+        cell = make_cell()
+        group = cell.group
+        cell.at(0.5, lambda group=group: group.stop("x"))
+        cell.at(0.5 + milliseconds / 1000, lambda group=group: group.start("x"))
+        cell.at(0.51 + milliseconds / 1000, lambda group=group: end(group))
+        cell.start(lambda task, group=group: group.move(task, joint(60, time=1.2)))
+        cell.sample(lambda: False, limit=1.2)
+        assert group.is_standing
+        assert math.degrees(group.positions()[0]) < 30
 
 
 def test_a_quick_stop_is_shorter_and_stays_on_the_path(make_cell, joint):

@@ -20,6 +20,13 @@ def system(*texts, **parts):
     return System("s", (TaskSpec("T_ROB1", modules=files),), **parts)
 
 
+def test_of_a_record_that_is_known_in_part_only_any_component_may_be_named():
+    data = "VAR num n;\nPERS partdata part;"
+    assert found(module("a", "n := part.validStation;", data)) == [("warning", "RG304")]
+    assert found(module("a", "n := part.plcCode;", data)) == []
+    assert found(module("a", "n := part.image;", data)) == [("error", "RG307")]
+
+
 UNKNOWN = {
     "procedure": "OwnThing 1;",
     "function": 'TPWrite "" \\Num:=OwnValue();',
