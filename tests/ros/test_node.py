@@ -213,6 +213,8 @@ def test_what_ends_a_link_is_said(up):
     ("parameters", "told"),
     [
         ({"config": "irb12o"}, "irb12o"),
+        ({"config": "irb120", "address": "not an address"}, "is no address of a robot"),
+        ({"config": "irb14000", "address": "127.0.0.1:11000"}, "irb14000 has 2 of them"),
         # An override is of a motion: the first goal would have gone at full speed.
         ({"config": "irb120", "speed": 20.0}, "nothing moves yet"),
     ],
