@@ -39,7 +39,7 @@ from rapidgen.ros.following import GoalFeedback, UnderWay, reason
 from rapidgen.ros.goals import Ending, Goal, Outcome, Point, Tolerance
 from rapidgen.ros.keeping import RobotLink, set_speeds
 from rapidgen.ros.own_services import ARE_THERE, MISSING, Message, Serve, services
-from rapidgen.ros.parameters import DECLARED, NAMES, WHOLE, Parameters, read
+from rapidgen.ros.parameters import DECLARED, NAMES, WHOLE, Parameters, check_address, read
 from rapidgen.ros.telling import Health, JointStates, RobotStatus
 
 try:  # A package that not every distribution has.
@@ -84,6 +84,7 @@ class RobotNode(LifecycleNode):  # type: ignore[misc]
         try:
             parameters = read({name: self.get_parameter(name).value for name, _, _ in DECLARED})
             config = load_config(parameters.config)
+            check_address(parameters.address, config)
         except DiagnosticError as error:
             self.get_logger().error(str(error))
             return TransitionCallbackReturn.FAILURE

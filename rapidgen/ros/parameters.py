@@ -5,6 +5,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, Literal, cast
 
+from rapidgen.client.address import parse_address
+from rapidgen.config.model import RobotConfig
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, error
 from rapidgen.ros.following import Policy
 from rapidgen.ros.goals import Defaults
@@ -80,6 +82,19 @@ def read(values: Mapping[str, Any]) -> Parameters:
             cast("Literal['refuse', 'resample']", values["dense"]),
         ),
     )
+
+
+def check_address(address: str, config: RobotConfig) -> None:
+    """Raises DiagnosticError for what is no address, or one group's ports where there are more."""
+    found = {parse_address(address, group.ports) for group in config.groups if address}
+    if address and len(found) < len(config.groups):
+        raise DiagnosticError(
+            _fault(
+                f"address is '{address}', with the ports of one motion group, and {config.name} "
+                f"has {len(config.groups)} of them",
+                "HOST alone: the ports are those of the configuration",
+            )
+        )
 
 
 def _fault(message: str, mend: str) -> Diagnostic:

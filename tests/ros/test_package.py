@@ -1,6 +1,7 @@
 """Generated ROS packages: names that match, frames that are where the kinematics says."""
 
 import ast
+import os
 import random
 import xml.etree.ElementTree as ET
 from io import BytesIO
@@ -257,9 +258,16 @@ def test_written_whole_again_and_not_over_somebody_elses(tmp_path):
     files = package("irb120")
     write(files, tmp_path / "a")
     write(files, tmp_path / "a")
+    assert not os.access(tmp_path / "a" / "package.xml", os.X_OK)
     (tmp_path / "a" / "mine.txt").write_text("mine")
     with pytest.raises(DiagnosticError, match=r"mine\.txt"):
         write(files, tmp_path / "a")
+
+
+def test_the_watcher_can_be_executed(tmp_path):
+    """`roslaunch` finds no node in a file that cannot."""
+    write(ros1_package(load_config("irb120"), "irb120"), tmp_path)
+    assert os.access(tmp_path / "scripts/watcher.py", os.X_OK)
 
 
 @pytest.mark.parametrize("verb", ["ros1", "ros2"])

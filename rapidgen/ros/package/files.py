@@ -142,6 +142,8 @@ def write(files: dict[str, str], folder: Path) -> None:
     for path, text in files.items():
         (folder / path).parent.mkdir(parents=True, exist_ok=True)
         write_whole(folder / path, text.encode())
+        if text.startswith("#!"):
+            (folder / path).chmod(0o755)
 
 
 def _rendered(kind: str, name: str, context: Mapping[str, object]) -> dict[str, str]:
