@@ -233,3 +233,9 @@ def test_the_program_hides_names_of_installed_modules_and_is_not_seen_by_them(fl
     assert [(d.code, d.span.path) for d in diagnostics] == [("RG302", "tools.sys")]
     alike = tuple(ModuleFile(f.name, f.path, f.data) for f in files)
     assert ("error", "RG305") in found(System("s", (TaskSpec("T_ROB1", modules=alike),)))
+
+
+def test_a_module_that_is_not_here_may_hide_a_built_in_that_is_called_without_arguments():
+    assert found(module("a", "Reset;")) == [("warning", "RG311")]
+    assert found(module("a", "Reset 1, 2;"))[0][0] == "error"
+    assert found(system(module("a", "Reset;"))) == [("error", "RG311")]

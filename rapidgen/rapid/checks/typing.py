@@ -372,6 +372,9 @@ class TypeChecker:
         if isinstance(node, Aggregate):
             self._members(node, wanted, place)
             return wanted
+        if wanted == "pos" and isinstance(node, Binary) and node.has_type_of_place:
+            self.expect(node.left, wanted, place)
+            return self.expect(node.right, wanted, place)
         if isinstance(node, NumberLiteral):
             if wanted == "num":
                 self._single(node)
