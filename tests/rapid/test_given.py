@@ -239,3 +239,8 @@ def test_a_module_that_is_not_here_may_hide_a_built_in_that_is_called_without_ar
     assert found(module("a", "Reset;")) == [("warning", "RG311")]
     assert found(module("a", "Reset 1, 2;"))[0][0] == "error"
     assert found(system(module("a", "Reset;"))) == [("error", "RG311")]
+
+
+def test_a_routine_that_is_not_here_gives_its_arguments_the_type():
+    body = "a := elsewhere([1, 2, 3] - [a, 2, 3]);\nother [1, 2, 3] + [a, 2, b];"
+    assert {code for _, code in found(module("a", body, "VAR num a;"))} == {"RG301", "RG302"}

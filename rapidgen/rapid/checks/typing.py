@@ -155,6 +155,9 @@ class TypeChecker:
         """Look at an expression whose place says nothing about its type."""
         if isinstance(node, Name | Index | Member):
             self.datum(node)
+        elif isinstance(node, Binary) and node.has_type_of_place:
+            self.used(node.left)
+            self.used(node.right)
         else:
             self.type_of(node)
 
