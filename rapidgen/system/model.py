@@ -152,6 +152,8 @@ class System:
     events: tuple[EventRoutine, ...] = ()
     groups: tuple[MechanicalUnitGroup, ...] = ()
     robotware: tuple[int, int] = UNTOLD
+    robotware_told: bool = True
+    """Whether the minor version is known; without it the second number is 0."""
     home: Path | None = None
     """Folder whose files HOME: starts with; it is copied, never written."""
     home_below: Path | None = None

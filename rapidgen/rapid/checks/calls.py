@@ -112,12 +112,16 @@ class CallChecker:
                 self._argument(symbol, parameters[pair.parameter], pair.argument)
         if found.missing and len(arguments) == len(node.arguments):
             listed = ", ".join(f"'{parameters[k].name}'" for k in found.missing)
+            # A module that is not here may declare a routine without parameters that hides it.
+            hidden = isinstance(node, ProcedureCall) and not node.arguments
+            hidden = hidden and symbol.node is None and not self.findings.given.knows_all
             self.report(
                 "RG311",
                 f"{symbol.name} needs {listed}",
                 node.first,
                 help=f"it takes {_listed(parameters)}",
                 related=self.declared(symbol),
+                severity=Severity.WARNING if hidden else Severity.ERROR,
             )
 
     def _version(self, symbol: RoutineSymbol, node: _Call) -> None:

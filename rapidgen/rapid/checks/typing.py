@@ -155,6 +155,9 @@ class TypeChecker:
         """Look at an expression whose place says nothing about its type."""
         if isinstance(node, Name | Index | Member):
             self.datum(node)
+        elif isinstance(node, Binary) and node.has_type_of_place:
+            self.used(node.left)
+            self.used(node.right)
         else:
             self.type_of(node)
 
@@ -372,6 +375,9 @@ class TypeChecker:
         if isinstance(node, Aggregate):
             self._members(node, wanted, place)
             return wanted
+        if wanted == "pos" and isinstance(node, Binary) and node.has_type_of_place:
+            self.expect(node.left, wanted, place)
+            return self.expect(node.right, wanted, place)
         if isinstance(node, NumberLiteral):
             if wanted == "num":
                 self._single(node)

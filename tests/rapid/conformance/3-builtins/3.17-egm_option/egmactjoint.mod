@@ -15,7 +15,7 @@ MODULE Demo
         EGMActJoint e;
         EGMActJoint e \Tool:=t \WObj:=w \TLoad:=l \J1:=m \J2:=m \J3:=m \J4:=m \J5:=m \J6:=m \J7:=m \LpFilter:=1 \SampleRate:=4 \MaxPosDeviation:=1 \MaxSpeedDeviation:=1;
         EGMActJoint e \DOToSensor:=so \DataToSensor:=d \DIFromSensor:=si \DataFromSensor:=d;
-        EGMActJoint;  ! -> RG311
+        EGMActJoint;  ! -> RG311?
         EGMActJoint e \J8:=m;  ! -> RG312
     ENDPROC
 ENDMODULE
