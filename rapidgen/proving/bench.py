@@ -36,7 +36,7 @@ from rapidgen.proving.track import SETTLED, Point, Position, distance, on_path, 
 from rapidgen.python310 import Self
 from rapidgen.runtime.errors import FatalError
 from rapidgen.runtime.task.task import Task
-from rapidgen.system.model import System
+from rapidgen.system.model import ModuleFile, System
 
 Lines: TypeAlias = dict[str, dict[int, int]]
 """How often each line of RAPID with a statement was reached, by module file."""
@@ -119,6 +119,12 @@ class Bench:
         self.setting = setting
         self.controller.scheduler.draw_from(setting.seed)
         network.obey(setting.faults.network)
+
+    def replace_module(self, task: str, module: ModuleFile) -> None:
+        """Load another module instead of the one of its name, while nothing of it runs."""
+        program = self.controller.rapid_tasks[task].program
+        program.unload(module.name)
+        program.load([(self.controller.parse_module(module), module)])
 
     def beside(
         self,

@@ -24,6 +24,7 @@ from rapidgen.controller.tracing import Trace
 from rapidgen.machine.network.rules import Direction, NetworkRule
 from rapidgen.proving.bench import FAILURES, Bench
 from rapidgen.proving.encounters import Pair, Pairs, Spots, spots
+from rapidgen.proving.fresh import Boot
 from rapidgen.proving.history import PAIRED, STEPS, History
 from rapidgen.proving.link import STOP
 from rapidgen.proving.model import Finding
@@ -57,15 +58,14 @@ def explore(
     silence: float = 4.0,
     trace: TextIO | None = None,
     record: Recording | None = None,
-    boot: Callable[[Setting], Bench] | None = None,
+    boot: Boot = Bench,
 ) -> Explored:
     """Run one schedule; the same one gives the same history.
 
     `only` names the steps that a history is made of (default: all of STEPS). `silence`: s
     after which a new client may expect to be served. `trace` gets a line for each statement
     of RAPID and for each step of the history; `record` begins a recording of the controller and
-    gives what ends it. Neither changes what happens. `boot` gives a controller under a setting,
-    by default a new one. Raises DiagnosticError RG807.
+    gives what ends it. Neither changes what happens. Raises DiagnosticError RG807.
     """
     name = named(schedule)
     ground = ground_of(config, system)
@@ -75,8 +75,7 @@ def explore(
         fault = f"while nothing disturbs it: {ground.fault}"
         return Explored(schedule, "", Finding(schedule, fault, "", ()))
     plan = drawn(name, ground)
-    setting = setting_of(config, plan)
-    with boot(setting) if boot is not None else Bench(config, system, setting) as bench:
+    with boot(config, system, setting_of(config, plan)) as bench:
         bench.sample = SAMPLE
         if plan.order == "priorities":
             bench.controller.scheduler.schedule = "priorities"

@@ -5,35 +5,38 @@ copy of the process that takes it, with chances and a network of its own, does w
 does that boots with these.
 """
 
+from collections.abc import Callable
 from dataclasses import replace
+from typing import TypeAlias
 
 from rapidgen.config.model import RobotConfig
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.settings import Setting
 from rapidgen.system.model import System
 
+Boot: TypeAlias = Callable[[RobotConfig, System, Setting], Bench]
+"""Gives a controller of which nothing has run yet; `Bench` is one."""
+
 
 class FreshBenches:
-    """Those of one driver, by what is decided at boot."""
+    """Those of a worker, by what is decided at boot."""
 
-    def __init__(self, config: RobotConfig, system: System) -> None:
-        self._config = config
-        self._system = system
-        self._kept: dict[Setting, Bench] = {}
+    def __init__(self) -> None:
+        self._kept: dict[tuple[System, Setting], Bench] = {}
 
-    def keep(self, setting: Setting) -> None:
+    def keep(self, config: RobotConfig, system: System, setting: Setting) -> None:
         """Have one there that can begin under a setting: for copies of this process."""
-        like = _at_boot(setting)
+        key = system, _at_boot(setting)
         # While a robot settles something is executed already.
-        if like not in self._kept and like.early() == like:
-            self._kept[like] = bench = Bench(self._config, self._system, like)
+        if key not in self._kept and setting.early() == setting:
+            self._kept[key] = bench = Bench(config, *key)
             bench.compile()
 
-    def take(self, setting: Setting) -> Bench:
+    def take(self, config: RobotConfig, system: System, setting: Setting) -> Bench:
         """The one for a setting, or one that boots. It can be taken once: by a copy."""
-        bench = self._kept.pop(_at_boot(setting), None)
+        bench = self._kept.pop((system, _at_boot(setting)), None)
         if bench is None:
-            return Bench(self._config, self._system, setting)
+            return Bench(config, system, setting)
         bench.begin(setting)
         return bench
 

@@ -4,7 +4,6 @@ A name, `program/17`, decides everything: how many moves, which, how fast, throu
 """
 
 import random
-from collections.abc import Callable
 from dataclasses import replace
 from typing import TextIO
 
@@ -13,8 +12,9 @@ from rapidgen.controller.tracing import Trace
 from rapidgen.diagnostics import refusal
 from rapidgen.proving.bench import FAILURES, Bench
 from rapidgen.proving.explore import Explored, Recording
+from rapidgen.proving.fresh import Boot
 from rapidgen.proving.model import Finding
-from rapidgen.proving.programs import Programmer, in_rapid, orders
+from rapidgen.proving.programs import Programmer, called, in_rapid, orders
 from rapidgen.proving.settings import Setting
 from rapidgen.proving.suite.programs import one_like_rapid
 from rapidgen.system.model import System
@@ -43,23 +43,24 @@ def liken(
     name: str,
     trace: TextIO | None = None,
     record: Recording | None = None,
-    boot: Callable[[Setting], Bench] | None = None,
+    boot: Boot = Bench,
 ) -> Explored:
     """Run a random program, and the same one in RAPID: path within 0.01 mm, time within 2 %.
 
-    The story is the program in RAPID. `trace`, `record` and `boot` as for `explore`.
+    The story is the program in RAPID. `trace` and `record` as for `explore`.
     """
     chance = random.Random(name)
     finding = None
     setting = replace(PROGRAMS, tracing=trace is not None)
-    with boot(setting) if boot is not None else Bench(config, system, setting) as bench:
+    with boot(config, system, setting) as bench:
         if trace is not None:
             Trace(bench.controller, trace)
         program = orders(bench, chance.randint(2, LONGEST), chance)
         plan = in_rapid(bench, program)
         end = record(bench.controller) if record is not None else None
         try:
-            one_like_rapid(Programmer(bench), bench, program)
+            other = boot(config, called(config, bench.group.task), setting)
+            one_like_rapid(Programmer(bench), bench, program, other)
             bench.healthy()
         except FAILURES as error:
             finding = Finding(name, str(error), plan, bench.log())

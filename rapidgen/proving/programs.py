@@ -1,10 +1,13 @@
 """A raw client that sends programs, and the same programs written in RAPID by hand."""
 
-import math
 import random
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
 
 from rapidgen.axes.frames import Pose
 from rapidgen.config.model import RobotConfig
@@ -198,24 +201,33 @@ def reached(bench: Bench, joints: Position) -> Pose:
     )
 
 
-def by_hand(bench: Bench, program: Sequence[RawOrder]) -> System:
-    """The controller of a driver within a program that makes these moves, in RAPID's own words."""
-    config: RobotConfig = replace(bench.config, call_main=False)
+@lru_cache(maxsize=4)
+def called(config: RobotConfig, name: str) -> System:
+    """The controller of a driver within a program of the user's, which does nothing in a task."""
+    config = replace(config, call_main=False)
     system = make_system(config, build(config))
-    module = ModuleFile("hand", "hand.mod", in_rapid(bench, program).encode())
     tasks = tuple(
-        replace(task, modules=(*task.modules, module)) if task.name == bench.group.task else task
+        replace(task, modules=(*task.modules, _hand(()))) if task.name == name else task
         for task in system.tasks
     )
     return in_its_cell(replace(system, tasks=tasks), config)
 
 
+def by_hand(bench: Bench, program: Sequence[RawOrder]) -> None:
+    """Let the program of a controller that is `called` make these moves, in RAPID's own words."""
+    bench.replace_module(bench.group.task, _hand([_statement(bench, order) for order in program]))
+
+
 def in_rapid(bench: Bench, program: Sequence[RawOrder]) -> str:
     """A module whose `main` makes these moves."""
-    moves = "\n".join(f"        {_statement(bench, order)}" for order in program)
+    return _hand([_statement(bench, order) for order in program]).data.decode()
+
+
+def _hand(moves: Sequence[str]) -> ModuleFile:
     # Time to put the robot where it begins.
-    lines = ("MODULE hand", "    PROC main()", "        WaitTime 1;", moves, "        Stop;")
-    return "\n".join((*lines, "    ENDPROC", "ENDMODULE", ""))
+    body = "".join(f"        {line}\n" for line in ("WaitTime 1;", *moves, "Stop;"))
+    text = f"MODULE hand\n    PROC main()\n{body}    ENDPROC\nENDMODULE\n"
+    return ModuleFile("hand", "hand.mod", text.encode())
 
 
 def _statement(bench: Bench, order: RawOrder) -> str:
@@ -254,22 +266,24 @@ def movement(track: Sequence[tuple[float, Position]]) -> tuple[float, list[Posit
 def farthest(bench: Bench, places: Sequence[Position], way: Sequence[Position]) -> float:
     """The largest distance of a place from the way through others, in their order: of the TCP in m,
     of an axis where the robot's geometry is not known."""
-    line, seen = list(way), list(places)
-    if bench.motion_group.kinematics is not None:
-        line, seen = [bench.tcp(place) for place in way], [bench.tcp(place) for place in places]
+    if not places:
+        return 0.0
+    line, seen = _followed(bench, way), _followed(bench, places)
+    start, along = line[:-1], np.diff(line, axis=0)
+    length = np.maximum((along * along).sum(axis=1), np.finfo(float).tiny)
     at, worst = 0, 0.0
     for place in seen:
         # The way is followed from one to the next, not left out.
-        near = range(max(0, at - 3), min(at + 40, len(line) - 1))
-        away, at = min((_apart(place, line[i], line[i + 1]), i) for i in near)
-        worst = max(worst, away)
+        near = slice(max(0, at - 3), at + 40)
+        away = place - start[near]
+        share = np.clip((away * along[near]).sum(axis=1) / length[near], 0.0, 1.0)
+        apart = np.linalg.norm(away - share[:, None] * along[near], axis=1)
+        nearest = int(apart.argmin())
+        at, worst = near.start + nearest, max(worst, float(apart[nearest]))
     return worst
 
 
-def _apart(place: Position, start: Position, end: Position) -> float:
-    """Distance from the straight way between two."""
-    along = [e - s for s, e in zip(start, end, strict=True)]
-    length = sum(a * a for a in along)
-    share = sum((p - s) * a for p, s, a in zip(place, start, along, strict=True))
-    share = min(1.0, max(0.0, share / length)) if length else 0.0
-    return math.dist(place, [s + share * a for s, a in zip(start, along, strict=True)])
+def _followed(bench: Bench, places: Sequence[Position]) -> NDArray[np.float64]:
+    """Rows of what is compared."""
+    known = bench.motion_group.kinematics is not None
+    return np.array([bench.tcp(place) for place in places] if known else places)

@@ -4,7 +4,6 @@ import logging
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
 from pathlib import Path
 from typing import TextIO
 
@@ -24,6 +23,7 @@ from rapidgen.proving.identity import identity
 from rapidgen.proving.likeness import PROGRAMS, liken, name_of, takes_programs
 from rapidgen.proving.model import Finding, Proof, Verdict, is_program
 from rapidgen.proving.plan import Ground, drawn, named
+from rapidgen.proving.programs import called
 from rapidgen.proving.report import series
 from rapidgen.proving.results import Results
 from rapidgen.proving.settings import Setting, assumed, possible, rows, settings
@@ -63,7 +63,7 @@ class Suspects:
     rows: Mapping[str, Sequence[str]]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class DriverUnderTest:
     """What every worker has: a configuration and its generated system."""
 
@@ -71,11 +71,8 @@ class DriverUnderTest:
     system: System
     booted: "dict[str, Starter]" = field(default_factory=dict)
     """The controller that a worker keeps, by what its setting assumes."""
-
-    @cached_property
-    def fresh(self) -> FreshBenches:
-        """Those that a worker keeps for schedules and programs."""
-        return FreshBenches(self.config, self.system)
+    fresh: FreshBenches = field(default_factory=FreshBenches)
+    """Those that it keeps for schedules and programs."""
 
     @classmethod
     def of(cls, config: RobotConfig) -> "DriverUnderTest":
@@ -262,18 +259,19 @@ def ground(driver: DriverUnderTest, _item: object) -> Ground:
 
 def schedule(driver: DriverUnderTest, name: str) -> Explored:
     """One schedule. Of one in which all held no story is kept."""
-    found = ground_of(driver.config, driver.system)
+    config, system, fresh = driver.config, driver.system, driver.fresh
+    found = ground_of(config, system)
     if not found.fault:
-        driver.fresh.keep(setting_of(driver.config, drawn(named(name), found)))
-    fresh = driver.fresh
-    return _kept(in_a_fork(lambda: explore(driver.config, driver.system, name, boot=fresh.take)))
+        fresh.keep(config, system, setting_of(config, drawn(named(name), found)))
+    return _kept(in_a_fork(lambda: explore(config, system, name, boot=fresh.take)))
 
 
 def program(driver: DriverUnderTest, name: str) -> Explored:
     """One random program. Of one that moved as in RAPID no story is kept."""
-    driver.fresh.keep(PROGRAMS)
-    fresh = driver.fresh
-    return _kept(in_a_fork(lambda: liken(driver.config, driver.system, name, boot=fresh.take)))
+    config, system, fresh = driver.config, driver.system, driver.fresh
+    for one in (system, called(config, config.groups[0].task)):
+        fresh.keep(config, one, PROGRAMS)
+    return _kept(in_a_fork(lambda: liken(config, system, name, boot=fresh.take)))
 
 
 def _kept(tried: Explored) -> Explored:

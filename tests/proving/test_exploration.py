@@ -17,7 +17,7 @@ from rapidgen.proving.explore import STEPS, Explored, explore, ground_of
 from rapidgen.proving.fresh import FreshBenches
 from rapidgen.proving.guide import Guide
 from rapidgen.proving.model import Finding
-from rapidgen.proving.plan import drawn, named
+from rapidgen.proving.plan import Disturbance, Plan, drawn, named
 from rapidgen.proving.run import DriverUnderTest, minimised, schedule
 from rapidgen.proving.settings import Setting
 from rapidgen.proving.smaller import smaller
@@ -153,17 +153,40 @@ def test_a_copy_of_a_kept_controller_does_what_one_that_boots_does(name):
 
 
 def test_what_is_kept_is_for_settings_that_differ_in_chances_and_network_alone():
-    system, fresh = small_driver(), FreshBenches(SMALL, small_driver())
+    system, fresh = small_driver(), FreshBenches()
     slow = FaultPlan(network=(NetworkRule("delay", 11000, "in", seconds=0.1),))
     kept, other = Setting(seed=1), Setting(seed=2, faults=slow)
-    fresh.keep(kept)
-    with fresh.take(other) as bench, Bench(SMALL, system, other) as booted:
+    fresh.keep(SMALL, system, kept)
+    with fresh.take(SMALL, system, other) as bench, Bench(SMALL, system, other) as booted:
         assert bench.setting == booted.setting
         assert bench.controller.scheduler.seed == 2
-        first, second = fresh.take(kept), fresh.take(replace(kept, switch_at_pers=True))
+        first = fresh.take(SMALL, system, kept)
+        second = fresh.take(SMALL, system, replace(kept, switch_at_pers=True))
         with first, second:
             assert first.controller is not bench.controller
             assert second.controller.options.switching
+
+
+STOPS_LATE = Disturbance("controlled", "STOP over the control port", None, "8")
+LEAVES, IN_E_STOP = (
+    Disturbance("vanishes", "", None, "107"),
+    Disturbance("interrupted", "e-stop", None, "107"),
+)
+
+
+@pytest.mark.parametrize(
+    "plan",
+    [
+        # A download that is on its way for longer than the STOP over the control port.
+        Plan((Disturbance("stopped", "STOP", None, "a"), STOPS_LATE), "turns", "delay", "0"),
+        # A client behind one that is gone without a word, whose data is read after Start.
+        Plan((LEAVES, IN_E_STOP), "turns", "good", "107"),
+    ],
+)
+def test_what_is_received_late_was_asked_for_late(plan, monkeypatch):
+    monkeypatch.setattr("rapidgen.proving.explore.drawn", lambda name, ground: plan)
+    system = make_system(SIX_AXES, build(SIX_AXES))
+    assert explore(SIX_AXES, system, "0").finding is None
 
 
 def test_every_step_alone_leaves_a_good_driver_good():

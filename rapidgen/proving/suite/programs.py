@@ -22,6 +22,7 @@ from rapidgen.proving.programs import (
     RawOrder,
     bent,
     by_hand,
+    called,
     computes,
     farthest,
     movement,
@@ -77,12 +78,17 @@ def like_rapid(bench: Bench, count: int, chance: random.Random) -> None:
         one_like_rapid(client, bench, orders(bench, 8, chance))
 
 
-def one_like_rapid(client: Programmer, bench: Bench, program: list[RawOrder]) -> None:
-    """A program beside the same one in RAPID. Raises Broken, as an expectation of `bench` does."""
+def one_like_rapid(
+    client: Programmer, bench: Bench, program: list[RawOrder], other: Bench | None = None
+) -> None:
+    """A program beside the same one in RAPID. Raises Broken, as an expectation of `bench` does.
+
+    `other`: a controller that is `called`, of which nothing has run yet."""
     home, since = bench.position, bench.now
     client.takes("a program", program)
     mine = _moved(bench, program, since)
-    with bench.beside(by_hand(bench, program)) as other:
+    with other or bench.beside(called(bench.config, bench.group.task)) as other:
+        by_hand(other, program)
         other.motion_group.jump(home)
         theirs = _moved(other, program, 0.5)
     if abs(mine[0] - theirs[0]) > _LATER * theirs[0]:
