@@ -35,6 +35,8 @@ from rapidgen.system.model import ModuleFile, System
 BEGIN, END, WHOLE = RawStreamFlag.BEGIN, RawStreamFlag.END, RawStreamFlag.WHOLE
 ALL = BEGIN | END | WHOLE
 _KINDS = (RawInstruction.MOVE_J, RawInstruction.MOVE_L, RawInstruction.MOVE_ABSJ)
+HAND = "hand", "hand.mod"
+"""The module that makes the same moves: its name, its file."""
 _WORDS = 245
 """Words of instructions that fit into one message."""
 _NAMES = {
@@ -206,8 +208,9 @@ def called(config: RobotConfig, name: str) -> System:
     """The controller of a driver within a program of the user's, which does nothing in a task."""
     config = replace(config, call_main=False)
     system = make_system(config, build(config))
+    hand = ModuleFile(*HAND, _hand("").encode())
     tasks = tuple(
-        replace(task, modules=(*task.modules, _hand(()))) if task.name == name else task
+        replace(task, modules=(*task.modules, hand)) if task.name == name else task
         for task in system.tasks
     )
     return in_its_cell(replace(system, tasks=tasks), config)
@@ -215,19 +218,19 @@ def called(config: RobotConfig, name: str) -> System:
 
 def by_hand(bench: Bench, program: Sequence[RawOrder]) -> None:
     """Let the program of a controller that is `called` make these moves, in RAPID's own words."""
-    bench.replace_module(bench.group.task, _hand([_statement(bench, order) for order in program]))
+    module = ModuleFile(*HAND, in_rapid(bench, program).encode())
+    bench.replace_module(bench.group.task, module)
 
 
 def in_rapid(bench: Bench, program: Sequence[RawOrder]) -> str:
     """A module whose `main` makes these moves."""
-    return _hand([_statement(bench, order) for order in program]).data.decode()
-
-
-def _hand(moves: Sequence[str]) -> ModuleFile:
+    moves = (_statement(bench, order) for order in program)
     # Time to put the robot where it begins.
-    body = "".join(f"        {line}\n" for line in ("WaitTime 1;", *moves, "Stop;"))
-    text = f"MODULE hand\n    PROC main()\n{body}    ENDPROC\nENDMODULE\n"
-    return ModuleFile("hand", "hand.mod", text.encode())
+    return _hand("".join(f"        {line}\n" for line in ("WaitTime 1;", *moves, "Stop;")))
+
+
+def _hand(body: str) -> str:
+    return f"MODULE hand\n    PROC main()\n{body}    ENDPROC\nENDMODULE\n"
 
 
 def _statement(bench: Bench, order: RawOrder) -> str:
