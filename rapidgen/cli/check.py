@@ -216,12 +216,8 @@ def _system(path: Path, dialect: "Dialect | None", backup: Path | None) -> list[
     notes: list[Diagnostic] = []
     system = read_backup(path, notes=notes)
     found = [*notes, *check_rapid(system, dialect=dialect, gaps=bool(notes))]
-    return [
-        *found,
-        *_not_loaded(
-            path, system, dialect or Dialect(system.robotware, some=not system.robotware_told)
-        ),
-    ]
+    dialect = dialect or Dialect(system.robotware, some=not system.robotware_told)
+    return [*found, *_not_loaded(path, system, dialect)]
 
 
 def _not_loaded(path: Path, system: "System", dialect: "Dialect") -> list[Diagnostic]:

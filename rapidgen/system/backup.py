@@ -1,11 +1,13 @@
 """An ABB backup folder: BACKINFO, HOME, RAPID/TASKn/{PROGMOD,SYSMOD}, SYSPAR.
 
 CAB_TASKS of SYSPAR/SYS.cfg in order are TASK1..n, unless BACKINFO/backinfo.txt names the tasks
-of the folders (`>>TASK1: (T_ROB1,...)`) [code]. RobotWare is the version in backinfo.txt or
-system.xml, else the one in the cfg header.
+of the folders (`>>TASK1: (T_ROB1,...)`); what it lists below was loaded, and nothing else in the
+folder [code]. RobotWare is the version in backinfo.txt or system.xml, else the one in the cfg
+header.
 """
 
 import re
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 
@@ -21,6 +23,8 @@ from rapidgen.system.model import ModuleFile, System, TaskSpec
 from rapidgen.system.paths import inside, module_files, read_limited
 
 _TASK_LINE = re.compile(rb">>TASK(\d+):\s*\(\s*([^,()\s]+)")
+_TASK_MODULES = re.compile(rb">>TASK(\d+):[^\r\n]*([^>]*)")
+_LISTED = re.compile(rb"^(?:PROG|SYS)MOD[\\/]([^\r\n]+?) @", re.M | re.I)
 _VERSIONS = (
     re.compile(rb"RobotWare[^0-9\r\n]{0,40}(\d+)\.(\d+)", re.I),
     re.compile(rb">>PRODUCTS_ID:\s*\D{0,80}?(\d+)\.(\d+)", re.I),
@@ -56,11 +60,17 @@ def read_backup(folder: Path | str, *, notes: list[Diagnostic] | None = None) ->
     numbers = {
         name.decode("latin-1").casefold(): int(number) for number, name in _TASK_LINE.findall(info)
     }
+    listed = {int(number): _names(rows) for number, rows in _TASK_MODULES.findall(info)}
     entries = modules_of(sys_cfg)
     home = inside(folder, "HOME")
     tasks = tuple(
         _with_modules(
-            folder, home, task, numbers.get(task.name.casefold(), n), entries, sys_cfg, collected
+            task,
+            _saved(folder, numbers.get(task.name.casefold(), n), listed, collected),
+            home,
+            entries,
+            sys_cfg,
+            collected,
         )
         for n, task in enumerate(tasks_of(sys_cfg), 1)
     )
@@ -126,21 +136,50 @@ def is_backup(folder: Path) -> bool:
     return inside(folder, "SYSPAR/SYS.cfg").is_file()
 
 
+def _names(rows: bytes) -> frozenset[str]:
+    return frozenset(name.decode("latin-1").casefold() for name in _LISTED.findall(rows))
+
+
+def _saved(
+    folder: Path, number: int, listed: Mapping[int, frozenset[str]], notes: list[Diagnostic]
+) -> tuple[ModuleFile, ...]:
+    """The modules in the folder of a task: those that backinfo.txt lists, where it lists any.
+
+    Folders into which one backup is copied over another keep modules of the earlier one.
+    """
+    names = listed.get(number, frozenset())
+    loaded: list[ModuleFile] = []
+    left: list[str] = []
+    # System modules are there before a program is loaded [K §9].
+    for place in ("SYSMOD", "PROGMOD"):
+        for path in module_files(inside(folder, f"RAPID/TASK{number}/{place}")):
+            if names and path.name.casefold() not in names:
+                left.append(path.name)
+            else:
+                loaded.append(load_module(path))
+    if left:
+        notes.append(
+            error(
+                "RG715",
+                None,
+                f"not loaded in task folder TASK{number}: {', '.join(left)}",
+                "add them to the list in BACKINFO/backinfo.txt if they belong to the task",
+                notes=("backinfo.txt lists what the controller had loaded, and not these",),
+                severity=Severity.INFO,
+            )
+        )
+    return tuple(loaded)
+
+
 def _with_modules(
-    folder: Path,
-    home: Path,
     task: TaskSpec,
-    number: int,
+    saved: tuple[ModuleFile, ...],
+    home: Path,
     entries: tuple[ModuleEntry, ...],
     sys_cfg: CfgText,
     notes: list[Diagnostic],
 ) -> TaskSpec:
-    loaded: list[ModuleFile] = []
-    # System modules are there before a program is loaded [K §9].
-    for place in ("SYSMOD", "PROGMOD"):
-        for path in module_files(inside(folder, f"RAPID/TASK{number}/{place}")):
-            loaded.append(load_module(path))
-    modules = load_entries(task, entries, home, tuple(loaded), sys_cfg.path, notes)
+    modules = load_entries(task, entries, home, saved, sys_cfg.path, notes)
     return replace(task, modules=modules)
 
 

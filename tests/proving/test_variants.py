@@ -56,6 +56,8 @@ VARIANTS = {
     "no control port": (["ports.control=0"], "hello starves progress-ended again-after-stop"),
     "slowed down": (["trajectory.too_fast=slow_down"], "slowed-down each-value each-duration"),
     "slow TCP": (["tcp_speed_limit=250"], "tcp-too-fast whole-trajectory"),
+    "slow TCP, zone": (["tcp_speed_limit=500", "trajectory.corners=zone"], "tcp-turns"),
+    "slow TCP, fine": (["tcp_speed_limit=250", "trajectory.zone=fine"], "tcp-turns"),
     "zone": (["trajectory.corners=zone"], "corners"),
     "z0": (["trajectory.zone=z0"], "corners"),
     "fine": (["trajectory.zone=fine"], "corners"),

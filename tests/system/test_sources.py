@@ -135,6 +135,23 @@ def test_task_folders_by_backinfo(backup):
     assert system.robotware == (6, 8)
 
 
+def test_only_the_modules_that_backinfo_lists_were_loaded(backup):
+    """[code] Kraker1's and PaletizadoCajasConFrascos' folders keep modules of earlier backups."""
+    put(
+        backup / "BACKINFO/backinfo.txt",
+        "RobotWare Version: 6.08.01\n>>TASK1: (T_ROB1,prog,)\nSYSMOD/user.sys @ user.sys\n"
+        "PROGMOD\\WORK.mod @ \n\n>>TASK2: (T_BACK,,)\n>>EOF:\n",
+    )
+    put(backup / "RAPID/TASK1/PROGMOD/Work_old.mod", MODULE % b"Work")
+    notes = []
+    robot, back = read_backup(backup, notes=notes).tasks
+    assert [m.name for m in robot.modules] == ["user", "Work", "Shared"]
+    assert [m.name for m in back.modules] == ["Back", "Shared"]
+    (left,) = (n for n in notes if n.code == "RG715")
+    assert "Work_old.mod" in left.message
+    assert left.severity is Severity.INFO
+
+
 def test_a_backup_without_version_says_so(backup):
     os.remove(backup / "BACKINFO/backinfo.txt")
     notes = []

@@ -128,6 +128,28 @@ def is_taken(bench: Bench, points: list[Point], *, streaming: bool) -> bool:
     return taken
 
 
+@case("tcp-turns", "the TCP keeps its ceiling between corners that slow it down", "R10")
+def _turns(bench: Bench) -> None:
+    """There and back on axis 1, where the robot has to turn round, at once and after a while."""
+    if not _asked(bench):
+        return
+    joint, here, limit = bench.group.joints[0], bench.position, bench.group.tcp_speed_limit
+    for seconds in (0.2, 0.3, 0.5):
+        wanted = max(seconds, 1.2 * bench.config.trajectory.min_segment)
+        step = min(0.3, wanted * joint.speed / 1.05)
+        step *= min(
+            1.0, wanted / (_MARGIN * bench.tcp_seconds(here, changed(here, 0, here[0] + step)))
+        )
+        there = changed(here, 0, here[0] + step)
+        since, way = bench.now, [here, *[there, here] * 3]
+        points = [(place, wanted) for place in way]
+        if not is_taken(bench, points, streaming=False):
+            raise Broken(f"{points} is refused, its ways have {_MARGIN} of the time they need")
+        speed = fastest(bench, since)
+        if speed > ALLOWED * limit:
+            raise Broken(f"the TCP went at {speed:.3f} m/s, the ceiling is {limit} m/s: {points}")
+
+
 @case("tcp-recorded", "the TCP is never faster than its ceiling", "R10")
 def _recorded(bench: Bench) -> None:
     """On random ways, near the ceiling, as a whole and streamed, from rest to rest."""

@@ -9,7 +9,7 @@ MODULE ROS_motion
     ! check was made before a point was put in. A point whose successor is there is passed
     ! through its zone; without one it is a stop point, so the planner never runs dry in a corner.
 
-    CONST string ROS_BUILD_MOTION := "7a79285bec3c";
+    CONST string ROS_BUILD_MOTION := "a04c4b823046";
 
     ! With \T in the move the speed is only formal.
     LOCAL CONST speeddata SPEED := [1000,500,1000,1000];
@@ -36,6 +36,14 @@ MODULE ROS_motion
     LOCAL CONST num BUILD_UP := 0.1;
     ! Part of the highest TCP speed with which the point at hand is left behind.
     LOCAL VAR num left_at := 0;
+
+    ! The corner at it: TCP speed on its faster side (mm/s), time that the axes need to turn there (s).
+    LOCAL VAR num rate := 0;
+    LOCAL VAR num needed := 0;
+    ! Part of the speeds beside it that the axes can keep in it.
+    LOCAL VAR num kept := 1;
+    ! Speeds of all axes of a kind together.
+    LOCAL VAR num turning := 0;
 
     LOCAL VAR intnum bell;
     LOCAL VAR intnum speed_bell;
@@ -171,6 +179,7 @@ MODULE ROS_motion
         VAR bool first;
         VAR bool stops;
         VAR bool waited;
+        VAR num asked;
 
         taken := pace;
         IF share < 100 THEN
@@ -204,11 +213,14 @@ MODULE ROS_motion
         ! The robot stands at the first point, and at one whose successor is not here yet, or is a dwell.
         stops := first OR next = ROS_head OR ROS_ring{next MOD ROS_RING_SIZE + 1}.dwell;
         IF first left_at := 0;
-        IF stops OR point.dwell THEN
+        IF stops OR point.dwell OR CORNER.finep THEN
             take_time 0;
             left_at := 0;
         ELSE
+            look_at_corner next;
+            asked := point.duration;
             take_time part_after(next);
+            IF point.duration > asked look_at_corner next;
         ENDIF
         IF point.duration = 0 THEN
             ! The robot stands there already.
@@ -217,7 +229,7 @@ MODULE ROS_motion
         ELSEIF stops THEN
             move fine;
         ELSE
-            shape_corner next;
+            shape_corner;
             move bend;
             ! The robot is now somewhere before this point, and has passed the one before.
             arrived := passed;
@@ -335,7 +347,7 @@ MODULE ROS_motion
 
     ! In a move that begins or ends slower than it is in the middle the TCP exceeds its mean speed, at
     ! most by as much again. Near the highest speed such a move gets the time of its ramps besides.
-    ! `after` is the part of the highest speed that follows.
+    ! `after` is the part of the highest speed that is left at its end.
     LOCAL PROC take_time(num after)
         VAR num part;
         VAR num ramp := 0;
@@ -356,6 +368,7 @@ MODULE ROS_motion
             IF seconds > point.duration point.duration := seconds;
         ENDIF
         left_at := point.least / point.duration;
+        IF left_at > after left_at := after;
     ENDPROC
 
     ! The longest time, times its duration, in which an axis reaches its speed in the move at hand.
@@ -368,61 +381,58 @@ MODULE ROS_motion
         RETURN 0;
     ENDFUNC
 
-    ! Part of the highest TCP speed with which the point behind the one at hand is approached.
+    ! Part of the highest TCP speed with which the way behind the one at hand begins.
     LOCAL FUNC num part_after(num next)
         VAR ROS_point after;
 
         after := ROS_ring{next MOD ROS_RING_SIZE + 1};
         IF after.duration <= 0 RETURN 0;
-        RETURN after.least / after.duration * taken / 100;
+        RETURN kept * after.least / after.duration * taken / 100;
     ENDFUNC
 
-    ! The zone in which the axes change their speeds from those of the way to the point to those
-    ! of the way to its successor. On its faster side the TCP is in it for half of the time that
-    ! this takes, on the other for longer. Angles and external axes count where the TCP rests; where
-    ! it moves they must not shrink its zone.
-    LOCAL PROC shape_corner(num next)
+    ! How the axes change their speeds from those of the way to the point to those of the way to its
+    ! successor: `rate`, `needed`, and the speeds of all axes of a kind together.
+    LOCAL PROC look_at_corner(num next)
         VAR ROS_point after;
-        VAR num needed := SHORTEST_CORNER;
-        VAR num arriving;
         VAR num leaving;
         ! 0: as fast on both sides, 1: at rest on one.
         VAR num uneven := 0;
-        ! Speeds of all axes of a kind together.
-        VAR num turning := 0;
+        ! mm of each way that the corner may take, at most half of it.
+        VAR num room;
 
-        bend := CORNER;
+        rate := 9E9;
+        needed := 0;
+        kept := 1;
+        turning := 0;
         after := ROS_ring{next MOD ROS_RING_SIZE + 1};
         ! It may be a first point, of another trajectory, at which the robot stands.
-        IF after.duration <= 0 RETURN;
+        IF after.duration <= 0 OR point.duration <= 0 RETURN;
         after.duration := after.duration * 100 / taken;
-        arriving := tcp_speed(before, point.target, point.duration);
+        rate := tcp_speed(before, point.target, point.duration);
         leaving := tcp_speed(point.target, after.target, after.duration);
-        IF arriving + leaving > RESTING uneven := Abs(leaving - arriving) / (arriving + leaving);
-        IF arriving < leaving arriving := leaving;
+        room := CORNER.pzone_tcp;
+        IF rate * point.duration < 2 * room room := rate * point.duration / 2;
+        IF leaving * after.duration < 2 * room room := leaving * after.duration / 2;
+        IF rate + leaving > RESTING uneven := Abs(leaving - rate) / (rate + leaving);
+        IF rate < leaving rate := leaving;
         turn (after.target.robax.rax_1 - point.target.robax.rax_1) / after.duration,
-            (point.target.robax.rax_1 - before.robax.rax_1) / point.duration, TURN_1, uneven, needed, turning;
+            (point.target.robax.rax_1 - before.robax.rax_1) / point.duration, TURN_1, uneven, turning;
         turn (after.target.robax.rax_2 - point.target.robax.rax_2) / after.duration,
-            (point.target.robax.rax_2 - before.robax.rax_2) / point.duration, TURN_2, uneven, needed, turning;
+            (point.target.robax.rax_2 - before.robax.rax_2) / point.duration, TURN_2, uneven, turning;
         turn (after.target.robax.rax_3 - point.target.robax.rax_3) / after.duration,
-            (point.target.robax.rax_3 - before.robax.rax_3) / point.duration, TURN_3, uneven, needed, turning;
+            (point.target.robax.rax_3 - before.robax.rax_3) / point.duration, TURN_3, uneven, turning;
         turn (after.target.robax.rax_4 - point.target.robax.rax_4) / after.duration,
-            (point.target.robax.rax_4 - before.robax.rax_4) / point.duration, TURN_4, uneven, needed, turning;
+            (point.target.robax.rax_4 - before.robax.rax_4) / point.duration, TURN_4, uneven, turning;
         turn (after.target.robax.rax_5 - point.target.robax.rax_5) / after.duration,
-            (point.target.robax.rax_5 - before.robax.rax_5) / point.duration, TURN_5, uneven, needed, turning;
+            (point.target.robax.rax_5 - before.robax.rax_5) / point.duration, TURN_5, uneven, turning;
         turn (after.target.robax.rax_6 - point.target.robax.rax_6) / after.duration,
-            (point.target.robax.rax_6 - before.robax.rax_6) / point.duration, TURN_6, uneven, needed, turning;
-        bend.pzone_tcp := between(SMALLEST_CORNER, arriving * needed / 2, CORNER.pzone_tcp);
-        ! To each other as in the zone.
-        bend.pzone_ori := bend.pzone_tcp * CORNER.pzone_ori / CORNER.pzone_tcp;
-        bend.pzone_eax := bend.pzone_ori;
-        IF arriving > RESTING RETURN;
-        bend.zone_ori := between(SMALLEST_TURN, turning * needed / 2, CORNER.zone_ori);
+            (point.target.robax.rax_6 - before.robax.rax_6) / point.duration, TURN_6, uneven, turning;
+        IF rate * needed > 2 * room kept := Sqrt(2 * room / (rate * needed));
     ENDPROC
 
     ! The time `needed` for a corner is long enough for one axis, and `sum` has its speed, too. In
     ! an uneven corner, as wide on both sides but longer on one, it has to change more.
-    LOCAL PROC turn(num leaving, num arriving, num acceleration, num uneven, INOUT num needed, INOUT num sum)
+    LOCAL PROC turn(num leaving, num arriving, num acceleration, num uneven, INOUT num sum)
         VAR num faster;
         VAR num change;
 
@@ -431,6 +441,20 @@ MODULE ROS_motion
         change := Abs(leaving - arriving) + uneven * faster;
         IF change > acceleration * needed needed := change / acceleration;
         sum := sum + faster;
+    ENDPROC
+
+    ! The zone in which the axes do that. On its faster side the TCP is in it for half of the time that
+    ! this takes, on the other for longer. Angles and external axes count where the TCP rests; where
+    ! it moves they must not shrink its zone.
+    LOCAL PROC shape_corner()
+        bend := CORNER;
+        IF needed < SHORTEST_CORNER needed := SHORTEST_CORNER;
+        bend.pzone_tcp := between(SMALLEST_CORNER, rate * needed / 2, CORNER.pzone_tcp);
+        ! To each other as in the zone.
+        bend.pzone_ori := bend.pzone_tcp * CORNER.pzone_ori / CORNER.pzone_tcp;
+        bend.pzone_eax := bend.pzone_ori;
+        IF rate > RESTING RETURN;
+        bend.zone_ori := between(SMALLEST_TURN, turning * needed / 2, CORNER.zone_ori);
     ENDPROC
 
     LOCAL FUNC num between(num least, num wanted, num most)

@@ -45,7 +45,7 @@ def _calibrated(task: Task) -> ForceSensor:
 
 
 @builtin("FCCalib")
-def fc_calib(task: Task, load: Value) -> None:
+def fc_calib(task: Task, load: Value, _recovery: bool | None) -> None:
     """The robot stands, and the load of the tool is taken off from now on."""
     group_of(task).wait_standing(task)
     _sensor(task).calibrated = True

@@ -9,7 +9,7 @@ MODULE ROS_motion
     ! check was made before a point was put in. A point whose successor is there is passed
     ! through its zone; without one it is a stop point, so the planner never runs dry in a corner.
 
-    CONST string ROS_BUILD_MOTION := "1b6ac70d39cc";
+    CONST string ROS_BUILD_MOTION := "d941d01de33b";
 
     ! With \T in the move the speed is only formal.
     LOCAL CONST speeddata SPEED := [5000,500,5000,1000];
@@ -28,6 +28,12 @@ MODULE ROS_motion
     LOCAL CONST num SMALLEST_TURN := 0.03;
     ! mm/s of a TCP that moves no more than its place is known.
     LOCAL CONST num RESTING := 0.1;
+
+    ! The corner at it: TCP speed on its faster side (mm/s), time that the axes need to turn there (s).
+    LOCAL VAR num rate := 0;
+    LOCAL VAR num needed := 0;
+    ! Speeds of all axes of a kind together.
+    LOCAL VAR num turning := 0;
 
     LOCAL VAR intnum bell;
     LOCAL VAR intnum speed_bell;
@@ -202,7 +208,8 @@ MODULE ROS_motion
         ELSEIF stops THEN
             move fine;
         ELSE
-            shape_corner next;
+            look_at_corner next;
+            shape_corner;
             move bend;
             ! The robot is now somewhere before this point, and has passed the one before.
             arrived := passed;
@@ -318,52 +325,42 @@ MODULE ROS_motion
         IEnable;
     ENDPROC
 
-    ! The zone in which the axes change their speeds from those of the way to the point to those
-    ! of the way to its successor. On its faster side the TCP is in it for half of the time that
-    ! this takes, on the other for longer. Angles and external axes count where the TCP rests; where
-    ! it moves they must not shrink its zone.
-    LOCAL PROC shape_corner(num next)
+    ! How the axes change their speeds from those of the way to the point to those of the way to its
+    ! successor: `rate`, `needed`, and the speeds of all axes of a kind together.
+    LOCAL PROC look_at_corner(num next)
         VAR ROS_point after;
-        VAR num needed := SHORTEST_CORNER;
-        VAR num arriving;
         VAR num leaving;
         ! 0: as fast on both sides, 1: at rest on one.
         VAR num uneven := 0;
-        ! Speeds of all axes of a kind together.
-        VAR num turning := 0;
 
-        bend := CORNER;
+        rate := 9E9;
+        needed := 0;
+        turning := 0;
         after := ROS_ring_2{next MOD ROS_RING_SIZE + 1};
         ! It may be a first point, of another trajectory, at which the robot stands.
-        IF after.duration <= 0 RETURN;
+        IF after.duration <= 0 OR point.duration <= 0 RETURN;
         after.duration := after.duration * 100 / taken;
-        arriving := tcp_speed(before, point.target, point.duration);
+        rate := tcp_speed(before, point.target, point.duration);
         leaving := tcp_speed(point.target, after.target, after.duration);
-        IF arriving + leaving > RESTING uneven := Abs(leaving - arriving) / (arriving + leaving);
-        IF arriving < leaving arriving := leaving;
+        IF rate + leaving > RESTING uneven := Abs(leaving - rate) / (rate + leaving);
+        IF rate < leaving rate := leaving;
         turn (after.target.robax.rax_1 - point.target.robax.rax_1) / after.duration,
-            (point.target.robax.rax_1 - before.robax.rax_1) / point.duration, TURN_1, uneven, needed, turning;
+            (point.target.robax.rax_1 - before.robax.rax_1) / point.duration, TURN_1, uneven, turning;
         turn (after.target.robax.rax_2 - point.target.robax.rax_2) / after.duration,
-            (point.target.robax.rax_2 - before.robax.rax_2) / point.duration, TURN_2, uneven, needed, turning;
+            (point.target.robax.rax_2 - before.robax.rax_2) / point.duration, TURN_2, uneven, turning;
         turn (after.target.robax.rax_3 - point.target.robax.rax_3) / after.duration,
-            (point.target.robax.rax_3 - before.robax.rax_3) / point.duration, TURN_3, uneven, needed, turning;
+            (point.target.robax.rax_3 - before.robax.rax_3) / point.duration, TURN_3, uneven, turning;
         turn (after.target.robax.rax_4 - point.target.robax.rax_4) / after.duration,
-            (point.target.robax.rax_4 - before.robax.rax_4) / point.duration, TURN_4, uneven, needed, turning;
+            (point.target.robax.rax_4 - before.robax.rax_4) / point.duration, TURN_4, uneven, turning;
         turn (after.target.robax.rax_5 - point.target.robax.rax_5) / after.duration,
-            (point.target.robax.rax_5 - before.robax.rax_5) / point.duration, TURN_5, uneven, needed, turning;
+            (point.target.robax.rax_5 - before.robax.rax_5) / point.duration, TURN_5, uneven, turning;
         turn (after.target.robax.rax_6 - point.target.robax.rax_6) / after.duration,
-            (point.target.robax.rax_6 - before.robax.rax_6) / point.duration, TURN_6, uneven, needed, turning;
-        bend.pzone_tcp := between(SMALLEST_CORNER, arriving * needed / 2, CORNER.pzone_tcp);
-        ! To each other as in the zone.
-        bend.pzone_ori := bend.pzone_tcp * CORNER.pzone_ori / CORNER.pzone_tcp;
-        bend.pzone_eax := bend.pzone_ori;
-        IF arriving > RESTING RETURN;
-        bend.zone_ori := between(SMALLEST_TURN, turning * needed / 2, CORNER.zone_ori);
+            (point.target.robax.rax_6 - before.robax.rax_6) / point.duration, TURN_6, uneven, turning;
     ENDPROC
 
     ! The time `needed` for a corner is long enough for one axis, and `sum` has its speed, too. In
     ! an uneven corner, as wide on both sides but longer on one, it has to change more.
-    LOCAL PROC turn(num leaving, num arriving, num acceleration, num uneven, INOUT num needed, INOUT num sum)
+    LOCAL PROC turn(num leaving, num arriving, num acceleration, num uneven, INOUT num sum)
         VAR num faster;
         VAR num change;
 
@@ -372,6 +369,20 @@ MODULE ROS_motion
         change := Abs(leaving - arriving) + uneven * faster;
         IF change > acceleration * needed needed := change / acceleration;
         sum := sum + faster;
+    ENDPROC
+
+    ! The zone in which the axes do that. On its faster side the TCP is in it for half of the time that
+    ! this takes, on the other for longer. Angles and external axes count where the TCP rests; where
+    ! it moves they must not shrink its zone.
+    LOCAL PROC shape_corner()
+        bend := CORNER;
+        IF needed < SHORTEST_CORNER needed := SHORTEST_CORNER;
+        bend.pzone_tcp := between(SMALLEST_CORNER, rate * needed / 2, CORNER.pzone_tcp);
+        ! To each other as in the zone.
+        bend.pzone_ori := bend.pzone_tcp * CORNER.pzone_ori / CORNER.pzone_tcp;
+        bend.pzone_eax := bend.pzone_ori;
+        IF rate > RESTING RETURN;
+        bend.zone_ori := between(SMALLEST_TURN, turning * needed / 2, CORNER.zone_ori);
     ENDPROC
 
     LOCAL FUNC num between(num least, num wanted, num most)
