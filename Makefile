@@ -104,7 +104,7 @@ foreign: $(STAMP)
 
 # What takes too long for `make test`, each with its time on two cores: `make campaigns` lists them.
 campaigns:
-	@sed -n 's/^\([a-z-]*\):.*## \([^:]*\): \(.*\)/\1|\2|\3/p' Makefile | \
+	@sed -n 's/^\([a-z0-9-]*\):.*## \([^:]*\): \(.*\)/\1|\2|\3/p' Makefile | \
 		while IFS='|' read -r name time what; do printf '%-20s%-14s%s\n' "$$name" "$$time" "$$what"; done
 
 properties: $(STAMP) ## 15 min: every property test with examples of its own drawing, more of them
@@ -154,6 +154,13 @@ two-workers: $(STAMP) ## 2 min: what a second worker of a campaign is worth, bes
 
 exploration: $(STAMP) ## 1 min: schedules until known defects of drivers are found
 	$(BIN)/python benchmarks/exploration.py --jobs 2
+
+# RESULTS keeps them: the next call goes on there.
+RESULTS ?= build/schedules
+EXPLORED := irb120 robots/examples/irb2400-rw5.yaml robots/examples/irb910sc-rw6.yaml \
+	robots/examples/irb120_basic-rw6.yaml robots/examples/irb460-rw7.yaml
+schedules-100k: $(STAMP) ## 2 h: 100,000 random schedules of the drivers of five robots, the curve of new pairs
+	$(BIN)/python benchmarks/exploration.py --of $(EXPLORED) --seeds 20000 --jobs 2 --results $(RESULTS)
 
 ceiling: $(STAMP) ## 2 min: how fast the TCP is in 1,000 random trajectories under a ceiling
 	$(BIN)/python benchmarks/ceiling.py
@@ -208,7 +215,7 @@ bench: $(STAMP) ## 10 min: the figures of docs/develop/performance.md that need 
 side-by-side: $(STAMP) ## 15 min: what has become slower between two trees; OLD=... NEW=...
 	$(BIN)/python benchmarks/side_by_side.py $(OLD) $(NEW)
 
-.PHONY: $(shell sed -n 's/^\([a-z-]*\):.*\#\# .*/\1/p' Makefile)
+.PHONY: $(shell sed -n 's/^\([a-z0-9-]*\):.*\#\# .*/\1/p' Makefile)
 
 clean:
 	rm -rf $(VENV) build dist .mypy_cache .ruff_cache .pytest_cache

@@ -1,6 +1,7 @@
 """How many schedules does the exploration need to find what is known of drivers in use?
 
     python benchmarks/exploration.py [--campaigns N] [--seeds N] [--jobs N] [FOLDER]
+    python benchmarks/exploration.py --of ROBOT... [--seeds N] [--jobs N] [--results FOLDER]
 
 R1, R5, R7a, R7b and R12 (tests/proving/defective says what they are), each in a small driver of
 our own that has nothing else wrong: of N campaigns from other seeds, schedules until the first
@@ -8,9 +9,14 @@ finding, the median and all. The same driver without a defect, and the generated
 may be found; and how many pairs of statements of two tasks they have met. With FOLDER,
 which has abb_driver's six modules, also these, unchanged: a finding there is counted for what its
 story and the places of the tasks show.
+
+`--of`: only the generated drivers of these robots, N schedules each: findings, the curve of pairs,
+what a schedule costs and what a million would. Results are kept in FOLDER, where a run that was
+broken off goes on.
 """
 
 import argparse
+import resource
 import statistics
 import sys
 import time
@@ -19,11 +25,12 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
+from rapidgen.cli.progress import Bars
 from rapidgen.config import load_config
 from rapidgen.generate import build, make_system
 from rapidgen.proving.explore import ground_of
 from rapidgen.proving.guide import Guide
-from rapidgen.proving.run import DriverUnderTest, schedules
+from rapidgen.proving.run import DriverUnderTest, prove, schedules
 from rapidgen.proving.workers import Call, Local, in_order
 from tests.foreign.abb_driver import read_system
 from tests.proving.defective import CAPACITY, DEFECTS, small_driver
@@ -64,13 +71,63 @@ def explored(config, system, seeds, workers, first=0, enough=lambda found: False
     return found, count, time.monotonic() - started, guide
 
 
+def cpu():
+    """s that this process and the workers that it has dismissed have used."""
+    used = map(resource.getrusage, (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))
+    return sum(one.ru_utime + one.ru_stime for one in used)
+
+
+def at(curve, count):
+    """Pairs that so many schedules have met."""
+    return max((pairs for schedules, pairs in curve if schedules <= count), default=0)
+
+
+def long_run(robot, seeds, jobs, folder):
+    """Schedules of one robot's generated driver; whether anything was found."""
+    path = folder and folder / f"{Path(robot).stem}.jsonl"
+    known = path.read_bytes().count(b"\n") - 1 if path and path.exists() else 0
+    started, before = time.monotonic(), cpu()
+    with Bars() as progress:
+        report = prove(
+            load_config(robot),
+            seeds=seeds,
+            jobs=jobs,
+            cases=False,
+            progress=progress,
+            results=path,
+            resume=True,
+        )
+    new = report.schedules - max(known, 0)
+    seconds, used = time.monotonic() - started, cpu() - before
+    print(f"{robot}: {len(report.findings)} findings in {report.schedules} schedules")
+    if new > 0:
+        print(
+            f"  {new} new ones in {seconds:.0f} s, {used / new:.3f} s of CPU each; "
+            f"a million: {used / new * 1e6 / 3600:.0f} h of CPU"
+        )
+    marks = [n for d in range(1, 7) for n in (10**d, 3 * 10**d) if n < report.schedules]
+    shown = " ".join(f"{n}:{at(report.curve, n)}" for n in (*marks, report.schedules))
+    print(f"  pairs: {shown}; the last new one in schedule {report.curve[-1][0]}")
+    for finding in report.findings:
+        print(f"  --replay {finding.schedule}: {finding.detail}")
+    sys.stdout.flush()
+    return bool(report.findings) or report.broken_off
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("folder", nargs="?", type=Path)
     parser.add_argument("--seeds", type=int, default=300)
     parser.add_argument("--campaigns", type=int, default=9)
     parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--of", nargs="+", metavar="ROBOT", default=())
+    parser.add_argument("--results", type=Path, metavar="FOLDER")
     given = parser.parse_args()
+    if given.of:
+        if given.results:
+            given.results.mkdir(parents=True, exist_ok=True)
+        found = [long_run(robot, given.seeds, given.jobs, given.results) for robot in given.of]
+        return any(found)
     config = load_config("irb120")
     small = replace(config, trajectory=replace(config.trajectory, capacity=CAPACITY))
     for defect in DEFECTS:
@@ -113,7 +170,8 @@ def main():
                 )
             else:
                 print(f"  {kind:6} not found")
+    return False
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

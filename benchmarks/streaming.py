@@ -126,7 +126,7 @@ def socket_calls(config: RobotConfig, count: int = 1200) -> float:
 
     client = bench.motion()
     bench.run(0.5)
-    bench.controller.statements.tracers.append(traced)
+    bench.controller.statements.listen(traced)
     for _ in feed(bench, client, count):
         bench.run(0.5)
     bench.close()

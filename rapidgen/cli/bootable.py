@@ -21,6 +21,7 @@ def chosen(
     *,
     tasks: Iterable[str] | None = None,
     robot: str = "",
+    robotware: str = "",
     entry: str = "",
     cell: str = "",
     start: str = "",
@@ -37,6 +38,7 @@ def chosen(
     wishes = Wishes(
         _tasks(tasks or ()),
         robot=robot,
+        robotware=_release(robotware),
         entry=entry,
         cell=cell,
         start=_numbers(start),
@@ -56,6 +58,19 @@ def chosen(
     if check:
         _refuse_unloadable(found)
     return found
+
+
+def _release(text: str) -> tuple[int, int] | None:
+    from rapidgen.system.releases import ANY_MINOR, release
+
+    if not text:
+        return None
+    major, minor = release(text)
+    if minor == ANY_MINOR:
+        raise refusal(
+            "RG901", None, "a controller has one release", f"such as --robotware {major}.6"
+        )
+    return major, minor
 
 
 def _tasks(given: Iterable[str]) -> dict[str, list[str]]:

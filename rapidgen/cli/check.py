@@ -92,19 +92,11 @@ def check(
 
 def _dialect(robotware: str | None) -> "Dialect | None":
     from rapidgen.rapid import Dialect
+    from rapidgen.system.releases import release
 
     if robotware is None:
         return None
-    major, _, minor = robotware.partition(".")
-    if not major.isdigit() or not (minor == "" or minor.isdigit()) or not 5 <= int(major) <= 7:
-        raise refusal(
-            "RG901",
-            None,
-            f"'{robotware}' is not a RobotWare version",
-            "give 5, 6 or 7, with a minor version if it matters: 6.15",
-        )
-    # A major version alone means all of that line.
-    return Dialect((int(major), int(minor) if minor else 99))
+    return Dialect(release(robotware))
 
 
 def _configuration(given: str, cell: "Cell | None") -> list[Diagnostic]:
@@ -224,7 +216,12 @@ def _system(path: Path, dialect: "Dialect | None", backup: Path | None) -> list[
     notes: list[Diagnostic] = []
     system = read_backup(path, notes=notes)
     found = [*notes, *check_rapid(system, dialect=dialect, gaps=bool(notes))]
-    return [*found, *_not_loaded(path, system, dialect or Dialect(system.robotware))]
+    return [
+        *found,
+        *_not_loaded(
+            path, system, dialect or Dialect(system.robotware, some=not system.robotware_told)
+        ),
+    ]
 
 
 def _not_loaded(path: Path, system: "System", dialect: "Dialect") -> list[Diagnostic]:

@@ -53,6 +53,12 @@ Plot = Annotated[
     typer.Option("--plot", metavar="F", help="What the robots did: .html, .png, .svg."),
 ]
 Entry = Annotated[str, typer.Option("--entry", help="Procedure that tasks start in, not main.")]
+Release = Annotated[
+    str,
+    typer.Option(
+        "--robotware", metavar="V", help="Release of a controller of which no file tells it: 7.6."
+    ),
+]
 RobotModel = Annotated[
     str, typer.Option("--robot", metavar="NAME", help="Shipped robot or configuration.")
 ]

@@ -33,6 +33,7 @@ def run(
     ] = [],  # noqa: B006 - typer wants a list here and does not share it
     task: options.Tasks = None,
     robot: options.RobotModel = "",
+    robotware: options.Release = "",
     entry: options.Entry = "",
     cell: options.Cell = "",
     start: options.Start = "",
@@ -91,6 +92,7 @@ def run(
         list(map(str, files)),
         tasks=task,
         robot=robot,
+        robotware=robotware,
         entry=entry,
         cell=cell,
         start=start,

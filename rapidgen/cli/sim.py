@@ -46,6 +46,7 @@ def sim(
     ] = None,
     task: options.Tasks = None,
     robot: options.RobotModel = "",
+    robotware: options.Release = "",
     entry: options.Entry = "",
     cell: options.Cell = "",
     start: options.Start = "",
@@ -117,6 +118,7 @@ def sim(
         targets or (),
         tasks=task,
         robot=robot,
+        robotware=robotware,
         entry=entry,
         cell=cell,
         start=start,
@@ -430,9 +432,18 @@ def _check_host(host: str) -> None:
 
 def _check_release(target: "Bootable", rws: str | None) -> None:
     """RWS 1.0 is of RobotWare 6 and older, 2.0 of RobotWare 7 and 8."""
+    from rapidgen.system.releases import UNTOLD
+
     major, minor = target.system.robotware
     fits = {None: True, "1": major <= 6, "2": major == 7, "8": major in (7, 8)}[rws]
     if not fits:
+        if target.system.robotware == UNTOLD:
+            raise refusal(
+                "RG901",
+                None,
+                f"nothing tells that {target.name} is for a RobotWare that serves --rws {rws}",
+                "say so: --robotware 7.6",
+            )
         wanted = "1" if major <= 6 else "2 or 8"
         raise typer.BadParameter(
             f"{target.name} is for RobotWare {major}.{minor}, which serves --rws {wanted}"

@@ -15,6 +15,7 @@ from rapidgen.controller.starts import in_front, stands, start_of, usual_start
 from rapidgen.controller.surroundings import Surroundings, cameras_of, force_of, furnish
 from rapidgen.diagnostics import Diagnostic, refusal, suggest
 from rapidgen.system.model import System
+from rapidgen.system.releases import UNTOLD
 
 if TYPE_CHECKING:
     from rapidgen.config.cell import CellDescription, CellRobotKeys
@@ -36,6 +37,8 @@ class Wishes:
     tasks: Mapping[str, Sequence[Source]] = field(default_factory=dict)
     """Files of tasks of their own; what is given beside them goes to T_ROB1."""
     robot: str = ""
+    robotware: tuple[int, int] | None = None
+    """The release of loose files; None: nobody says."""
     entry: str = ""
     """Procedure that tasks start in; empty: as SYS.cfg says, or main."""
     cell: Source = ""
@@ -75,6 +78,7 @@ def load_target(targets: Sequence[Source], wishes: Wishes | None = None) -> Boot
     first = Path(targets[0]) if len(targets) == 1 and not wishes.tasks else None
     if first is not None and is_configuration(first):
         _only_of_folders(str(first), wishes)
+        _only_of_files(str(first), wishes, "--set controller.robotware=7.6 changes it")
         from rapidgen.generate import build, make_system
 
         config = load_config(str(targets[0]), overrides=tuple(wishes.overrides))
@@ -86,6 +90,7 @@ def load_target(targets: Sequence[Source], wishes: Wishes | None = None) -> Boot
     notes: list[Diagnostic] = []
     folder = first if first is not None and first.is_dir() else None
     if folder is not None and files.is_generated(folder):
+        _only_of_files(str(first), wishes, "build it for another one")
         config = from_manifest(files.read_manifest(folder)["configuration"])
         system = files.read_folder(folder, wishes.backup, notes=notes)
         return _driver(config, system, tuple(notes), wishes)
@@ -93,11 +98,13 @@ def load_target(targets: Sequence[Source], wishes: Wishes | None = None) -> Boot
     if folder is not None and files.is_backup(folder):
         from rapidgen.system.backup import backup_cfg
 
+        _only_of_files(str(first), wishes, "leave it out")
         system = _entered(files.read_backup(folder, notes=notes), wishes.entry)
         found = _foreign(system, notes, wishes)
         return replace(found, cfg=backup_cfg(folder, system.robotware, []))
     # Loose files have no mechanics that could be told.
-    return _foreign(_loose(targets, wishes), None, wishes)
+    found = _foreign(_loose(targets, wishes), None, wishes)
+    return replace(found, cfg=_delivered(found))
 
 
 def is_configuration(target: Path) -> bool:
@@ -118,12 +125,29 @@ def _loose(targets: Sequence[Source], wishes: Wishes) -> System:
     by_task = {task: list(names) for task, names in wishes.tasks.items()}
     only = Path(targets[0]) if len(targets) == 1 and not by_task else None
     if only is not None and only.is_dir() and (folders := files.task_folders(only)):
-        return files.read_files(folders, entry=wishes.entry or "main", name=only.name)
+        return _read(folders, only.name, wishes)
     if targets:
         own = by_task.pop("T_ROB1", [])
         by_task = {"T_ROB1": [*own, *targets], **by_task}
     name = Path(next(iter(by_task.values()))[0]).stem
-    return files.read_files(by_task, entry=wishes.entry or "main", name=name)
+    return _read(by_task, name, wishes)
+
+
+def _read(tasks: Mapping[str, Sequence[Source]], name: str, wishes: Wishes) -> System:
+    entry, robotware = wishes.entry or "main", wishes.robotware or UNTOLD
+    return files.read_files(tasks, entry=entry, name=name, robotware=robotware)
+
+
+def _delivered(found: Bootable) -> "ControllerCfg":
+    """The cfg of a delivered controller with these robots, tasks and signals."""
+    from rapidgen.system.base import Robot, base_system
+    from rapidgen.system.compose import eio_cfg, sys_cfg
+
+    robots = [Robot(g.task, g.mechanical_unit, tuple(g.external_units)) for g in found.groups]
+    base = base_system(found.system.robotware, robots)
+    own = (sys_cfg(found.system), eio_cfg(found.system))
+    domains = {text.domain: text for text in (*base.domains, *own)}
+    return replace(base, domains=tuple(domains.values()))
 
 
 def _entered(system: System, entry: str) -> System:
@@ -259,6 +283,14 @@ def _starts(
             yield group.name, start_of(group, values, f"`start` of {group.task}")
         elif usual:
             yield group.name, usual_start(group)
+
+
+def _only_of_files(target: str, wishes: Wishes, mend: str) -> None:
+    """What tells its release is not given another one."""
+    if wishes.robotware is not None:
+        raise refusal(
+            "RG901", None, f"'{target}' tells its RobotWare, and --robotware says another one", mend
+        )
 
 
 def _only_of_folders(target: str, wishes: Wishes) -> None:

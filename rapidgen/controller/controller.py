@@ -190,6 +190,7 @@ class VirtualController:
         self.rapid_tasks: dict[str, Task] = {
             spec.name: Task(self.scheduler, spec, self, self.shared) for spec in system.tasks
         }
+        self.statements.programs.extend(task.program for task in self.rapid_tasks.values())
         self.tasks: Mapping[str, TaskView] = {
             name: TaskView(task, self.operation) for name, task in self.rapid_tasks.items()
         }
@@ -476,8 +477,7 @@ class VirtualController:
         self, task: str, module: str, line: int, count: int, action: Callable[[], None]
     ) -> None:
         """Call `action` when a statement is reached for the `count`-th time."""
-        programs = (own.program for own in self.rapid_tasks.values())
-        self.statements.before(programs, task, module, line, count, action)
+        self.statements.before(task, module, line, count, action)
 
     # -- real time -------------------------------------------------------------------------------
 

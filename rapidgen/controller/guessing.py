@@ -116,7 +116,7 @@ def guess(
     known += [(unit, "mecunit") for unit in (*units, "ROB_ID")]
     for spec in system.tasks:
         task = TaskScope(installed_objects(known))
-        dialect = Dialect(system.robotware)
+        dialect = Dialect(system.robotware, some=not system.robotware_told)
         scopes = [
             task.add(parse(f.data, path=f.path, dialect=dialect), installed=f.installed or f.shared)
             for f in spec.modules

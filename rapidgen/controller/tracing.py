@@ -35,7 +35,7 @@ class Trace:
     def __init__(self, controller: VirtualController, stream: TextIO) -> None:
         self._stream = stream
         self._scheduler = controller.scheduler
-        controller.statements.tracers.append(self._statement)
+        controller.statements.listen(self._statement)
 
     def _statement(self, task: str, routine: Routine, node: n.Statement) -> None:
         module = routine.module
@@ -56,7 +56,7 @@ class Profile:
         self._open: dict[str, tuple[tuple[str, str, str, int], int]] = {}
         self.time: Counter[tuple[str, str, str, int]] = Counter()
         self.passes: Counter[tuple[str, str, str, int]] = Counter()
-        controller.statements.tracers.append(self._statement)
+        controller.statements.listen(self._statement)
 
     def _statement(self, task: str, routine: Routine, node: n.Statement) -> None:
         module = routine.module
@@ -96,7 +96,7 @@ class Coverage:
     def __init__(self, controller: VirtualController) -> None:
         self._controller = controller
         self._hits: Counter[int] = Counter()
-        controller.statements.tracers.append(self._statement)
+        controller.statements.listen(self._statement)
 
     def stop(self) -> None:
         """Count no more."""

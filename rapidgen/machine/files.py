@@ -5,6 +5,7 @@ link points to must lie inside. Names are found without case where the exact nam
 on the controller's own disks.
 """
 
+import errno
 import os
 import shutil
 import tempfile
@@ -153,9 +154,12 @@ class FileSystem:
         if len(os.fsencode(place.name)) > _LONGEST_NAME:
             return False
         try:
-            return place.resolve().is_relative_to(self.folder)
-        except (OSError, RuntimeError):  # RuntimeError: a loop, before Python 3.13
-            return False
+            place.stat()
+        except OSError as error:
+            # Of a loop `resolve` says nothing from Python 3.13 on, and raises before.
+            if error.errno == errno.ELOOP:
+                return False
+        return place.resolve().is_relative_to(self.folder)
 
     def hold(self, device: IODevice | Directory, task: str) -> None:
         """A file or folder is open for a task; DiskFault TOO_MANY_OPEN."""

@@ -17,6 +17,7 @@ from rapidgen.controller.controller import Deadlock, VirtualController
 from rapidgen.controller.tracing import Coverage
 from rapidgen.diagnostics import Span
 from rapidgen.machine.log import Domain
+from rapidgen.machine.network.faulty import FaultyNetwork
 from rapidgen.machine.network.interface import NetworkFault
 from rapidgen.motion.group import MotionGroup
 from rapidgen.proving.link import RawLink, point_frame
@@ -47,7 +48,7 @@ FAILURES = (Broken, Deadlock, FatalError, NetworkFault)
 """What a driver's fault looks like from here; anything else is a fault of ours."""
 
 SAMPLE = 4_000_000
-"""ns between two samples of the record while the robot moves ..."""
+"""ns between two samples of the record while the robot moves, by default ..."""
 SAMPLE_STANDING = 100_000_000
 """... and while it stands and says so."""
 CEILING = 5.0
@@ -82,6 +83,8 @@ class Bench:
         tracked = self.setting.coverage and controller is None
         self._coverage = Coverage(self.controller) if tracked else None
         self.group: GroupConfig = config.groups[self.setting.group]
+        self.sample = SAMPLE
+        """ns between two samples while the robot moves."""
         self.track: list[tuple[float, Position]] = []
         self.commanded: list[tuple[float, list[Point]]] = []
         """Downloads that were sent to their end, and when."""
@@ -100,13 +103,22 @@ class Bench:
             faults=self.setting.faults,
             # A schedule must be the same when it is traced, which is done by statement.
             accounting="statement" if self.setting.random_schedule else "block",
-            tracing=self.setting.coverage,
+            tracing=self.setting.coverage or self.setting.tracing,
         )
         controller.motion.settings = self.setting.motion
         if self.setting.motion.settle > 0:
             # The motion task begins when the robot has settled, and drops what came before.
             controller.run_for(2 * self.setting.motion.settle)
         return controller
+
+    def begin(self, setting: Setting) -> None:
+        """Let a controller of which nothing has run yet go on as if booted with these chances and
+        this network."""
+        network = self.controller.network
+        assert isinstance(network, FaultyNetwork)
+        self.setting = setting
+        self.controller.scheduler.draw_from(setting.seed)
+        network.obey(setting.faults.network)
 
     def beside(
         self,
@@ -156,7 +168,7 @@ class Bench:
         if not self.track or here != self.track[-1][1]:
             self.track.append((self.now, here))
         self._next.cancel()
-        wait = SAMPLE_STANDING if self.standing else SAMPLE
+        wait = SAMPLE_STANDING if self.standing else self.sample
         self._next = self.controller.scheduler.after(wait, self._sample)
 
     def close(self) -> None:

@@ -5,7 +5,7 @@ statement of one task and the next such statement, of another: all that a schedu
 which pairs there are.
 """
 
-from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import TypeAlias
 
 from rapidgen.controller.controller import VirtualController
@@ -23,8 +23,17 @@ ROBOT = ("stopmove", "startmove", "clearpath", "moveabsj", "movej", "movel", "mo
 """Instructions by which tasks meet at the robot."""
 
 
-def spots(system: System) -> dict[Spot, int]:
-    """Lines where tasks meet, numbered."""
+@dataclass(frozen=True, slots=True)
+class Spots:
+    """Lines where tasks meet, numbered; and by module file's path those of its tokens, -1 where
+    tasks do not meet."""
+
+    lines: dict[Spot, int]
+    tokens: dict[str, list[int]]
+
+
+def spots(system: System) -> Spots:
+    """Where tasks of a driver meet."""
     texts = {module.path: module.data for task in system.tasks for module in task.modules}
     trees = {path: parse(data, path=path) for path, data in texts.items()}
     names = {
@@ -42,40 +51,46 @@ def spots(system: System) -> dict[Spot, int]:
         for number, token in enumerate(tree.source.tokens)
         if token.casefold() in names
     }
-    return {spot: number for number, spot in enumerate(sorted(found))}
+    lines = {spot: number for number, spot in enumerate(sorted(found))}
+    tokens = {
+        path: [lines.get((path, tree.source.line(n)), -1) for n in range(len(tree.source.tokens))]
+        for path, tree in trees.items()
+    }
+    return Spots(lines, tokens)
 
 
 class Pairs:
     """The pairs of one controller, from now on."""
 
-    def __init__(self, controller: VirtualController, spots: Mapping[Spot, int]) -> None:
-        self._spots = spots
+    def __init__(self, controller: VirtualController, spots: Spots) -> None:
+        self._tokens = spots.tokens
         self._numbers: dict[int, int] = {}
         self._nodes: list[n.Statement] = []
         self._last: tuple[str, int] | None = None
         self._found: set[Pair] = set()
-        controller.statements.tracers.append(self._statement)
+        controller.statements.listen(self._statement)
 
     def found(self) -> tuple[Pair, ...]:
         """The pairs so far, in order."""
         return tuple(sorted(self._found))
 
-    def _statement(self, task: str, routine: Routine, node: n.Statement) -> None:
+    def _statement(self, task: str, routine: Routine, node: n.Statement) -> bool:
         number = self._numbers.get(id(node))
         if number is None:
             number = self._number(routine, node)
         if number < 0:
-            return
+            return True
         last = self._last
         if last is not None and last[0] != task:
             self._found.add((last[1], number))
         self._last = task, number
+        return False
 
     def _number(self, routine: Routine, node: n.Statement) -> int:
         module = routine.module
         assert module is not None
-        line = module.tree.source.line(node.first)
-        number = self._numbers[id(node)] = self._spots.get((module.file.path, line), -1)
+        tokens = self._tokens.get(module.file.path)
+        number = self._numbers[id(node)] = tokens[node.first] if tokens is not None else -1
         # As long as it is kept nothing else has its id.
         self._nodes.append(node)
         return number

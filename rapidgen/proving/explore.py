@@ -23,7 +23,7 @@ from rapidgen.controller.faults import FaultPlan
 from rapidgen.controller.tracing import Trace
 from rapidgen.machine.network.rules import Direction, NetworkRule
 from rapidgen.proving.bench import FAILURES, Bench
-from rapidgen.proving.encounters import Pair, Pairs, Spot, spots
+from rapidgen.proving.encounters import Pair, Pairs, Spots, spots
 from rapidgen.proving.history import PAIRED, STEPS, History
 from rapidgen.proving.link import STOP
 from rapidgen.proving.model import Finding
@@ -33,6 +33,8 @@ from rapidgen.system.model import System
 
 Recording = Callable[[VirtualController], Callable[[], None]]
 """Begins a recording of a controller; what it returns ends it."""
+SAMPLE = 20_000_000
+"""ns between two looks at a robot that moves: it is judged by centimetres."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,13 +57,15 @@ def explore(
     silence: float = 4.0,
     trace: TextIO | None = None,
     record: Recording | None = None,
+    boot: Callable[[Setting], Bench] | None = None,
 ) -> Explored:
     """Run one schedule; the same one gives the same history.
 
     `only` names the steps that a history is made of (default: all of STEPS). `silence`: s
     after which a new client may expect to be served. `trace` gets a line for each statement
     of RAPID and for each step of the history; `record` begins a recording of the controller and
-    gives what ends it. Neither changes what happens. Raises DiagnosticError RG807.
+    gives what ends it. Neither changes what happens. `boot` gives a controller under a setting,
+    by default a new one. Raises DiagnosticError RG807.
     """
     name = named(schedule)
     ground = ground_of(config, system)
@@ -71,7 +75,11 @@ def explore(
         fault = f"while nothing disturbs it: {ground.fault}"
         return Explored(schedule, "", Finding(schedule, fault, "", ()))
     plan = drawn(name, ground)
-    with _booted(config, system, plan) as bench:
+    setting = setting_of(config, plan)
+    with boot(setting) if boot is not None else Bench(config, system, setting) as bench:
+        bench.sample = SAMPLE
+        if plan.order == "priorities":
+            bench.controller.scheduler.schedule = "priorities"
         pairs = Pairs(bench.controller, spots_of(system))
         if trace is not None:
             Trace(bench.controller, trace)
@@ -89,19 +97,16 @@ def explore(
     return Explored(schedule, "\n".join(walk.plan), finding, pairs.found())
 
 
-def _booted(config: RobotConfig, system: System, plan: Plan) -> Bench:
+def setting_of(config: RobotConfig, plan: Plan) -> Setting:
+    """What a schedule's controller is booted with."""
     chance = random.Random(f"{plan.seed} network")
-    setting = Setting(
+    return Setting(
         seed=chance.randrange(1 << 30),
         random_schedule=plan.order != "turns",
         switch_at_pers=plan.order in ("pers", "priorities"),
-        coverage=True,
+        tracing=True,
         faults=FaultPlan(network=_weather(config, plan, chance)),
     )
-    bench = Bench(config, system, setting)
-    if plan.order == "priorities":
-        bench.controller.scheduler.schedule = "priorities"
-    return bench
 
 
 def _weather(config: RobotConfig, plan: Plan, chance: random.Random) -> tuple[NetworkRule, ...]:
@@ -120,8 +125,8 @@ def _weather(config: RobotConfig, plan: Plan, chance: random.Random) -> tuple[Ne
 
 
 @lru_cache(maxsize=4)
-def spots_of(system: System) -> dict[Spot, int]:
-    """Lines where a driver's tasks meet, numbered."""
+def spots_of(system: System) -> Spots:
+    """Where a driver's tasks meet."""
     return spots(system)
 
 
@@ -145,7 +150,7 @@ def ground_of(config: RobotConfig, system: System) -> Ground:
         return Ground(tuple(name for name in STEPS if name not in PAIRED), fault=str(error))
     finally:
         bench.close()
-    shared = spots_of(system)
+    shared = spots_of(system).lines
     places = tuple(
         DriverLine(task.name, module.name, line, (module.path, line) in shared)
         for task in system.tasks

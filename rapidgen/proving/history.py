@@ -13,7 +13,7 @@ from rapidgen.proving.messages import RawReason
 from rapidgen.proving.model import Broken
 from rapidgen.proving.plan import Disturbance, Plan
 from rapidgen.proving.stream import BEGIN, END, NONE, Streamer
-from rapidgen.proving.track import Point, Position, distance, off
+from rapidgen.proving.track import SETTLED, Point, Position, distance, off
 
 PREEMPTIONS = 4
 """In a step, under priorities."""
@@ -141,6 +141,18 @@ class History:
 
         self.bench.controller.before_statement(place.task, place.module, place.line, count, reached)
 
+    def _comes_to(self, place: Position, seconds: float) -> None:
+        """Let time pass until the robot stands there and then for a second more, or for `seconds`.
+
+        Where nothing is asked of it any more, nothing can come between."""
+        end = self.bench.now + seconds
+        self.bench.run(1)
+        while self.bench.now < end:
+            if self.bench.standing and distance(self.bench.position, place) < SETTLED:
+                self.bench.run(1)
+                return
+            self.bench.run(0.1)
+
     def _on_the_way(self, path: Sequence[Position], since: float) -> None:
         self.bench.followed(path, since=since, corner=CORNER)
 
@@ -169,7 +181,7 @@ class History:
         """Nothing disturbs it: it reaches its last point, or nothing moves."""
         start, since = self.bench.position, self.bench.now
         self._send(link, self.bench.download(points))
-        self.bench.run(15 + 1.5 * sum(d for _, d in points[1:]))
+        self._comes_to(points[-1][0], 15 + 1.5 * sum(d for _, d in points[1:]))
         end = self.bench.position
         moved = any(distance(p, start) > 1e-3 for t, p in self.bench.track if t >= since)
         if moved and distance(end, points[-1][0]) > 1e-3:
@@ -232,14 +244,14 @@ class History:
         here = self.bench.position
         second = [(here, 10.0), *self._points(4)[1:]]
         self._send(link, self.bench.download(second))
-        self.bench.run(25)
+        self._comes_to(second[-1][0], 25)
         end = self.bench.position
         on_first = _nearest(end, [start, *(p for p, _ in first)])
         if distance(end, second[-1][0]) > 1e-3 and on_first > CORNER:
             raise Broken("the robot ended neither on the old trajectory nor at the new one's end")
+        ways = list(pairwise([start, *(p for p, _ in first), here, *(p for p, _ in second)]))
         for when, seen in self.bench.track:
-            ways = [start, *(p for p, _ in first), here, *(p for p, _ in second)]
-            if when >= since and _nearest(seen, ways) > 2 * CORNER:
+            if when >= since and all(off(seen, a, b) > 2 * CORNER for a, b in ways):
                 raise Broken(f"at {when:.3f} s the robot was on the way to nowhere")
 
     def vanishes(self) -> None:
@@ -277,10 +289,11 @@ class History:
                 break
             accepted = told.accepted
             self.bench.run(self.chance.choice((0.0, 0.05, self.chance.uniform(0, 3))))
-        self._end_stream(ending, stream, points[cut : cut + 3])
+        last = points[max(0, accepted - 1)][0]
+        self._end_stream(ending, stream, points[cut : cut + 3], last)
         self.bench.wait_until_standing(30)
         self._on_the_way([start, *(p for p, _ in points[: stream.sent])], since)
-        end, last = self.bench.position, points[max(0, accepted - 1)][0]
+        end = self.bench.position
         if ending in ("whole", "pause", "hole") and accepted and distance(end, last) > 1e-3:
             raise Broken(
                 f"{accepted} points of a stream were accepted, the robot ended "
@@ -288,8 +301,10 @@ class History:
             )
         self.bench.stays(self.chance.uniform(0.3, 2), f"its stream is over: {ending}")
 
-    def _end_stream(self, ending: str, stream: Streamer, more: Sequence[Point]) -> None:
-        """What ends a stream, or disturbs it on its way to the end."""
+    def _end_stream(
+        self, ending: str, stream: Streamer, more: Sequence[Point], last: Position
+    ) -> None:
+        """What ends a stream, or disturbs it on its way to the `last` point taken."""
         control = self.bench.control()
         if ending == "STOP":
             control.stop(5)
@@ -299,11 +314,11 @@ class History:
                 self.bench.wait_until_standing(5)
                 self.bench.stays(self.chance.uniform(0, 2), "it is paused")
                 control.ask(messages.RawPause(0), 5)
-            self.bench.run(12)
+            self._comes_to(last, 12)
         elif ending == "hole" and more:
             stream.say(stream.frame(more, NONE, first=stream.sent + 1))
             stream.refused(RawReason.SEQUENCE_GAP, "a batch behind a hole")
-            self.bench.run(12)
+            self._comes_to(last, 12)
         elif ending == "leaves":
             stream.link.close(abort=self.chance.random() < 0.5)
             self.link = None
@@ -314,7 +329,7 @@ class History:
             self.bench.controller.perform("start")
             self.bench.stays(3, "the program was stopped in a stream and started again")
         else:
-            self.bench.run(12)
+            self._comes_to(last, 12)
         control.close()
 
     def controlled(self) -> None:
@@ -338,14 +353,13 @@ class History:
         old, self.link = self.link, None
         if old is not None and not old.lost and self.chance.random() < 0.5:
             old.close()
-        self.bench.run(self.silence)
+        self.bench.run(min(1, self.silence))
         link = self._connect()
-        self.bench.run(self.silence)
         for attempt in range(2):
             points = self.bench.wave(4, duration=0.4)
             self._say("a good client's trajectory")
             link.send(self.bench.download(points))
-            self.bench.run(12)
+            self._comes_to(points[-1][0], 12 + self.silence)
             if distance(self.bench.position, points[-1][0]) < 1e-3:
                 return
             if attempt == 0:

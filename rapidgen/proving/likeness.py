@@ -4,6 +4,8 @@ A name, `program/17`, decides everything: how many moves, which, how fast, throu
 """
 
 import random
+from collections.abc import Callable
+from dataclasses import replace
 from typing import TextIO
 
 from rapidgen.config.model import RobotConfig
@@ -19,6 +21,8 @@ from rapidgen.system.model import System
 
 LONGEST = 12
 """Moves of a program at most; two at least."""
+PROGRAMS = Setting()
+"""Under which they run."""
 
 
 def name_of(seed: int) -> str:
@@ -39,14 +43,16 @@ def liken(
     name: str,
     trace: TextIO | None = None,
     record: Recording | None = None,
+    boot: Callable[[Setting], Bench] | None = None,
 ) -> Explored:
     """Run a random program, and the same one in RAPID: path within 0.01 mm, time within 2 %.
 
-    The story is the program in RAPID. `trace` and `record` as for `explore`.
+    The story is the program in RAPID. `trace`, `record` and `boot` as for `explore`.
     """
     chance = random.Random(name)
     finding = None
-    with Bench(config, system, Setting(coverage=trace is not None)) as bench:
+    setting = replace(PROGRAMS, tracing=trace is not None)
+    with boot(setting) if boot is not None else Bench(config, system, setting) as bench:
         if trace is not None:
             Trace(bench.controller, trace)
         program = orders(bench, chance.randint(2, LONGEST), chance)

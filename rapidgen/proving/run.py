@@ -4,6 +4,7 @@ import logging
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from pathlib import Path
 from typing import TextIO
 
@@ -16,10 +17,11 @@ from rapidgen.proving.behaviour import Behaviour
 from rapidgen.proving.bench import FAILURES, Bench, add_lines
 from rapidgen.proving.blame import blamed
 from rapidgen.proving.campaign import Campaign, Limits, Progress, Workload
-from rapidgen.proving.explore import Explored, Recording, explore, ground_of
+from rapidgen.proving.explore import Explored, Recording, explore, ground_of, setting_of
+from rapidgen.proving.fresh import FreshBenches
 from rapidgen.proving.guide import Guide
 from rapidgen.proving.identity import identity
-from rapidgen.proving.likeness import liken, name_of, takes_programs
+from rapidgen.proving.likeness import PROGRAMS, liken, name_of, takes_programs
 from rapidgen.proving.model import Finding, Proof, Verdict, is_program
 from rapidgen.proving.plan import Ground, drawn, named
 from rapidgen.proving.report import series
@@ -61,7 +63,7 @@ class Suspects:
     rows: Mapping[str, Sequence[str]]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class DriverUnderTest:
     """What every worker has: a configuration and its generated system."""
 
@@ -69,6 +71,11 @@ class DriverUnderTest:
     system: System
     booted: "dict[str, Starter]" = field(default_factory=dict)
     """The controller that a worker keeps, by what its setting assumes."""
+
+    @cached_property
+    def fresh(self) -> FreshBenches:
+        """Those that a worker keeps for schedules and programs."""
+        return FreshBenches(self.config, self.system)
 
     @classmethod
     def of(cls, config: RobotConfig) -> "DriverUnderTest":
@@ -253,21 +260,23 @@ def ground(driver: DriverUnderTest, _item: object) -> Ground:
     return ground_of(driver.config, driver.system)
 
 
-def _in_a_warm_copy(driver: DriverUnderTest, function: Callable[[], Explored]) -> Explored:
-    """What a controller leaves behind in its process ends with it; its modules' trees and code
-    are there, as this process has booted the driver once."""
-    ground_of(driver.config, driver.system)
-    return in_a_fork(function)
-
-
 def schedule(driver: DriverUnderTest, name: str) -> Explored:
-    """One schedule."""
-    return _in_a_warm_copy(driver, lambda: explore(driver.config, driver.system, name))
+    """One schedule. Of one in which all held no story is kept."""
+    found = ground_of(driver.config, driver.system)
+    if not found.fault:
+        driver.fresh.keep(setting_of(driver.config, drawn(named(name), found)))
+    fresh = driver.fresh
+    return _kept(in_a_fork(lambda: explore(driver.config, driver.system, name, boot=fresh.take)))
 
 
 def program(driver: DriverUnderTest, name: str) -> Explored:
     """One random program. Of one that moved as in RAPID no story is kept."""
-    tried = _in_a_warm_copy(driver, lambda: liken(driver.config, driver.system, name))
+    driver.fresh.keep(PROGRAMS)
+    fresh = driver.fresh
+    return _kept(in_a_fork(lambda: liken(driver.config, driver.system, name, boot=fresh.take)))
+
+
+def _kept(tried: Explored) -> Explored:
     return tried if tried.finding is not None else replace(tried, plan="")
 
 

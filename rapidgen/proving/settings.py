@@ -29,6 +29,8 @@ class Setting:
     costs: Costs = field(default_factory=Costs)
     faults: FaultPlan = field(default_factory=FaultPlan)
     coverage: bool = False
+    tracing: bool = False
+    """Tracers hear of every statement; with `coverage` they do anyway."""
 
     @property
     def slowness(self) -> float:

@@ -65,11 +65,12 @@ def on_path(track: Track, path: Sequence[Position], corner: float = 0.05) -> Non
     """
     at = 0
     for when, seen in track:
-        while at < len(path) - 2 and off(seen, path[at], path[at + 1]) > SETTLED:
-            if off(seen, path[at + 1], path[at + 2]) > off(seen, path[at], path[at + 1]):
+        near = off(seen, path[at], path[at + 1])
+        while near > SETTLED and at < len(path) - 2:
+            ahead = off(seen, path[at + 1], path[at + 2])
+            if ahead > near:
                 break
-            at += 1
-        near = min(off(seen, path[i], path[i + 1]) for i in range(at, min(at + 2, len(path) - 1)))
+            at, near = at + 1, ahead
         if near > corner:
             raise Broken(
                 f"at {when:.3f} s the robot was {near:.4f} rad off what was asked "

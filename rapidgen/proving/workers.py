@@ -8,6 +8,7 @@ A booted controller is copied by a fork in a few milliseconds; whatever is done 
 with it.
 """
 
+import gc
 import os
 import pickle
 import signal
@@ -233,6 +234,8 @@ def in_a_fork(function: Callable[[], R]) -> R:
         child = os.fork()
     if child == 0:
         os.close(reading)
+        # What is there stays there: nobody looks whether it is garbage.
+        gc.freeze()
         _answer(function, writing)
     os.close(writing)
     with os.fdopen(reading, "rb") as stream:

@@ -2,18 +2,21 @@
 
 from dataclasses import dataclass
 
+from rapidgen.system.releases import UNTOLD
+
 
 @dataclass(frozen=True, slots=True)
 class Dialect:
     """The RobotWare version that decides what exists: (major, minor)."""
 
-    robotware: tuple[int, int] = (6, 0)
-    """6.0: some RobotWare 6; nobody has said which."""
+    robotware: tuple[int, int] = UNTOLD
+    some: bool = False
+    """Some release of that number, as of a backup that does not say which."""
 
     @property
     def told(self) -> bool:
         """Whether the release is known. Where it is not, what another one brings is no fault."""
-        return self.robotware != (6, 0)
+        return self.robotware != UNTOLD and not self.some
 
     @property
     def has_radix(self) -> bool:
@@ -23,4 +26,4 @@ class Dialect:
     @property
     def has_dnum(self) -> bool:
         """The type dnum came within RobotWare 5."""
-        return self.robotware >= (5, 12)
+        return self.some or self.robotware >= (5, 12)

@@ -13,7 +13,15 @@ import numpy as np
 
 from rapidgen.client.aio import AsyncExecution, AsyncRobot
 from rapidgen.client.core.motion import Result
-from rapidgen.client.errors import MotionError, MotionStopped, RobotError, StopFailed
+from rapidgen.client.errors import (
+    ConnectionLost,
+    MotionError,
+    MotionStopped,
+    ProtocolError,
+    RobotError,
+    RobotTimeout,
+    StopFailed,
+)
 from rapidgen.client.trajectory import Array, Trajectory
 from rapidgen.ros.goals import Code, Defaults, Ending, Goal, GoalRefused, JudgedGoal, Outcome, judge
 from rapidgen.wire.simple_message.spec import Feature, TrajectoryState
@@ -23,6 +31,8 @@ _APPROACH = 0.1
 _GRACE = 1e-9
 _STANDS = 1e-4
 """rad, m: a robot that is not further away has not begun to move."""
+_MAY_HAVE_MOVED = (MotionError, ConnectionLost, RobotTimeout, ProtocolError, StopFailed)
+"""What ends the sending of a goal and does not say that the robot stands where it stood."""
 _LONGER = "plan with a longer sampling period"
 _MENDS = {
     "RG615": "plan with the speeds of joint_limits.yaml as `rapidgen ros2` writes it",
@@ -166,13 +176,16 @@ class Follower:
         if await self._waited(asked.start or 0.0, under):
             return _ended_early(under, "before it started: nothing moved")
         self._unsent.discard(under)
+        # Without a link nothing is sent.
+        may_move = self._robot.is_connected
         try:
             asked = self._fitted(asked)
             execution = await self._accepted(asked.trajectory, under)
         except GoalRefused as refused:
             return refused.outcome
-        except MotionError as error:
-            return _aborted(Code.PATH_TOLERANCE_VIOLATED, error)
+        except _MAY_HAVE_MOVED as error:
+            code = Code.PATH_TOLERANCE_VIOLATED if may_move else Code.INVALID_GOAL
+            return _aborted(code, error)
         except RobotError as error:
             return _aborted(Code.INVALID_GOAL, error)
         if execution is None:

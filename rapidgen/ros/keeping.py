@@ -5,6 +5,7 @@ One `RobotLink` runs on one asyncio loop. What it sees goes to a `Public`, which
 
 import asyncio
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from typing import Protocol
 
 from rapidgen.client.aio import AsyncRobot
@@ -23,7 +24,7 @@ from rapidgen.ros.telling import (
     robot_status,
     unknown_status,
 )
-from rapidgen.wire.simple_message.spec import Feature
+from rapidgen.wire.simple_message.spec import Feature, Reason
 
 AGAIN = 1.0
 """s between two tries to reach the robot."""
@@ -163,6 +164,11 @@ class RobotLink:
         await robot.resume()
         self._paused_at = None
 
+    @property
+    def speed(self) -> float:
+        """% of the programmed speed that was last asked for. Raises NotReady."""
+        return self._there().override * 100
+
     async def set_speed(self, percent: float) -> None:
         """Go at 1 to 100 % of the programmed speed. Raises RobotError, ValueError."""
         await self._there().set_speed(percent)
@@ -191,3 +197,28 @@ class RobotLink:
                 "RG621", f"no link to the robot: {self._why}", "start the driver's tasks"
             )
         return self._robot
+
+
+async def set_speeds(links: Sequence[RobotLink], percent: float) -> None:
+    """1 to 100 % for all groups that move; none is changed where one of them refuses, or has no
+    link. Raises RobotError, also where none moves, and ValueError."""
+    before = [link.speed for link in links]
+    changed: list[tuple[RobotLink, float]] = []
+    idle: RequestRefused | None = None
+    try:
+        for link, was in zip(links, before, strict=True):
+            try:
+                await link.set_speed(percent)
+                changed.append((link, was))
+            except RequestRefused as refused:
+                if refused.reason is not Reason.IDLE:
+                    raise
+                idle = refused
+    except (RobotError, ValueError):
+        for link, was in changed:
+            # A motion that has ended meanwhile, or a link that was lost, goes at no speed.
+            with suppress(RobotError):
+                await link.set_speed(was)
+        raise
+    if idle is not None and not changed:
+        raise idle

@@ -21,6 +21,7 @@ from rclpy.action import ActionServer, CancelResponse, GoalResponse
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor
 from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackReturn
+from rclpy.parameter import Parameter
 from rclpy.qos import QoSProfile
 from rclpy.qos_overriding_options import QoSOverridingOptions
 from rclpy.signals import SignalHandlerOptions
@@ -36,9 +37,9 @@ from rapidgen.config.model import RobotConfig
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.ros.following import GoalFeedback, UnderWay, reason
 from rapidgen.ros.goals import Ending, Goal, Outcome, Point, Tolerance
-from rapidgen.ros.keeping import RobotLink
+from rapidgen.ros.keeping import RobotLink, set_speeds
 from rapidgen.ros.own_services import ARE_THERE, MISSING, Message, Serve, services
-from rapidgen.ros.parameters import DECLARED, Parameters, read
+from rapidgen.ros.parameters import DECLARED, NAMES, WHOLE, Parameters, check_address, read
 from rapidgen.ros.telling import Health, JointStates, RobotStatus
 
 try:  # A package that not every distribution has.
@@ -83,6 +84,7 @@ class RobotNode(LifecycleNode):  # type: ignore[misc]
         try:
             parameters = read({name: self.get_parameter(name).value for name, _, _ in DECLARED})
             config = load_config(parameters.config)
+            check_address(parameters.address, config)
         except DiagnosticError as error:
             self.get_logger().error(str(error))
             return TransitionCallbackReturn.FAILURE
@@ -140,7 +142,7 @@ class RobotNode(LifecycleNode):  # type: ignore[misc]
         """Stop what moves for a goal, and tell whoever sent it."""
         self._let_go()
         until = time.monotonic() + _FAREWELL
-        while any(door.is_busy for door in self._doors) and time.monotonic() < until:
+        while self._is_busy and time.monotonic() < until:
             executor.spin_once(timeout_sec=0.05)
         for _ in range(5):  # Results go out behind the callback that made them.
             executor.spin_once(timeout_sec=0.05)
@@ -148,17 +150,41 @@ class RobotNode(LifecycleNode):  # type: ignore[misc]
     def _parameters_set(self, parameters: list[Message]) -> SetParametersResult:
         """`speed` acts at once; the others are read when the node is configured."""
         for parameter in parameters:
-            if parameter.name != "speed":
+            if not self._doors or parameter.name not in NAMES:
                 continue
-            for door in self._doors:
-                done, told = door.asked(door.link.set_speed(float(parameter.value)))
-                if not done:
-                    return SetParametersResult(successful=False, reason=told)
+            if parameter.name != "speed":
+                why = f"{parameter.name} is read when the node is configured: clean it up before"
+                return SetParametersResult(successful=False, reason=why)
+            if parameter.value == WHOLE and not self._is_busy:
+                continue  # What every motion begins with.
+            links = [door.link for door in self._doors]
+            done, told = self.asked(set_speeds(links, float(parameter.value)))
+            if not done:
+                return SetParametersResult(successful=False, reason=told)
         return SetParametersResult(successful=True)
+
+    @property
+    def _is_busy(self) -> bool:
+        return any(door.is_busy for door in self._doors)
+
+    def goal_ended(self) -> None:
+        """A motion's speed ends with it."""
+        if not self._is_busy and self.get_parameter("speed").value != WHOLE:
+            self.set_parameters([Parameter("speed", value=WHOLE)])
 
     def ask(self, coroutine: Coroutine[object, None, T]) -> "Future[T]":
         """Carry out on the links' loop."""
         return asyncio.run_coroutine_threadsafe(coroutine, self._loop)
+
+    def asked(self, coroutine: Coroutine[object, None, object]) -> tuple[bool, str]:
+        """Whether the robot did it, and why not."""
+        try:
+            self.ask(coroutine).result()
+        except RobotError as error:
+            return False, reason(error)
+        except ValueError as error:
+            return False, str(error)
+        return True, "done"
 
     def soon(self, act: Callable[[], None]) -> None:
         """Do something on the links' loop, and do not wait for it."""
@@ -296,27 +322,17 @@ class Door:
         self, act: Callable[[], Coroutine[object, None, object]]
     ) -> Callable[[Message, Message], Message]:
         def serve(_: Message, response: Message) -> Message:
-            response.success, response.message = self.asked(act())
+            response.success, response.message = self._node.asked(act())
             return response
 
         return serve
 
     def _filling(self, serve: Serve) -> Callable[[Message, Message], Message]:
         def filled(request: Message, response: Message) -> Message:
-            response.success, response.message = self.asked(serve(request, response))
+            response.success, response.message = self._node.asked(serve(request, response))
             return response
 
         return filled
-
-    def asked(self, coroutine: Coroutine[object, None, object]) -> tuple[bool, str]:
-        """Whether the robot did it, and why not."""
-        try:
-            self._node.ask(coroutine).result()
-        except RobotError as error:
-            return False, reason(error)
-        except ValueError as error:
-            return False, str(error)
-        return True, "done"
 
     def _cancel(self, handle: Message) -> CancelResponse:
         self._node.soon(self._under_way(handle).cancel)
@@ -349,6 +365,7 @@ class Door:
             # Behind its end: a cancellation that came before would enter it again.
             with self._lock:
                 del self._goals[bytes(handle.goal_id.uuid)]
+            self._node.goal_ended()
 
     def _goal(self, request: Message) -> Goal:
         trajectory = request.trajectory

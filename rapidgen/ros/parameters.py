@@ -5,11 +5,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, Literal, cast
 
+from rapidgen.client.address import parse_address
+from rapidgen.config.model import RobotConfig
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, error
 from rapidgen.ros.following import Policy
 from rapidgen.ros.goals import Defaults
 
-_WHOLE = 100.0
+WHOLE = 100.0
 """% of the programmed speed, which each motion begins with."""
 
 DECLARED: tuple[tuple[str, str | bool | float, str], ...] = (
@@ -18,7 +20,7 @@ DECLARED: tuple[tuple[str, str | bool | float, str], ...] = (
     ("autostart", True, "configure and activate without being asked"),
     ("tf_prefix", "", "put in front of joint names"),
     ("publish_clock", False, "/clock from the controller's time, for a simulator"),
-    ("speed", _WHOLE, "speed override of the motion under way, 1 to 100 %"),
+    ("speed", WHOLE, "speed override of the motion under way, 1 to 100 %"),
     ("replace", "refuse", "a goal while another one moves: refuse, or approach (stop, go there)"),
     ("dense", "refuse", "points nearer than the planner follows: refuse, or resample"),
     ("path_tolerance", 0.0, "default of a goal's path tolerances, rad or m; 0: none"),
@@ -27,6 +29,8 @@ DECLARED: tuple[tuple[str, str | bool | float, str], ...] = (
     ("stamp_tolerance", 0.2, "s by which header.stamp may be past"),
 )
 """Name, default, description."""
+NAMES = frozenset(name for name, _, _ in DECLARED)
+"""Those of this node; rclpy has others."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,7 +56,7 @@ def read(values: Mapping[str, Any]) -> Parameters:
     for name in ("path_tolerance", "goal_tolerance", "goal_time_tolerance", "stamp_tolerance"):
         if not 0 <= values[name] < math.inf:
             found.append(_fault(f"{name} is {values[name]:g}", "it is 0 or more"))
-    if values["speed"] != _WHOLE:
+    if values["speed"] != WHOLE:
         found.append(
             _fault(
                 f"speed is {values['speed']:g}, and nothing moves yet",
@@ -78,6 +82,19 @@ def read(values: Mapping[str, Any]) -> Parameters:
             cast("Literal['refuse', 'resample']", values["dense"]),
         ),
     )
+
+
+def check_address(address: str, config: RobotConfig) -> None:
+    """Raises DiagnosticError for what is no address, or one group's ports where there are more."""
+    found = {parse_address(address, group.ports) for group in config.groups if address}
+    if address and len(found) < len(config.groups):
+        raise DiagnosticError(
+            _fault(
+                f"address is '{address}', with the ports of one motion group, and {config.name} "
+                f"has {len(config.groups)} of them",
+                "HOST alone: the ports are those of the configuration",
+            )
+        )
 
 
 def _fault(message: str, mend: str) -> Diagnostic:

@@ -65,10 +65,14 @@ def read_backup(folder: Path | str, *, notes: list[Diagnostic] | None = None) ->
         for n, task in enumerate(tasks_of(sys_cfg), 1)
     )
     proc = _further(folder, "PROC", collected)
+    told = _robotware(info)
+    if told is None:
+        collected.append(_not_told(sys_cfg))
     found = System(
         name=folder.resolve().name,
         tasks=tasks,
-        robotware=_robotware(info, sys_cfg, collected),
+        robotware=told or (_main(sys_cfg), 0),
+        robotware_told=told is not None,
         home=home if home.is_dir() else None,
         robot_types=_robot_types(folder, collected),
         arc=() if proc is None else arc_signals(proc),
@@ -150,19 +154,23 @@ def _info(folder: Path) -> bytes:
     return b"\n".join(read_limited(path) for path in found)
 
 
-def _robotware(info: bytes, cfg: CfgText, notes: list[Diagnostic]) -> tuple[int, int]:
+def _robotware(info: bytes) -> tuple[int, int] | None:
     for pattern in _VERSIONS:
         match = pattern.search(info)
         if match and 5 <= int(match[1]) <= 9:
             return int(match[1]), int(match[2])
-    main = (cfg.version or _DEFAULT)[0]
-    notes.append(
-        error(
-            "RG713",
-            None,
-            f"the backup does not say its RobotWare; {main}.0 is taken from SYS.cfg",
-            "name it with --robotware",
-            severity=Severity.WARNING,
-        )
+    return None
+
+
+def _main(cfg: CfgText) -> int:
+    return (cfg.version or _DEFAULT)[0]
+
+
+def _not_told(cfg: CfgText) -> Diagnostic:
+    return error(
+        "RG713",
+        None,
+        f"the backup does not say its RobotWare; {_main(cfg)}.0 is taken from SYS.cfg",
+        "name it with --robotware",
+        severity=Severity.WARNING,
     )
-    return main, 0

@@ -11,6 +11,7 @@ from rapidgen.system.interpret import tasks_of, with_cfg
 from rapidgen.system.loading import expand, load_module
 from rapidgen.system.model import System, TaskSpec
 from rapidgen.system.paths import module_files, read_limited
+from rapidgen.system.releases import UNTOLD
 
 _MOTION_TASK = re.compile(r"T_ROB(\d|_)", re.I)
 _TASK = re.compile(r"T_\w+", re.I)
@@ -36,7 +37,7 @@ def read_files(
     cfg: Sequence[Path | str] = (),
     name: str = "loose",
     entry: str = "main",
-    robotware: tuple[int, int] = (6, 0),
+    robotware: tuple[int, int] = UNTOLD,
     home: Path | None = None,
 ) -> System:
     """A system of loose files: modules, folders of modules, `.pgf` programs and `.cfg` files.

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
+from rapidgen.system.releases import UNTOLD
+
 TaskType = Literal["NORMAL", "STATIC", "SEMISTATIC"]
 TrustLevel = Literal["SysFail", "SysHalt", "SysStop", "NoSafety"]
 SignalType = Literal["DI", "DO", "GI", "GO", "AI", "AO"]
@@ -149,7 +151,9 @@ class System:
     cross: tuple[CrossConnection, ...] = ()
     events: tuple[EventRoutine, ...] = ()
     groups: tuple[MechanicalUnitGroup, ...] = ()
-    robotware: tuple[int, int] = (6, 0)
+    robotware: tuple[int, int] = UNTOLD
+    robotware_told: bool = True
+    """Whether the minor version is known; without it the second number is 0."""
     home: Path | None = None
     """Folder whose files HOME: starts with; it is copied, never written."""
     home_below: Path | None = None

@@ -7,6 +7,12 @@ ships for RobotWare 7.
 
 from collections.abc import Mapping
 
+from rapidgen.diagnostics import refusal
+
+UNTOLD = (6, 0)
+"""Some RobotWare 6; nobody has said which."""
+ANY_MINOR = 99
+"""Of a release: all of its line."""
 _SAME: Mapping[tuple[int, str], tuple[int, int]] = {
     (5, "SYS"): (5, 0),
     (5, "MOC"): (5, 0),
@@ -38,3 +44,20 @@ def known_digits(domain: str, robotware: tuple[int, int]) -> tuple[int, int] | N
 def digits(domain: str, robotware: tuple[int, int]) -> tuple[int, int]:
     """The same for text that no controller loads: what is not known is taken as the plain one."""
     return known_digits(domain, robotware) or (robotware[0], 0)
+
+
+def release(text: str) -> tuple[int, int]:
+    """A release as people write it: 6.15, or 6, which means all of that line (minor 99).
+
+    Raises DiagnosticError RG901.
+    """
+    major, dot, minor = text.partition(".")
+    numbers = major.isdecimal() and (minor.isdecimal() or not dot)
+    if not numbers or not 5 <= int(major) <= 8:
+        raise refusal(
+            "RG901",
+            None,
+            f"'{text}' is not a RobotWare version",
+            "give 5, 6, 7 or 8, with a minor version if it matters: 6.15",
+        )
+    return int(major), int(minor) if minor else ANY_MINOR

@@ -161,6 +161,19 @@ def test_a_palletiser_keeps_its_tool_upright():
         assert frames.rotate(q, (0.0, 0.0, 1.0)) == pytest.approx((0, 0, -1), abs=1e-9)
 
 
+@pytest.mark.parametrize(
+    ("place", "quadrants"),
+    [((1408.88, 37.23, 925.3), (0, 0)), ((1421.11, -325.25, 475.46), (-1, -1))],
+)
+def test_a_palletiser_at_zero_has_the_tool_of_six_axes_whose_wrist_is_bent_down(place, quadrants):
+    # tool0 and wobj0 of a working IRB 660 [code EdgarIvanMM]: quaternion 0,0,1,0, cf1 and cf6.
+    own = kinematics("irb660")
+    pose = (tuple(mm / 1000 for mm in place), (0.0, 0.0, 1.0, 0.0))
+    found = own.follow(pose, (0.0,) * 4)
+    assert found is not None
+    assert tuple(math.floor(found[k] / (math.pi / 2)) for k in (0, 3)) == quadrants
+
+
 def test_a_track_moves_the_base():
     own = kinematics("irb120_track")
     home = (0.0,) * len(own.group.joints)

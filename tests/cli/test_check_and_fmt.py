@@ -72,7 +72,7 @@ def test_nothing_there_is_bad_input(folder, capsys):
     assert main(["check", "empty"]) == 1
 
 
-@pytest.mark.parametrize("version", ["4", "8", "six", "6.x"])
+@pytest.mark.parametrize("version", ["4", "9", "six", "6.x"])
 def test_wrong_robotware_is_bad_usage(folder, capsys, version):
     assert main(["check", "good.mod", "--robotware", version]) == 2
 

@@ -140,7 +140,8 @@ class StreamModel:
     def _start_if_enough(self):
         buffered = sum(duration for duration, _ in self.queue)
         full = self.accepted - self.planned >= self.ring
-        if self.queue and (buffered >= self.preload or full or self.ended):
+        # The end may come when all points are executed: then nothing waits, and it is over.
+        if self.ended or (self.queue and (buffered >= self.preload or full)):
             self.going = True
 
     # Time

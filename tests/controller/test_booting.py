@@ -11,6 +11,7 @@ from rapidgen.controller.likely import Likely
 from rapidgen.controller.starts import shown, usual_start
 from rapidgen.controller.surroundings import GUESSED
 from rapidgen.diagnostics import DiagnosticError
+from rapidgen.system.releases import UNTOLD
 
 PROGRAM = r"""MODULE work
   PROC main()
@@ -332,3 +333,19 @@ def test_a_guess_takes_the_robot_that_reaches_what_the_program_aims_at(tmp_path)
     assert found.groups[0].model == "irb4600"
     assert load_target([path], Wishes(cell="guess", robot="irb1600")).likely is None
     assert load_target([path]).groups[0].model == "irb120"
+
+
+def test_loose_files_are_on_the_controller_that_is_said(program, cell):
+    """An OmniCore before anybody came: its tasks, its robot, its firewall (backups of 7.5, 7.6)."""
+    found = load_target([program], Wishes(robotware=(7, 6), cell=cell))
+    assert found.system.robotware == (7, 6)
+    assert found.cfg.tasks == {"t_rob1"}
+    assert found.cfg.units == {"rob_1"}
+    assert "rapidsockets" in found.cfg.names("SIO", "FIREWALL_MANAGEMENT")
+    assert found.cfg.signal("doGrip").text("SignalType") == "DO"
+
+
+def test_what_tells_its_release_is_not_given_another(program):
+    assert load_target([program]).system.robotware == UNTOLD
+    with pytest.raises(DiagnosticError, match="'crb15000' tells its RobotWare"):
+        load_target(["crb15000"], Wishes(robotware=(7, 6)))

@@ -62,7 +62,7 @@ def watched() -> list[tuple[str, str]]:
     group = config.groups[0]
     system = make_system(config, build(config))
     with VirtualController(system, config.groups, autostart=False, tracing=True) as controller:
-        controller.statements.tracers.append(seen.statement)
+        controller.statements.listen(seen.statement)
         controller.sockets.listeners.append(seen.news)
         controller.start_program()
         controller.run_for(IDLE)

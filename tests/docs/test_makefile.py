@@ -21,7 +21,7 @@ def campaigns():
 def test_every_campaign_has_a_time_and_is_a_target():
     targets = []
     for line in campaigns():
-        target, time, what = re.fullmatch(r"([a-z-]+) +(\d+ (?:min|h)) +(\S.+)", line).groups()
+        target, time, what = re.fullmatch(r"([a-z0-9-]+) +(\d+ (?:min|h)) +(\S.+)", line).groups()
         assert re.search(rf"^{target}:.*## {time}: {re.escape(what)}$", MAKEFILE, re.MULTILINE)
         targets.append(target)
     assert {"bench", "motion-campaign", "driver-day", "runtime-mutants"} <= set(targets)

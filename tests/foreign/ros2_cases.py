@@ -1,16 +1,24 @@
 """Cases of the trial with a real rclpy: `python -m tests.foreign.ros2` runs them on each RMW."""
 
+import json
 import os
 import signal
+import sys
 import time
 import traceback
 from collections.abc import Callable
 from dataclasses import dataclass
+from pathlib import Path
 
+import rclpy.action.server
+import rclpy.lifecycle.node
+import rclpy.node
+import rclpy.parameter
+import rclpy.qos_overriding_options
 from lifecycle_msgs.msg import Transition
 from lifecycle_msgs.srv import ChangeState
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
-from rcl_interfaces.srv import SetParameters
+from rcl_interfaces.srv import GetParameters, SetParameters
 from rclpy.qos import DurabilityPolicy, ReliabilityPolicy
 
 from tests.foreign.ros import until
@@ -70,6 +78,20 @@ def case(**what):
         return function
 
     return enter
+
+
+def signatures():
+    """Calls as the stand-in's record has them for this distribution, and as they are."""
+    sys.path.append(str(Path(__file__).parents[1] / "ros"))
+    from record import RECORDED, signature
+
+    modules = (rclpy.node, rclpy.lifecycle.node, rclpy.action.server, rclpy.parameter)
+    modules += (rclpy.qos_overriding_options,)
+    known = json.loads(RECORDED.read_text())
+    for call, told in known.get(os.environ.get("ROS_DISTRO"), {}).get("calls", {}).items():
+        owner, method = call.split(".")
+        (found,) = {getattr(m, owner) for m in modules if hasattr(m, owner)}
+        yield call, told, signature(getattr(found, method))
 
 
 def _way(count: int, to: float = 0.5) -> list[float]:
@@ -228,6 +250,9 @@ def services_and_speed(cell, found):
     found.must(not answer.successful, f"speed 500: {answer.reason}")
     found.ends(sent, SUCCEEDED)
     found.must(sent.took > 5, f"slower: {sent.took:.1f} s of 4")
+    asked = GetParameters.Request(names=["speed"])
+    (value,) = cell.call(GetParameters, "/rapidgen/get_parameters", asked).values
+    found.must(value.double_value == 100.0, f"speed is {value.double_value:g} behind it")
     sent = cell.moving(0.0)
     told = cell.trigger("stop")
     found.must(told.success, f"stop: {told.message}")
@@ -250,6 +275,8 @@ def quality_of_service(cell, found):
             DurabilityPolicy.VOLATILE,
         )
         found.must(good, f"{topic}: {qos.reliability.name}, {qos.durability.name}, {qos.depth}")
+    for call, recorded, here in signatures():
+        found.must(here == recorded, f"{call}({here})")
     names = {name for name, _ in cell.client.get_topic_names_and_types()}
     found.must("/robot_status" in names, f"topics: {sorted(names)}")
 

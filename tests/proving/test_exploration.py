@@ -9,13 +9,17 @@ import pytest
 
 from rapidgen.cli.app import main
 from rapidgen.config import load_config
+from rapidgen.controller.faults import FaultPlan
 from rapidgen.generate import build, make_system
-from rapidgen.proving.bench import with_module
+from rapidgen.machine.network.rules import NetworkRule
+from rapidgen.proving.bench import Bench, with_module
 from rapidgen.proving.explore import STEPS, Explored, explore, ground_of
+from rapidgen.proving.fresh import FreshBenches
 from rapidgen.proving.guide import Guide
 from rapidgen.proving.model import Finding
 from rapidgen.proving.plan import drawn, named
-from rapidgen.proving.run import DriverUnderTest, minimised
+from rapidgen.proving.run import DriverUnderTest, minimised, schedule
+from rapidgen.proving.settings import Setting
 from rapidgen.proving.smaller import smaller
 from rapidgen.rapid import check, parse
 from rapidgen.view.recording.reader import RecordingFile
@@ -136,6 +140,30 @@ def test_a_schedule_is_the_same_when_it_is_traced_and_recorded(seed, tmp_path):
     assert re.search(r" T_ROB1 +ROS_motion/", story.getvalue())
     with RecordingFile(path) as recording:
         assert recording.end > 1
+
+
+# In turns, at random, at every PERS, under priorities; over each kind of network.
+@pytest.mark.parametrize("name", ["3/turns", "0", "2", "5", "7"])
+def test_a_copy_of_a_kept_controller_does_what_one_that_boots_does(name):
+    driver = DriverUnderTest(SIX_AXES, make_system(SIX_AXES, build(SIX_AXES)))
+    alone = explore(SIX_AXES, driver.system, name)
+    for other in ("9", name, name):
+        found = schedule(driver, other)
+    assert found == replace(alone, plan="")
+
+
+def test_what_is_kept_is_for_settings_that_differ_in_chances_and_network_alone():
+    system, fresh = small_driver(), FreshBenches(SMALL, small_driver())
+    slow = FaultPlan(network=(NetworkRule("delay", 11000, "in", seconds=0.1),))
+    kept, other = Setting(seed=1), Setting(seed=2, faults=slow)
+    fresh.keep(kept)
+    with fresh.take(other) as bench, Bench(SMALL, system, other) as booted:
+        assert bench.setting == booted.setting
+        assert bench.controller.scheduler.seed == 2
+        first, second = fresh.take(kept), fresh.take(replace(kept, switch_at_pers=True))
+        with first, second:
+            assert first.controller is not bench.controller
+            assert second.controller.options.switching
 
 
 def test_every_step_alone_leaves_a_good_driver_good():

@@ -9,6 +9,7 @@ import ast
 import importlib
 import importlib.abc
 import importlib.util
+import inspect
 import re
 import sys
 from collections.abc import Callable
@@ -34,6 +35,8 @@ _TALK = frozenset(("help", "label", "notes", "related"))
 """Arguments that say something and decide nothing."""
 _MAX_TEXT = 24
 _REGEX = frozenset("(|?*+[-")
+_KIND = inspect.CO_GENERATOR | inspect.CO_COROUTINE | inspect.CO_ASYNC_GENERATOR
+"""What kind of function code makes: code of another kind has no place in a function."""
 _SIGN = re.compile(r"\\u....|\\.|.", re.DOTALL)
 """What is left out of a regular expression at once."""
 
@@ -210,7 +213,8 @@ def _swapped_code(module, path, owner, function, change):
             _set(holder, key, old)
         live = _live(module, owner, function)
         before = live.__code__
-        if code.co_freevars != before.co_freevars:
+        kept = code.co_freevars == before.co_freevars
+        if not kept or (code.co_flags ^ before.co_flags) & _KIND:
             raise NoProgram
         live.__code__ = code
         _forget(module)

@@ -2,6 +2,7 @@
 
 import pytest
 
+from rapidgen.diagnostics import Severity
 from rapidgen.rapid import Dialect, check
 from rapidgen.rapid.builtins import signatures
 from rapidgen.rapid.builtins.signatures import Signature
@@ -162,6 +163,12 @@ def test_local_routines_that_nothing_calls():
 )
 def test_names_and_aggregates_that_do_not_fit(body, data, expected):
     assert codes(body, data) == expected
+
+
+def test_a_raw_byte_index_out_of_range_is_loaded_and_fails_when_executed():
+    body = "VAR rawbytes r;\nPackRawBytes 1, r, 0 \\IntX:=1;"
+    (found,) = check(f"MODULE m\nPROC main()\n{body}\nENDPROC\nENDMODULE")
+    assert (found.code, found.severity) == ("RG319", Severity.WARNING)
 
 
 def test_numbers_beyond_num_where_no_dnum_is():

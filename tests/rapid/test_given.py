@@ -20,6 +20,13 @@ def system(*texts, **parts):
     return System("s", (TaskSpec("T_ROB1", modules=files),), **parts)
 
 
+def test_of_a_record_that_is_known_in_part_only_any_component_may_be_named():
+    data = "VAR num n;\nPERS partdata part;"
+    assert found(module("a", "n := part.validStation;", data)) == [("warning", "RG304")]
+    assert found(module("a", "n := part.plcCode;", data)) == []
+    assert found(module("a", "n := part.image;", data)) == [("error", "RG307")]
+
+
 UNKNOWN = {
     "procedure": "OwnThing 1;",
     "function": 'TPWrite "" \\Num:=OwnValue();',
@@ -226,3 +233,22 @@ def test_the_program_hides_names_of_installed_modules_and_is_not_seen_by_them(fl
     assert [(d.code, d.span.path) for d in diagnostics] == [("RG302", "tools.sys")]
     alike = tuple(ModuleFile(f.name, f.path, f.data) for f in files)
     assert ("error", "RG305") in found(System("s", (TaskSpec("T_ROB1", modules=alike),)))
+
+
+def test_a_module_that_is_not_here_may_hide_a_built_in_that_is_called_without_arguments():
+    assert found(module("a", "Reset;")) == [("warning", "RG311")]
+    assert found(module("a", "Reset 1, 2;"))[0][0] == "error"
+    assert found(system(module("a", "Reset;"))) == [("error", "RG311")]
+
+
+def test_a_routine_that_is_not_here_gives_its_arguments_the_type():
+    body = "a := elsewhere([1, 2, 3] - [a, 2, 3]);\nother [1, 2, 3] + [a, 2, b];"
+    assert {code for _, code in found(module("a", body, "VAR num a;"))} == {"RG301", "RG302"}
+
+
+def test_a_backup_that_does_not_say_its_release_has_what_some_release_of_its_number_has():
+    text = module("a", "d := GInputDnum(gi1);\nd := 1;", "VAR dnum d;\nVAR signalgi gi1;")
+    told = system(text, robotware=(5, 7))
+    some = system(text, robotware=(5, 0), robotware_told=False)
+    assert ("error", "RG325") in found(told)
+    assert "error" not in {severity for severity, _ in found(some)}

@@ -90,7 +90,7 @@ def _one(s, draw, found, where):
         wrong("cancelled, and the robot moves")
     elif outcome.status is Ending.CANCELED and not under.ending.is_set():
         wrong("cancelled by nobody")
-    if spoiled and moved > 1e-6 and outcome.code is Code.INVALID_GOAL:
+    if outcome.code is Code.INVALID_GOAL and moved > 1e-6:
         wrong("refused, and the robot moved")
 
 

@@ -1,8 +1,8 @@
 """A stand-in for what a sourced ROS 2 brings, as far as the node uses it, and as strict.
 
-Signatures are those of rclpy in Humble, Jazzy and Rolling (rclpy/node.py, action/server.py,
-lifecycle/node.py): keyword-only arguments are, unknown ones raise, messages take values of their
-types only (rosidl's generated `assert`s), a goal takes only the transitions of rcl_action.
+Signatures and QoS defaults are those of rclpy in Humble, Jazzy and Rolling, recorded in
+recorded.json: keyword-only arguments are, unknown ones raise, messages take values of their types
+only (rosidl's generated `assert`s), a goal takes only the transitions of rcl_action.
 """
 
 import sys
@@ -141,6 +141,8 @@ class ReentrantCallbackGroup:
 
 
 class QoSProfile:
+    history, reliability, durability = "KEEP_LAST", "RELIABLE", "VOLATILE"
+
     def __init__(self, *, depth):
         self.depth = depth
 
@@ -159,6 +161,11 @@ class GoalResponse(Enum):
 class CancelResponse(Enum):
     REJECT = 1
     ACCEPT = 2
+
+
+class Parameter:
+    def __init__(self, name, type_=None, value=None):
+        self.name, self.value = name, value
 
 
 class RCLError(RuntimeError):
@@ -265,8 +272,8 @@ class ActionServer:
 
 
 class Publisher:
-    def __init__(self, kind):
-        self.kind, self.sent = kind, []
+    def __init__(self, kind, qos, overriding):
+        self.kind, self.qos, self.overriding, self.sent = kind, qos, overriding, []
         self.came = threading.Condition()
 
     def publish(self, sent):
@@ -363,11 +370,18 @@ class LifecycleNode:
     def add_on_set_parameters_callback(self, callback):
         self._on_set = callback
 
+    def set_parameters(self, parameter_list):
+        results = []
+        for parameter in parameter_list:
+            assert isinstance(parameter, Parameter)
+            results.append(self._on_set([parameter]))
+            if results[-1].successful:
+                self._parameters[parameter.name] = parameter.value
+        return results
+
     def set(self, name, value):
-        result = self._on_set([SimpleNamespace(name=name, value=value)])
-        if result.successful:
-            self._parameters[name] = value
-        return result
+        """As a service of ROS does it."""
+        return self.set_parameters([Parameter(name, value=value)])[0]
 
     def create_publisher(
         self,
@@ -380,7 +394,9 @@ class LifecycleNode:
         qos_overriding_options=None,
     ):
         assert isinstance(qos_profile, QoSProfile)
-        return self.topics.setdefault(topic, Publisher(msg_type))
+        return self.topics.setdefault(
+            topic, Publisher(msg_type, qos_profile, qos_overriding_options)
+        )
 
     def destroy_publisher(self, publisher):
         self.topics = {t: p for t, p in self.topics.items() if p is not publisher}
@@ -433,6 +449,7 @@ def modules():
         "rclpy.action": "ActionServer CancelResponse GoalResponse",
         "rclpy.callback_groups": "ReentrantCallbackGroup",
         "rclpy.lifecycle": "LifecycleNode TransitionCallbackReturn",
+        "rclpy.parameter": "Parameter",
         "rclpy.qos": "QoSProfile",
         "rclpy.qos_overriding_options": "QoSOverridingOptions",
         "rclpy.signals": "SignalHandlerOptions",

@@ -18,6 +18,45 @@ THERE = goal(0.0, 0.1, 0.2)
 APPROACH = Policy(replace="approach")
 
 
+def test_a_path_longer_than_the_ring_of_the_driver():
+    rows = [0.2 * (1 - np.cos(n * 0.05)) for n in range(500)]
+    with station() as s:
+        outcome = s.outcome(goal(*rows, seconds=0.1))
+        assert outcome.status is Ending.SUCCEEDED, outcome.text
+        assert s.joints == pytest.approx([rows[-1]] * 6, abs=1e-4)
+
+
+@pytest.mark.parametrize("mode", ["manual_reduced", "manual_full"])
+def test_manual_mode_moves_while_the_enabling_device_is_held(mode):
+    with station() as s:
+        s.controller.set_mode(mode)
+        s.controller.set_motors(True)
+        s.controller.start_program()
+        s.controller.run_for(2.0)
+        assert s.outcome(goal(0.0, 0.05, seconds=2.0)).status is Ending.SUCCEEDED
+
+
+def test_joints_of_a_coupled_model_are_those_of_its_urdf():
+    """Axis 3 of the controller is joint 3 and joint 2: `J23_coupled` of abb_driver."""
+    with station(name="irb2400") as s:
+        asked = goal(0.0, [0.0, 0.4, -0.3, 0.0, 0.0, 0.0], seconds=2.0)
+        assert s.outcome(asked).status is Ending.SUCCEEDED
+        assert s.joints[:3] == pytest.approx([0.0, 0.4, 0.1], abs=1e-4)
+        assert s.robot.state.joints[2] == pytest.approx(-0.3, abs=1e-4)
+        far = s.outcome(goal(s.robot.state.joints, [0.0, 1.0, 0.6, 0.0, 0.0, 0.0], seconds=4.0))
+        assert (far.status, far.code) == (Ending.ABORTED, Code.INVALID_GOAL)
+
+
+def test_joints_of_a_track_and_a_positioner():
+    with station(name="irb120_track") as s:
+        names, here = s.robot.group.names, s.robot.state.joints
+        there = {"track": 0.5, "positioner": 1.0}
+        row = [there.get(name, 0.1) for name in names]
+        asked = goal(here, row, seconds=4.0, names=names)
+        assert s.outcome(asked).status is Ending.SUCCEEDED
+        assert s.robot.state.joints == pytest.approx(row, abs=1e-3)
+
+
 def test_succeeded_only_where_the_controller_is_done():
     with station() as s:
         outcome = s.outcome(THERE)
@@ -250,12 +289,30 @@ def test_a_controller_that_is_gone_aborts():
         assert outcome.status is Ending.ABORTED
 
 
+@pytest.mark.parametrize("cancelled", [False, True])
+@pytest.mark.parametrize("after", [0.0, 0.03, 0.08])
+def test_a_link_that_is_lost_while_a_goal_is_sent_leaves_open_whether_it_moves(after, cancelled):
+    """-1 says that nothing has moved: nobody knows that any more, nor behind a lost STOP."""
+    asked, under = goal(*(0.01 * n for n in range(50)), seconds=0.2), UnderWay()
+    with station() as s:
+
+        def fault():
+            s.controller.power_loss()
+            if cancelled:
+                under.cancel()
+
+        outcome = s.run(_after(s, after, s.follow(asked, under), fault))
+        assert (outcome.status, outcome.code) == (Ending.ABORTED, Code.PATH_TOLERANCE_VIOLATED)
+        assert ("STOP" if cancelled else "connection") in outcome.text
+
+
 def test_a_link_that_is_lost_before_the_stamp_aborts_at_once():
     with station() as s:
         began = s.loop.time()
         asked = replace(THERE, stamp=began + 600.0)
         outcome = s.run(_after(s, 1.0, s.follow(asked), s.controller.power_loss))
-        assert outcome.status is Ending.ABORTED
+        # Nothing was sent: nothing can have moved.
+        assert (outcome.status, outcome.code) == (Ending.ABORTED, Code.INVALID_GOAL)
         assert "connection" in outcome.text
         assert s.loop.time() - began < 60.0
 

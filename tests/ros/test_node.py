@@ -11,6 +11,8 @@ from rapidgen.generate import build, make_system
 
 NAMES = [f"joint_{n}" for n in range(1, 7)]
 SPEED = 10.0
+LONG = 600.0
+"""Simulated s of a motion that is to go on while something is asked, however slow this machine."""
 
 
 @pytest.fixture
@@ -87,6 +89,15 @@ def test_a_goal_from_end_to_end(up):
     assert states.header.stamp.sec > 0
 
 
+def test_what_is_told_is_reliable_volatile_and_ten_deep(up):
+    node = up()
+    assert set(node.topics) == {"joint_states", "/diagnostics", "robot_status"}
+    for topic in node.topics.values():
+        told = topic.qos.reliability, topic.qos.durability, topic.qos.depth
+        assert told == ("RELIABLE", "VOLATILE", 10)
+        assert topic.overriding is not None
+
+
 def test_refused_is_aborted_with_its_reason(up):
     node = up()
     status, code, text = ended(action(node).send(goal(0.0, 9.0, 0.0)))
@@ -110,7 +121,7 @@ def test_a_good_goal_behind_a_refused_one_is_told_as_good(up):
 
 def test_cancel_is_canceled_and_of_a_second_goal_leaves_the_first(up):
     node = up()
-    first = action(node).send(goal(0.0, 0.5, 1.0, seconds=20.0))
+    first = action(node).send(goal(0.0, 0.5, 1.0, seconds=LONG))
     assert first.fed.wait(60)
     second = action(node).send(goal(0.5, 0.0))
     assert ended(second)[0] == "aborted"
@@ -123,15 +134,33 @@ def test_services_and_speed(up):
     node = up()
     told = node.services["resume"]()
     assert (told.success, "nothing was paused" in told.message) == (False, True)
-    handle = action(node).send(goal(0.0, 0.5, seconds=5.0))
+    handle = action(node).send(goal(0.0, 0.5, seconds=LONG))
     assert handle.fed.wait(60)
     assert node.services["pause"]().success
     assert node.services["resume"]().success
     assert node.set("speed", 50.0).successful
     refused = node.set("speed", 500.0)
     assert (refused.successful, "1 to 100" in refused.reason) == (False, True)
+    assert node.get_parameter("speed").value == 50.0
     assert node.services["stop"]().success
     assert ended(handle)[0] == "aborted"
+
+
+def test_the_parameter_speed_ends_with_the_motion(up):
+    node = up()
+    refused = node.set("speed", 50.0)
+    assert (refused.successful, "no trajectory" in refused.reason) == (False, True)
+    handle = action(node).send(goal(0.0, 0.5, seconds=LONG))
+    assert handle.fed.wait(60)
+    assert node.set("speed", 50.0).successful
+    action(node).cancel(handle)
+    assert ended(handle)[0] == "canceled"
+    assert node.get_parameter("speed").value == 100.0
+
+
+def test_a_parameter_that_would_change_nothing_is_refused(up):
+    refused = up().set("replace", "approach")
+    assert (refused.successful, "when the node is configured" in refused.reason) == (False, True)
 
 
 def test_stop_ends_a_goal_that_waits_for_its_moment(up):
@@ -158,7 +187,7 @@ def test_up_before_the_robot_and_says_why_it_waits(driver_type):
 
 def test_ends_with_a_goal_under_way_and_the_robot_stands(up, sim):
     node = up()
-    handle = action(node).send(goal(0.0, 0.5, seconds=20.0))
+    handle = action(node).send(goal(0.0, 0.5, seconds=LONG))
     assert handle.fed.wait(60)
     node.trigger_deactivate()
     assert ended(handle)[0] == "aborted"
@@ -184,6 +213,8 @@ def test_what_ends_a_link_is_said(up):
     ("parameters", "told"),
     [
         ({"config": "irb12o"}, "irb12o"),
+        ({"config": "irb120", "address": "not an address"}, "is no address of a robot"),
+        ({"config": "irb14000", "address": "127.0.0.1:11000"}, "irb14000 has 2 of them"),
         # An override is of a motion: the first goal would have gone at full speed.
         ({"config": "irb120", "speed": 20.0}, "nothing moves yet"),
     ],

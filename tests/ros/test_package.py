@@ -1,6 +1,7 @@
 """Generated ROS packages: names that match, frames that are where the kinematics says."""
 
 import ast
+import os
 import random
 import xml.etree.ElementTree as ET
 from io import BytesIO
@@ -81,8 +82,52 @@ def test_srdf_names_links_and_joints_that_the_urdf_has():
     pairs = list(srdf.iter("disable_collisions"))
     assert {pair.attrib[key] for pair in pairs for key in ("link1", "link2")} <= links
     assert {group.attrib["name"] for group in srdf.findall("group")} == {
-        "rob_l", "rob_l_arm", "rob_r", "rob_r_arm", "robots"
+        "rob_l", "rob_r", "robots"
     }  # fmt: skip
+
+
+@pytest.mark.parametrize("name", shipped_names())
+def test_a_plan_of_a_motion_group_has_kinematics_and_fits_its_controller(name):
+    """As MoveIt reads the groups (robot_model.cpp: `addJointModelGroup`, `setKinematicsAllocators`;
+    robot_trajectory.cpp: joints that move and mimic none)."""
+    files = package(name)
+    urdf, srdf = (
+        ET.fromstring(files[f"config/{name}_rapidgen.{kind}"]) for kind in ("urdf", "srdf")
+    )
+    solved = YAML(typ="safe").load(files["config/kinematics.yaml"])
+    groups = {group.attrib["name"]: group for group in srdf.findall("group")}
+    joints = {group: _joints(groups, group, urdf) for group in groups}
+    assert set(solved) <= set(groups)
+    controllers = YAML(typ="safe").load(files["config/moveit_controllers.yaml"])
+    controllers = controllers["moveit_simple_controller_manager"]
+    for group in load_config(name).groups:
+        own = [one for one in solved if joints[one] <= joints[group.name]]
+        assert len(own) == 1
+        assert groups[own[0]].find("chain") is not None
+        moving = {
+            joint.attrib["name"]
+            for joint in urdf.iter("joint")
+            if joint.attrib["name"] in joints[group.name]
+            and joint.attrib["type"] != "fixed"
+            and joint.find("mimic") is None
+        }
+        assert moving == set(controllers[f"{group.name}_controller"]["joints"])
+        if "robots" in groups:
+            assert joints[group.name] <= joints["robots"]
+
+
+def _joints(groups, name, urdf):
+    """Names of all joints of a planning group, fixed ones included."""
+    above = {joint.find("child").attrib["link"]: joint for joint in urdf.iter("joint")}
+    group, found = groups[name], set()
+    for chain in group.findall("chain"):
+        link = chain.attrib["tip_link"]
+        while link != chain.attrib["base_link"]:
+            found.add(above[link].attrib["name"])
+            link = above[link].find("parent").attrib["link"]
+    found |= {joint.attrib["name"] for joint in group.findall("joint")}
+    within = [one.attrib["name"] for one in group.findall("group")]
+    return found.union(*(_joints(groups, one, urdf) for one in within))
 
 
 @pytest.mark.parametrize("name", ["irb120", "irb2400", "irb5400", "irb14050"])
@@ -165,13 +210,13 @@ def test_two_robots_share_a_moveit(cell):
     joints = [joint.attrib["name"] for joint in urdf.iter("joint")]
     assert len(set(joints)) == len(joints)
     assert {m.attrib["joint"] for m in urdf.iter("mimic")} <= set(joints)
-    named = [joint.attrib["name"] for joint in srdf.iter("joint")]
+    named = [joint.attrib["name"] for joint in srdf.findall("group_state/joint")]
     assert set(named) <= set(joints)
     assert set(YAML(typ="safe").load(files["config/joint_limits.yaml"])["joint_limits"]) == set(
         named
     )
     groups = {group.attrib["name"] for group in srdf.findall("group")}
-    assert groups == {"left_rob1", "left_rob1_arm", "right_rob1", "right_rob1_arm", "robots"}
+    assert groups == {"left_rob1", "right_rob1", "robots"}
     launch = files["launch/driver.launch.py"]
     ast.parse(launch)
     assert "__ns:=/right" in launch
@@ -213,9 +258,16 @@ def test_written_whole_again_and_not_over_somebody_elses(tmp_path):
     files = package("irb120")
     write(files, tmp_path / "a")
     write(files, tmp_path / "a")
+    assert not os.access(tmp_path / "a" / "package.xml", os.X_OK)
     (tmp_path / "a" / "mine.txt").write_text("mine")
     with pytest.raises(DiagnosticError, match=r"mine\.txt"):
         write(files, tmp_path / "a")
+
+
+def test_the_watcher_can_be_executed(tmp_path):
+    """`roslaunch` finds no node in a file that cannot."""
+    write(ros1_package(load_config("irb120"), "irb120"), tmp_path)
+    assert os.access(tmp_path / "scripts/watcher.py", os.X_OK)
 
 
 @pytest.mark.parametrize("verb", ["ros1", "ros2"])

@@ -137,7 +137,7 @@ class Debugger:
                 tracers.remove(self._statement)
             return
         if self._statement not in tracers:
-            tracers.append(self._statement)
+            self._controller.statements.listen(self._statement)
         for name, task in self._tasks.items():
             doubt = task.report_statements()
             for placed in self.placed.values():

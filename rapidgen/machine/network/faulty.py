@@ -202,6 +202,10 @@ class FaultyNetwork(Network):
         self._lines.clear()
         self._inner.shut_down()
 
+    def obey(self, rules: tuple[NetworkRule, ...]) -> None:
+        """Another plan, for connections that are still to come."""
+        self._rules = rules
+
     def afflict(self, endpoint: Endpoint, rule: NetworkRule) -> None:
         """From now on one rule is about a connection, instead of those of the plan; what waits
         passes before."""

@@ -281,6 +281,11 @@ class ModuleScope:
             self.task.records[symbol] = found
         return found
 
+    def knows_in_part(self, type_name: str) -> bool:
+        """Whether a predefined record has components whose names are not public."""
+        symbol = self.find(type_name)
+        return isinstance(symbol, TypeSymbol) and symbol.partly
+
     def takes(self, type_name: str, members: int) -> bool:
         """Whether an aggregate of so many members is a value of a record type."""
         symbol = self.find(type_name)
@@ -383,7 +388,9 @@ def builtin(key: str) -> Symbol | None:
         record = signatures.record(key)
         if record is None:
             return TypeSymbol(key, "TYPE")
-        return TypeSymbol(key, "TYPE", components=record.components, newer=record.newer)
+        return TypeSymbol(
+            key, "TYPE", components=record.components, newer=record.newer, partly=record.partly
+        )
     routine = signatures.routine(key)
     if routine is not None:
         return RoutineSymbol(routine.name, routine.kind, type=routine.type, signature=routine)

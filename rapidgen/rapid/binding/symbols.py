@@ -138,6 +138,8 @@ class TypeSymbol(Symbol):
     """(type, name) of a record's components in order, as declared; None for what is no record."""
     newer: int = 0
     """So many of the last components are missing in values that older releases saved."""
+    partly: bool = False
+    """Not all names of the components of a predefined record are public."""
 
     @property
     def token(self) -> int:

@@ -20,9 +20,10 @@ Marks behind a header say what its parameters do not:
 
 and lines beside declarations: `!readonly ERRNO` names data that a program cannot write, `!writable
 vmax` constants that it can, `!newer accdata finepramp` the last components of a record, which are
-missing in values of older releases. Alternatives of *required* parameters (`VAR signaldi Signal |
-PERS bool PersBool`) exist in built-ins only, and so does an optional one in place of a required one
-(`string Message | \\string MsgArray{*}`).
+missing in values of older releases, `!partly partdata` a record some of whose components have names
+of ours, because the real ones are not public. Alternatives of *required* parameters (`VAR signaldi
+Signal | PERS bool PersBool`) exist in built-ins only, and so does an optional one in place of a
+required one (`string Message | \\string MsgArray{*}`).
 """
 
 import re
@@ -61,7 +62,7 @@ _HEADER: Final = re.compile(
 )
 _CLASSES: Final = re.compile(r"^!(value|nonvalue|semivalue) (.*)$", re.MULTILINE)
 _DECLARATION: Final = re.compile(
-    r"^(?:RECORD\b.*?^ENDRECORD$|(?:ALIAS|CONST|PERS|VAR)\b[^;]*;|!\w+value [^\n]*$)",
+    r"^(?:RECORD\b.*?^ENDRECORD$|(?:ALIAS|CONST|PERS|VAR)\b[^;]*;|!(?:\w+value|partly) [^\n]*$)",
     re.MULTILINE | re.DOTALL,
 )
 _NAMES: Final = re.compile(r"^!(procedures|functions|types|values) (.*)$", re.MULTILINE)
@@ -73,6 +74,7 @@ _MARKS: Final = frozenset(
 )
 _READ_ONLY: Final = re.compile(r"^!readonly (.*)$", re.MULTILINE)
 _WRITABLE: Final = re.compile(r"^!writable (.*)$", re.MULTILINE)
+_PARTLY: Final = re.compile(r"^!partly (.*)$", re.MULTILINE)
 _NEWER: Final = re.compile(r"^!newer (\w+) (.*)$", re.MULTILINE)
 
 
@@ -113,6 +115,8 @@ class PredefinedRecord:
     components: tuple[tuple[str, str], ...]
     newer: int = 0
     """So many of the last components are missing in values that older releases saved."""
+    partly: bool = False
+    """Some components have names of ours: the real ones are not public."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -245,6 +249,7 @@ def _types() -> _Types:
     aliases: dict[str, str] = {}
     records: dict[str, PredefinedRecord] = {}
     newer = {name: len(listed.split()) for name, listed in _NEWER.findall(text)}
+    partly = {name for listed in _PARTLY.findall(text) for name in listed.split()}
     for kind, listed in _CLASSES.findall(text):
         for name in listed.split():
             classes[name] = kind
@@ -257,7 +262,9 @@ def _types() -> _Types:
             aliases[key] = declaration.type
         elif isinstance(declaration, RecordDeclaration):
             components = tuple((c.type, c.name) for c in declaration.components)
-            records[key] = PredefinedRecord(declaration.name, components, newer.get(key, 0))
+            records[key] = PredefinedRecord(
+                declaration.name, components, newer.get(key, 0), key in partly
+            )
     return _Types(classes, names, aliases, records)
 
 

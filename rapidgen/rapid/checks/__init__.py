@@ -52,7 +52,9 @@ def check(
     `dialect` is given. Findings of the parser are included. Sorted by place.
     """
     if isinstance(given, System):
-        return _check_system(given, dialect or Dialect(given.robotware), gaps)
+        return _check_system(
+            given, dialect or Dialect(given.robotware, some=not given.robotware_told), gaps
+        )
     dialect = dialect or Dialect()
     if isinstance(given, str | bytes):
         given = parse(given, path=path, dialect=dialect)

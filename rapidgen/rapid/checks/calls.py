@@ -36,12 +36,12 @@ from rapidgen.rapid.syntax.nodes import (
     ProcedureCall,
     Star,
 )
+from rapidgen.system.releases import ANY_MINOR
 
 if TYPE_CHECKING:
     from rapidgen.rapid.checks.typing import TypeChecker
 
 _Call = FunctionCall | ProcedureCall | LateCall
-_ANY_MINOR: Final = 99
 """Minor release that stands for a whole line of them."""
 _RAW_BYTES: Final = 1024
 """Bytes of a rawbytes."""
@@ -112,12 +112,16 @@ class CallChecker:
                 self._argument(symbol, parameters[pair.parameter], pair.argument)
         if found.missing and len(arguments) == len(node.arguments):
             listed = ", ".join(f"'{parameters[k].name}'" for k in found.missing)
+            # A module that is not here may declare a routine without parameters that hides it.
+            hidden = isinstance(node, ProcedureCall) and not node.arguments
+            hidden = hidden and symbol.node is None and not self.findings.given.knows_all
             self.report(
                 "RG311",
                 f"{symbol.name} needs {listed}",
                 node.first,
                 help=f"it takes {_listed(parameters)}",
                 related=self.declared(symbol),
+                severity=Severity.WARNING if hidden else Severity.ERROR,
             )
 
     def _version(self, symbol: RoutineSymbol, node: _Call) -> None:
@@ -143,7 +147,7 @@ class CallChecker:
         else:
             return
         major, minor = dialect.robotware
-        shown = f"{major}" if minor >= _ANY_MINOR else f"{major}.{minor:02d}"
+        shown = f"{major}" if minor >= ANY_MINOR else f"{major}.{minor:02d}"
         self.report(
             "RG325",
             message,
@@ -321,7 +325,11 @@ class CallChecker:
         value = constant(argument.value, self.findings.here)
         if isinstance(value, int | float) and not 1 <= value <= _RAW_BYTES:
             self.report(
-                "RG319", f"a raw byte index lies in 1 to {_RAW_BYTES}, not {value:g}", argument
+                "RG319",
+                f"a raw byte index lies in 1 to {_RAW_BYTES}, not {value:g}",
+                argument,
+                notes=("the error comes when it is executed",),
+                severity=Severity.WARNING,
             )
 
 

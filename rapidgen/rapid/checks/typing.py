@@ -56,6 +56,8 @@ from rapidgen.rapid.syntax.nodes import (
     Unary,
 )
 
+_LOADED: Final = ("the error comes when it is executed",)
+"""Two controllers' backups hold a module with an index outside its array: it is loaded."""
 _MAX_DEPTH: Final = 50
 
 
@@ -153,6 +155,9 @@ class TypeChecker:
         """Look at an expression whose place says nothing about its type."""
         if isinstance(node, Name | Index | Member):
             self.datum(node)
+        elif isinstance(node, Binary) and node.has_type_of_place:
+            self.used(node.left)
+            self.used(node.right)
         else:
             self.type_of(node)
 
@@ -186,11 +191,14 @@ class TypeChecker:
         if node.component.lower() not in components:
             likely = closest(node.component, components)
             listed = ", ".join(components)
+            partly = self.findings.module.knows_in_part(base)
             self.report(
                 "RG304",
                 f"{base} has no component '{node.component}'",
                 node.last,
                 help=f"did you mean '{likely}'?" if likely else f"it has {listed}",
+                notes=("not all names of its components are public",) if partly else (),
+                severity=Severity.WARNING if partly else Severity.ERROR,
             )
             return None
         return components[node.component.lower()]
@@ -254,14 +262,19 @@ class TypeChecker:
                 continue
             size = sizes[k] if k < len(sizes) else None
             if value != int(value) or value < 1:
-                self.report("RG318", f"an index is a whole number from 1, not {value:g}", index)
+                self.report(
+                    "RG318",
+                    f"an index is a whole number from 1, not {value:g}",
+                    index,
+                    notes=_LOADED,
+                    severity=Severity.WARNING,
+                )
             elif isinstance(size, int | float) and not isinstance(size, bool) and value > size:
                 self.report(
                     "RG318",
                     f"the index {value:g} is outside the array of {size:g}",
                     index,
-                    # Two controllers' backups hold such a module, so controllers load it.
-                    notes=("the error comes when it is executed",),
+                    notes=_LOADED,
                     related=self.declared(symbol) if symbol else (),
                     severity=Severity.WARNING,
                 )
@@ -362,6 +375,9 @@ class TypeChecker:
         if isinstance(node, Aggregate):
             self._members(node, wanted, place)
             return wanted
+        if wanted == "pos" and isinstance(node, Binary) and node.has_type_of_place:
+            self.expect(node.left, wanted, place)
+            return self.expect(node.right, wanted, place)
         if isinstance(node, NumberLiteral):
             if wanted == "num":
                 self._single(node)

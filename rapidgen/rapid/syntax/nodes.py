@@ -109,6 +109,13 @@ class Binary(Node):
     left: "Expression"
     right: "Expression"
 
+    @property
+    def has_type_of_place(self) -> bool:
+        """Whether both operands of + or - are aggregates, which only the place gives a type."""
+        if self.operator not in ("+", "-"):
+            return False
+        return isinstance(self.left, Aggregate) and isinstance(self.right, Aggregate)
+
 
 @dataclass(slots=True, eq=False)
 class Parenthesis(Node):

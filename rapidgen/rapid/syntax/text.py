@@ -1,6 +1,7 @@
 """What is wrong with a text as a whole: too large, binary, encoded, empty, no module."""
 
 import re
+from bisect import bisect_right
 from collections.abc import Sequence
 from math import isinf
 from typing import Final
@@ -17,6 +18,7 @@ from rapidgen.rapid.syntax.lexer import (
     number_value,
 )
 from rapidgen.rapid.syntax.nodes import Module
+from rapidgen.rapid.syntax.scan import TOUCHING
 from rapidgen.rapid.syntax.source import Source
 
 MAX_BYTES: Final = 8_000_000
@@ -28,6 +30,7 @@ _TELLING: Final = frozenset(
     ["ENDMODULE", "PROC", "ENDPROC", "ENDFUNC", "TRAP", "ENDTRAP", "PERS", "CONST"]
 )
 """Words that only RAPID has."""
+_NUMERIC: Final = frozenset("0123456789.")
 _ENCODED: Final = b"\xfc\xfe"
 """First byte of encoded modules in public backups [code]."""
 _UTF16: Final = (b"\xff\xfe", b"\xfe\xff")
@@ -105,9 +108,29 @@ def _unseen(tokens: Tokens) -> Diagnostic:
     )
 
 
+def _touching(source: Source) -> list[Diagnostic]:
+    """The first number with a word right behind it."""
+    for match in TOUCHING.finditer(source.text):
+        at = bisect_right(source.starts, match.start()) - 1
+        number = source.tokens[at] if at >= 0 else ""
+        if number[:1] in _NUMERIC and source.starts[at] + len(number) == match.start() + 1:
+            return [
+                error(
+                    "RG205",
+                    source.span(at, at + 1),
+                    f"no blank stands between {number} and {source.tokens[at + 1]}",
+                    "put a blank between them",
+                    notes=("[K §2.2] wants one; controllers seem to do without",),
+                    severity=Severity.WARNING,
+                )
+            ]
+    return []
+
+
 def spellings(tokens: Tokens) -> list[Diagnostic]:
     """Names too long, strings with a tab, numbers beyond any type: each at its first place."""
     found = [_unseen(tokens)] if tokens.blanks else []
+    found += _touching(tokens.source)
     folded = set()
     for text, kind in tokens.spellings.items():
         if kind in (NUMBER, BAD_RADIX) and isinf(number_value(text)):

@@ -69,7 +69,10 @@ def _ros2(members: Sequence[CellMember], called: str, names: Sequence[str]) -> d
             "source": member.source,
             "prefix": robot.prefix,
             "host": f"127.0.0.{number}",
-            "groups": [_group(group, one) for group in member.config.groups],
+            "groups": [
+                _group(group, one) | {"solved": _solved(group, robot.prefix, drawn)}
+                for group in member.config.groups
+            ],
         }
         for number, (one, member, robot) in enumerate(zip(names, members, placed, strict=True), 1)
     ]
@@ -139,6 +142,8 @@ def write(files: dict[str, str], folder: Path) -> None:
     for path, text in files.items():
         (folder / path).parent.mkdir(parents=True, exist_ok=True)
         write_whole(folder / path, text.encode())
+        if text.startswith("#!"):
+            (folder / path).chmod(0o755)
 
 
 def _rendered(kind: str, name: str, context: Mapping[str, object]) -> dict[str, str]:
@@ -157,6 +162,11 @@ def _rendered(kind: str, name: str, context: Mapping[str, object]) -> dict[str, 
         path = template.removesuffix(".j2").replace("NAME", name)
         files[path] = environment.get_template(template).render(context)
     return files
+
+
+def _solved(group: GroupConfig, prefix: str, drawn: urdf.Drawn) -> str:
+    joints = [prefix + joint.name for joint in group.joints]
+    return srdf.chain_group(prefix + group.name, joints, drawn)
 
 
 def _group(group: GroupConfig, robot: str = "") -> dict[str, object]:

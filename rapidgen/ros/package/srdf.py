@@ -44,15 +44,26 @@ def draw(robots: Sequence[PlacedRobot], drawn: Drawn, name: str) -> str:
     return ET.tostring(root, encoding="unicode", xml_declaration=True) + "\n"
 
 
+def chain_group(name: str, joints: Sequence[str], drawn: Drawn) -> str:
+    """The planning group of the arm's chain, whose kinematics can be solved: the motion group's
+    own, or one beside it where the motion group has more joints (those of positioners)."""
+    return name if set(joints) <= set(drawn.arms[name].joints) else f"{name}_arm"
+
+
 def _group(root: ET.Element, group: GroupConfig, prefix: str, drawn: Drawn) -> None:
     name = prefix + group.name
-    element = ET.SubElement(root, "group", name=name)
-    for joint in group.joints:
-        ET.SubElement(element, "joint", name=prefix + joint.name)
-    arm = drawn.arms[name]
-    ET.SubElement(root, "group", name=f"{name}_arm").append(
-        ET.Element("chain", base_link=arm.links[0], tip_link=arm.tip)
-    )
+    joints = [prefix + joint.name for joint in group.joints]
+    arm, solved = drawn.arms[name], chain_group(name, joints, drawn)
+    # MoveIt solves a group by the solver of one in it, fixed joints included: a list of joints
+    # that move would have none.
+    chain = ET.Element("chain", base_link=arm.links[0], tip_link=arm.tip)
+    ET.SubElement(root, "group", name=solved).append(chain)
+    if solved != name:
+        whole = ET.SubElement(root, "group", name=name)
+        ET.SubElement(whole, "group", name=solved)
+        for joint in joints:
+            if joint not in arm.joints:
+                ET.SubElement(whole, "joint", name=joint)
     home = ET.SubElement(root, "group_state", name="home", group=name)
     for joint_name, value in home_posture(group):
         ET.SubElement(home, "joint", name=prefix + joint_name, value=f"{value:.6g}")

@@ -80,6 +80,9 @@ class Linker:
         self.faults: list[Diagnostic] = []
         """Errors, and warnings of types that nothing declares."""
         self.trace_points: list[tuple[Routine, n.Statement]] = []
+        self.told: list[bool] = []
+        """By trace point, whether somebody may want to know of it; compiled code looks here."""
+        self.space["TOLD"] = self.told
         self._kept: dict[int, str] = {}
         self._loaded: dict[ModuleScope, LoadedModule] = {}
         self._modules = 0
@@ -109,6 +112,7 @@ class Linker:
     def trace_point(self, routine: Routine, statement: n.Statement) -> int:
         """Number of a statement, for tracing."""
         self.trace_points.append((routine, statement))
+        self.told.append(True)
         return len(self.trace_points) - 1
 
     # -- modules ---------------------------------------------------------------------------------

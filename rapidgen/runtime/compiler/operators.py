@@ -78,6 +78,8 @@ def binary(unit: Unit, node: n.Binary, want: Type | None) -> E:
 def _operands(unit: Unit, node: n.Binary, want: Type | None) -> tuple[E, E]:
     """Both operands; a literal takes the type of the other one."""
     wanted = want if want is not None and want.kind in ("num", "dnum") else None
+    if want is not None and want.name == "pos" and node.has_type_of_place:
+        return unit.expression(node.left, want), unit.expression(node.right, want)
     if isinstance(node.left, n.Aggregate):
         right = unit.expression(node.right, wanted)
         return unit.expression(node.left, right.type), right

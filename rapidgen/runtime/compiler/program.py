@@ -66,6 +66,7 @@ class Program:
         self.evaluate = self.linker.evaluate
         self.global_ref = self.linker.global_ref
         self.trace_points = self.linker.trace_points
+        self.told = self.linker.told
 
     # -- loading ---------------------------------------------------------------------------------
 
@@ -122,8 +123,13 @@ class Program:
         traced = " traced" if self.options.tracing else ""
         return f"<rapid {self.name} {routine.module.name} {routine.name}{traced}>"
 
+    def tell_all(self) -> None:
+        """Code that reports its statements reports every one of them again."""
+        self.told[:] = [True] * len(self.told)
+
     def trace_from_now(self) -> None:
         """Compile with a report of every statement from now on."""
+        self.tell_all()
         if not self.options.tracing:
             self.options = replace(self.options, tracing=True, accounting="statement")
             self._reset_code()

@@ -505,14 +505,21 @@ class Task(Process):
         """A statement is about to be executed."""
         routine, node = self.program.trace_points[point]
         module, statements = routine.module, self.controller.statements
+        told = self.stepper.forward is not None
         for tracer in statements.tracers:
-            tracer(self.name, routine, node)
+            if not tracer(self.name, routine, node):
+                told = True
         if self.stepper.forward is not None and self.stepper.reached(module):
             self.stepper.end()
-        if statements.breakpoints and module is not None:
-            for action in statements.due(self.name, module, node):
-                action()
-                self.attend()
+        if statements.waiting and module is not None:
+            actions = statements.due(self.name, module, node)
+            if actions is not None:
+                told = True
+                for action in actions:
+                    action()
+                    self.attend()
+        if not told:
+            self.program.told[point] = False
 
     def exit(self) -> None:
         """EXIT [K §4.9]."""

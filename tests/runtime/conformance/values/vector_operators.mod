@@ -16,8 +16,13 @@ MODULE vector_operators
     r := r * r;
     TPWrite NumToStr(r.q1,3) + " " + NumToStr(r.q4,3);
     ! expect: 0.000 1.000
+    TPWrite ValToStr(Twice([9, 8, 7] - [1, 2, 3]));
+    ! expect: [16,12,8]
   ERROR
     TPWrite "divided by " + NumToStr(b.x,0);
     TRYNEXT;
   ENDPROC
+  FUNC pos Twice(pos v)
+    RETURN 2 * v;
+  ENDFUNC
 ENDMODULE

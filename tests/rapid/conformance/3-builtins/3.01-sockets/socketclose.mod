@@ -4,7 +4,7 @@ MODULE Demo
     VAR socketdev v_socketdev;
     PROC main()
         SocketClose v_socketdev;
-        SocketClose;  ! -> RG311
+        SocketClose;  ! -> RG311?
         SocketClose v_socketdev \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

@@ -5,7 +5,7 @@ MODULE Demo
     PROC main()
         SocketCreate v_socketdev;
         SocketCreate v_socketdev \UDP;
-        SocketCreate;  ! -> RG311
+        SocketCreate;  ! -> RG311?
         SocketCreate v_socketdev \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

@@ -4,7 +4,7 @@ MODULE Demo
     VAR socketdev v_socketdev;
     PROC main()
         SocketListen v_socketdev;
-        SocketListen;  ! -> RG311
+        SocketListen;  ! -> RG311?
         SocketListen v_socketdev \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

@@ -11,7 +11,7 @@ MODULE Demo
         SocketReceive v_socketdev \Str:=v_string \ReadNoOfBytes:=1 \NoRecBytes:=v_num \Time:=1;
         SocketReceive v_socketdev \RawData:=v_rawbytes \ReadNoOfBytes:=1 \NoRecBytes:=v_num \Time:=1;
         SocketReceive v_socketdev \Data:=v_byte_array \ReadNoOfBytes:=1 \NoRecBytes:=v_num \Time:=1;
-        SocketReceive;  ! -> RG311
+        SocketReceive;  ! -> RG311?
         SocketReceive v_socketdev \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

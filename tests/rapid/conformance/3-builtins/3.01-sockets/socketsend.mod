@@ -9,7 +9,7 @@ MODULE Demo
         SocketSend v_socketdev \Str:="x" \NoOfBytes:=1;
         SocketSend v_socketdev \RawData:=v_rawbytes \NoOfBytes:=1;
         SocketSend v_socketdev \Data:=v_byte_array \NoOfBytes:=1;
-        SocketSend;  ! -> RG311
+        SocketSend;  ! -> RG311?
         SocketSend v_socketdev \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

@@ -8,7 +8,7 @@ MODULE Demo
     PROC main()
         RMQGetMsgHeader v_rmqmessage;
         RMQGetMsgHeader v_rmqmessage \Header:=v_rmqheader \SenderId:=v_rmqslot \UserDef:=v_num;
-        RMQGetMsgHeader;  ! -> RG311
+        RMQGetMsgHeader;  ! -> RG311?
         RMQGetMsgHeader v_rmqmessage \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

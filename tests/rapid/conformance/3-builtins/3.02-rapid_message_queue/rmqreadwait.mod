@@ -5,7 +5,7 @@ MODULE Demo
     PROC main()
         RMQReadWait v_rmqmessage;
         RMQReadWait v_rmqmessage \TimeOut:=1;
-        RMQReadWait;  ! -> RG311
+        RMQReadWait;  ! -> RG311?
         RMQReadWait v_rmqmessage \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

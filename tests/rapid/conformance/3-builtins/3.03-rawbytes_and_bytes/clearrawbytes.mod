@@ -5,7 +5,7 @@ MODULE Demo
     PROC main()
         ClearRawBytes v_rawbytes;
         ClearRawBytes v_rawbytes \FromIndex:=1;
-        ClearRawBytes;  ! -> RG311
+        ClearRawBytes;  ! -> RG311?
         ClearRawBytes v_rawbytes \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

@@ -5,7 +5,7 @@ MODULE Demo
     PROC main()
         SyncMoveOff v_syncident;
         SyncMoveOff v_syncident \TimeOut:=1;
-        SyncMoveOff;  ! -> RG311
+        SyncMoveOff;  ! -> RG311?
         SyncMoveOff v_syncident \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

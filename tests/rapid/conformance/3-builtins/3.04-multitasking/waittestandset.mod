@@ -4,7 +4,7 @@ MODULE Demo
     PERS bool p_bool;
     PROC main()
         WaitTestAndSet p_bool;
-        WaitTestAndSet;  ! -> RG311
+        WaitTestAndSet;  ! -> RG311?
         WaitTestAndSet p_bool \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

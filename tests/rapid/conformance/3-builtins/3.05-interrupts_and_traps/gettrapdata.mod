@@ -4,7 +4,7 @@ MODULE Demo
     VAR trapdata v_trapdata;
     PROC main()
         GetTrapData v_trapdata;
-        GetTrapData;  ! -> RG311
+        GetTrapData;  ! -> RG311?
         GetTrapData v_trapdata \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

@@ -4,7 +4,7 @@ MODULE Demo
     VAR intnum v_intnum;
     PROC main()
         IWatch v_intnum;
-        IWatch;  ! -> RG311
+        IWatch;  ! -> RG311?
         IWatch v_intnum \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

@@ -4,7 +4,7 @@ MODULE Demo
     VAR mecunit v_mecunit;
     PROC main()
         DeactUnit v_mecunit;
-        DeactUnit;  ! -> RG311
+        DeactUnit;  ! -> RG311?
         DeactUnit v_mecunit \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

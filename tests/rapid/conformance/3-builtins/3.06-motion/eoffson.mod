@@ -5,7 +5,7 @@ MODULE Demo
     PROC main()
         EOffsOn v_robtarget;
         EOffsOn \ExeP:=v_robtarget, v_robtarget;
-        EOffsOn;  ! -> RG311
+        EOffsOn;  ! -> RG311?
         EOffsOn v_robtarget \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

@@ -4,7 +4,7 @@ MODULE Demo
     VAR extjoint v_extjoint;
     PROC main()
         EOffsSet v_extjoint;
-        EOffsSet;  ! -> RG311
+        EOffsSet;  ! -> RG311?
         EOffsSet v_extjoint \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

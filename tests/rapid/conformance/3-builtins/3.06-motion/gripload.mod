@@ -4,7 +4,7 @@ MODULE Demo
     PERS loaddata p_loaddata;
     PROC main()
         GripLoad p_loaddata;
-        GripLoad;  ! -> RG311
+        GripLoad;  ! -> RG311?
         GripLoad p_loaddata \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

@@ -4,7 +4,7 @@ MODULE Demo
     VAR pathrecid v_pathrecid;
     PROC main()
         PathRecStart v_pathrecid;
-        PathRecStart;  ! -> RG311
+        PathRecStart;  ! -> RG311?
         PathRecStart v_pathrecid \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

@@ -3,7 +3,7 @@
 MODULE Demo
     PROC main()
         PathResol 1;
-        PathResol;  ! -> RG311
+        PathResol;  ! -> RG311?
         PathResol 1 \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

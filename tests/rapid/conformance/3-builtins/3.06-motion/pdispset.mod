@@ -4,7 +4,7 @@ MODULE Demo
     VAR pose v_pose;
     PROC main()
         PDispSet v_pose;
-        PDispSet;  ! -> RG311
+        PDispSet;  ! -> RG311?
         PDispSet v_pose \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

@@ -3,7 +3,7 @@
 MODULE Demo
     PROC main()
         SpeedLimCheckPoint 1;
-        SpeedLimCheckPoint;  ! -> RG311
+        SpeedLimCheckPoint;  ! -> RG311?
         SpeedLimCheckPoint 1 \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

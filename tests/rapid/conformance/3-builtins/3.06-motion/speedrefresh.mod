@@ -3,7 +3,7 @@
 MODULE Demo
     PROC main()
         SpeedRefresh 1;
-        SpeedRefresh;  ! -> RG311
+        SpeedRefresh;  ! -> RG311?
         SpeedRefresh 1 \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

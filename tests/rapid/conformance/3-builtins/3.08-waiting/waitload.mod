@@ -5,7 +5,7 @@ MODULE Demo
     PROC main()
         WaitLoad v_loadsession;
         WaitLoad \UnloadPath:="x" \UnloadFile:="x", v_loadsession \CheckRef;
-        WaitLoad;  ! -> RG311
+        WaitLoad;  ! -> RG311?
         WaitLoad v_loadsession \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

@@ -4,7 +4,7 @@ MODULE Demo
     PROC main()
         WaitTime 1;
         WaitTime \InPos, 1;
-        WaitTime;  ! -> RG311
+        WaitTime;  ! -> RG311?
         WaitTime 1 \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

@@ -4,7 +4,7 @@ MODULE Demo
     VAR signaldo v_signaldo;
     PROC main()
         InvertDO v_signaldo;
-        InvertDO;  ! -> RG311
+        InvertDO;  ! -> RG311?
         InvertDO v_signaldo \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

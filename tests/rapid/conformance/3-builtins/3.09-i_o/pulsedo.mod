@@ -5,7 +5,7 @@ MODULE Demo
     PROC main()
         PulseDO v_signaldo;
         PulseDO \High \PLength:=1, v_signaldo;
-        PulseDO;  ! -> RG311
+        PulseDO;  ! -> RG311?
         PulseDO v_signaldo \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

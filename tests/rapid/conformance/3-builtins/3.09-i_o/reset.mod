@@ -4,7 +4,7 @@ MODULE Demo
     VAR signaldo v_signaldo;
     PROC main()
         Reset v_signaldo;
-        Reset;  ! -> RG311
+        Reset;  ! -> RG311?
         Reset v_signaldo \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

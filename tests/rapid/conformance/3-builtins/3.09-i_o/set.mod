@@ -4,7 +4,7 @@ MODULE Demo
     VAR signaldo v_signaldo;
     PROC main()
         Set v_signaldo;
-        Set;  ! -> RG311
+        Set;  ! -> RG311?
         Set v_signaldo \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

@@ -4,7 +4,7 @@ MODULE Demo
     VAR errnum v_errnum;
     PROC main()
         BookErrNo v_errnum;
-        BookErrNo;  ! -> RG311
+        BookErrNo;  ! -> RG311?
         BookErrNo v_errnum \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

@@ -3,7 +3,7 @@
 MODULE Demo
     PROC main()
         TPShow 1;
-        TPShow;  ! -> RG311
+        TPShow;  ! -> RG311?
         TPShow 1 \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

@@ -8,7 +8,7 @@ MODULE Demo
         TPWrite "x" \Pos:=[1, 2, 3];
         TPWrite "x" \Orient:=[1, 0, 0, 0];
         TPWrite "x" \Dnum:=1;
-        TPWrite;  ! -> RG311
+        TPWrite;  ! -> RG311?
         TPWrite "x" \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

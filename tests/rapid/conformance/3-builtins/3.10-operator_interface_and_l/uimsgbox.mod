@@ -10,6 +10,6 @@ MODULE Demo
     PROC main()
         UIMsgBox "a";
         UIMsgBox \Header:="h", "a" \MsgLine2:="b" \MsgLine3:="c" \MsgLine4:="d" \MsgLine5:="e" \Wrap \Buttons:=btnOK \Icon:=iconInfo \Image:="i" \Result:=r \MaxTime:=1 \DIBreak:=di \DIPassive \DOBreak:=dout \DOPassive \PersBoolBreak:=pb \PersBoolPassive \BreakFlag:=e \UIActiveSignal:=dout;
-        UIMsgBox;  ! -> RG311
+        UIMsgBox;  ! -> RG311?
     ENDPROC
 ENDMODULE

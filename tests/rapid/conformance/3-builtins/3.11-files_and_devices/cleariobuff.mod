@@ -4,7 +4,7 @@ MODULE Demo
     VAR iodev v_iodev;
     PROC main()
         ClearIOBuff v_iodev;
-        ClearIOBuff;  ! -> RG311
+        ClearIOBuff;  ! -> RG311?
         ClearIOBuff v_iodev \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

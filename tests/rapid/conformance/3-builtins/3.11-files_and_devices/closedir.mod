@@ -4,7 +4,7 @@ MODULE Demo
     VAR dir v_dir;
     PROC main()
         CloseDir v_dir;
-        CloseDir;  ! -> RG311
+        CloseDir;  ! -> RG311?
         CloseDir v_dir \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

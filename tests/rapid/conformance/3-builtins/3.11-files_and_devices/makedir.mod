@@ -3,7 +3,7 @@
 MODULE Demo
     PROC main()
         MakeDir "x";
-        MakeDir;  ! -> RG311
+        MakeDir;  ! -> RG311?
         MakeDir "x" \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

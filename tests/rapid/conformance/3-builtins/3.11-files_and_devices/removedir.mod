@@ -3,7 +3,7 @@
 MODULE Demo
     PROC main()
         RemoveDir "x";
-        RemoveDir;  ! -> RG311
+        RemoveDir;  ! -> RG311?
         RemoveDir "x" \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

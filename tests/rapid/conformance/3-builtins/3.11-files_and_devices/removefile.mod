@@ -3,7 +3,7 @@
 MODULE Demo
     PROC main()
         RemoveFile "x";
-        RemoveFile;  ! -> RG311
+        RemoveFile;  ! -> RG311?
         RemoveFile "x" \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

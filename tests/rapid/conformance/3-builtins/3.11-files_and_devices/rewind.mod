@@ -4,7 +4,7 @@ MODULE Demo
     VAR iodev v_iodev;
     PROC main()
         Rewind v_iodev;
-        Rewind;  ! -> RG311
+        Rewind;  ! -> RG311?
         Rewind v_iodev \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

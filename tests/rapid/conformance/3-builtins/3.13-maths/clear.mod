@@ -6,7 +6,7 @@ MODULE Demo
     PROC main()
         Clear v_num;
         Clear v_dnum;
-        Clear;  ! -> RG311
+        Clear;  ! -> RG311?
         Clear v_num \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

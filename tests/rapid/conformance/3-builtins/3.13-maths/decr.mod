@@ -6,7 +6,7 @@ MODULE Demo
     PROC main()
         Decr v_num;
         Decr v_dnum;
-        Decr;  ! -> RG311
+        Decr;  ! -> RG311?
         Decr v_num \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

@@ -6,7 +6,7 @@ MODULE Demo
     PROC main()
         Incr v_num;
         Incr v_dnum;
-        Incr;  ! -> RG311
+        Incr;  ! -> RG311?
         Incr v_num \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

@@ -3,7 +3,7 @@
 MODULE Demo
     PROC main()
         TryInt 1;
-        TryInt;  ! -> RG311
+        TryInt;  ! -> RG311?
         TryInt 1 \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

@@ -4,7 +4,7 @@ MODULE Demo
     VAR clock v_clock;
     PROC main()
         ClkStart v_clock;
-        ClkStart;  ! -> RG311
+        ClkStart;  ! -> RG311?
         ClkStart v_clock \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

@@ -3,7 +3,7 @@
 MODULE Demo
     PROC main()
         TextTabInstall "x";
-        TextTabInstall;  ! -> RG311
+        TextTabInstall;  ! -> RG311?
         TextTabInstall "x" \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

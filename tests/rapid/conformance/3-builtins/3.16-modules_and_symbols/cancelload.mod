@@ -4,7 +4,7 @@ MODULE Demo
     VAR loadsession v_loadsession;
     PROC main()
         CancelLoad v_loadsession;
-        CancelLoad;  ! -> RG311
+        CancelLoad;  ! -> RG311?
         CancelLoad v_loadsession \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

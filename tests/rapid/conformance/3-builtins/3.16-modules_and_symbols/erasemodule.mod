@@ -3,7 +3,7 @@
 MODULE Demo
     PROC main()
         EraseModule "x";
-        EraseModule;  ! -> RG311
+        EraseModule;  ! -> RG311?
         EraseModule "x" \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

@@ -4,7 +4,7 @@ MODULE Demo
     PROC main()
         Load "x";
         Load \Dynamic, "x" \File:="x" \CheckRef;
-        Load;  ! -> RG311
+        Load;  ! -> RG311?
         Load "x" \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

@@ -6,7 +6,7 @@ MODULE Demo
         Save "x";
         Save \TaskRef:=v_taskid, "x" \FilePath:="x" \File:="x";
         Save \TaskName:="x", "x" \FilePath:="x" \File:="x";
-        Save;  ! -> RG311
+        Save;  ! -> RG311?
         Save "x" \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

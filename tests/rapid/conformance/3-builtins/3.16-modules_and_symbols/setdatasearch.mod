@@ -5,7 +5,7 @@ MODULE Demo
         SetDataSearch "x";
         SetDataSearch "x" \TypeMod:="x" \Object:="x" \PersSym \VarSym \ConstSym \InTask \InRout:="x" \GlobalSym;
         SetDataSearch "x" \TypeMod:="x" \Object:="x" \PersSym \VarSym \ConstSym \InMod:="x" \InRout:="x" \LocalSym;
-        SetDataSearch;  ! -> RG311
+        SetDataSearch;  ! -> RG311?
         SetDataSearch "x" \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

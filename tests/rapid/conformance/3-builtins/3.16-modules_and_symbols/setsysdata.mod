@@ -5,7 +5,7 @@ MODULE Demo
     PROC main()
         SetSysData p_num;
         SetSysData p_num \ObjectName:="x";
-        SetSysData;  ! -> RG311
+        SetSysData;  ! -> RG311?
         SetSysData p_num \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

@@ -5,7 +5,7 @@ MODULE Demo
         UnLoad "x";
         UnLoad \ErrIfChanged, "x" \File:="x";
         UnLoad \Save, "x" \File:="x";
-        UnLoad;  ! -> RG311
+        UnLoad;  ! -> RG311?
         UnLoad "x" \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

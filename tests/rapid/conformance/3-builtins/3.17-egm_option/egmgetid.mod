@@ -4,7 +4,7 @@ MODULE Demo
     VAR egmident v_egmident;
     PROC main()
         EGMGetId v_egmident;
-        EGMGetId;  ! -> RG311
+        EGMGetId;  ! -> RG311?
         EGMGetId v_egmident \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

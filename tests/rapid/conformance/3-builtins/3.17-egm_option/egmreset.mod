@@ -4,7 +4,7 @@ MODULE Demo
     VAR egmident v_egmident;
     PROC main()
         EGMReset v_egmident;
-        EGMReset;  ! -> RG311
+        EGMReset;  ! -> RG311?
         EGMReset v_egmident \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

@@ -5,7 +5,7 @@ MODULE Demo
     PROC main()
         EGMStreamStart v_egmident;
         EGMStreamStart v_egmident \SampleRate:=1;
-        EGMStreamStart;  ! -> RG311
+        EGMStreamStart;  ! -> RG311?
         EGMStreamStart v_egmident \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

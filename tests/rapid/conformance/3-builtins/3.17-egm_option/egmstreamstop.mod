@@ -4,7 +4,7 @@ MODULE Demo
     VAR egmident v_egmident;
     PROC main()
         EGMStreamStop v_egmident;
-        EGMStreamStop;  ! -> RG311
+        EGMStreamStop;  ! -> RG311?
         EGMStreamStop v_egmident \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

@@ -4,7 +4,7 @@ MODULE Demo
     VAR cameradev v_cameradev;
     PROC main()
         CamFlush v_cameradev;
-        CamFlush;  ! -> RG311
+        CamFlush;  ! -> RG311?
         CamFlush v_cameradev \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

@@ -8,7 +8,7 @@ MODULE Demo
         CamGetParameter v_cameradev, "x";
         CamGetParameter v_cameradev, "x" \NumVar:=v_num;
         CamGetParameter v_cameradev, "x" \BoolVar:=v_bool;
-        CamGetParameter;  ! -> RG311
+        CamGetParameter;  ! -> RG311?
         CamGetParameter v_cameradev, "x" \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

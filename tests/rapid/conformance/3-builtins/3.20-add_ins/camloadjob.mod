@@ -5,7 +5,7 @@ MODULE Demo
     PROC main()
         CamLoadJob v_cameradev, "x";
         CamLoadJob v_cameradev, "x" \KeepTargets \MaxTime:=1;
-        CamLoadJob;  ! -> RG311
+        CamLoadJob;  ! -> RG311?
         CamLoadJob v_cameradev, "x" \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

@@ -6,7 +6,7 @@ MODULE Demo
     PROC main()
         CamReqImage v_cameradev;
         CamReqImage v_cameradev \SceneId:=v_num \KeepTargets \AwaitComplete;
-        CamReqImage;  ! -> RG311
+        CamReqImage;  ! -> RG311?
         CamReqImage v_cameradev \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

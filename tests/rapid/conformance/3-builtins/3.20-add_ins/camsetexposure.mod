@@ -5,7 +5,7 @@ MODULE Demo
     PROC main()
         CamSetExposure v_cameradev;
         CamSetExposure v_cameradev \ExposureTime:=1 \Brightness:=1 \Contrast:=1;
-        CamSetExposure;  ! -> RG311
+        CamSetExposure;  ! -> RG311?
         CamSetExposure v_cameradev \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

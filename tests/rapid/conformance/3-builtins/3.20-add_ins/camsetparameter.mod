@@ -6,7 +6,7 @@ MODULE Demo
         CamSetParameter v_cameradev, "x";
         CamSetParameter v_cameradev, "x" \NumVal:=1;
         CamSetParameter v_cameradev, "x" \BoolVal:=TRUE;
-        CamSetParameter;  ! -> RG311
+        CamSetParameter;  ! -> RG311?
         CamSetParameter v_cameradev, "x" \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

@@ -4,7 +4,7 @@ MODULE Demo
     VAR cameradev v_cameradev;
     PROC main()
         CamSetProgramMode v_cameradev;
-        CamSetProgramMode;  ! -> RG311
+        CamSetProgramMode;  ! -> RG311?
         CamSetProgramMode v_cameradev \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

@@ -5,7 +5,7 @@ MODULE Demo
     PROC main()
         CamStartLoadJob v_cameradev, "x";
         CamStartLoadJob v_cameradev, "x" \KeepTargets;
-        CamStartLoadJob;  ! -> RG311
+        CamStartLoadJob;  ! -> RG311?
         CamStartLoadJob v_cameradev, "x" \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

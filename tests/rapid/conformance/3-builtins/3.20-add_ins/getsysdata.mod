@@ -8,7 +8,7 @@ MODULE Demo
         GetSysData p_num;
         GetSysData \TaskRef:=v_taskid, p_num \ObjectName:=v_string;
         GetSysData \TaskName:="x", p_num \ObjectName:=v_string;
-        GetSysData;  ! -> RG311
+        GetSysData;  ! -> RG311?
         GetSysData p_num \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

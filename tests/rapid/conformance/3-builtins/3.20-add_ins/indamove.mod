@@ -7,7 +7,7 @@ MODULE Demo
         IndAMove v_mecunit, 1, 1;
         IndAMove v_mecunit, 1 \ToAbsPos:=v_robtarget, 1 \Ramp:=1;
         IndAMove v_mecunit, 1 \ToAbsNum:=1, 1 \Ramp:=1;
-        IndAMove;  ! -> RG311
+        IndAMove;  ! -> RG311?
         IndAMove v_mecunit, 1, 1 \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

@@ -5,7 +5,7 @@ MODULE Demo
     PROC main()
         IndCMove v_mecunit, 1, 1;
         IndCMove v_mecunit, 1, 1 \Ramp:=1;
-        IndCMove;  ! -> RG311
+        IndCMove;  ! -> RG311?
         IndCMove v_mecunit, 1, 1 \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

@@ -5,7 +5,7 @@ MODULE Demo
     PROC main()
         IndDMove v_mecunit, 1, 1, 1;
         IndDMove v_mecunit, 1, 1, 1 \Ramp:=1;
-        IndDMove;  ! -> RG311
+        IndDMove;  ! -> RG311?
         IndDMove v_mecunit, 1, 1, 1 \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

@@ -7,7 +7,7 @@ MODULE Demo
         IndReset v_mecunit, 1;
         IndReset v_mecunit, 1 \RefPos:=v_robtarget \Short;
         IndReset v_mecunit, 1 \RefNum:=1 \Fwd;
-        IndReset;  ! -> RG311
+        IndReset;  ! -> RG311?
         IndReset v_mecunit, 1 \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

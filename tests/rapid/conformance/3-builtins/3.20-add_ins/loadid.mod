@@ -10,7 +10,7 @@ MODULE Demo
     PROC main()
         LoadId v_paridnum, v_loadidnum, p_tooldata;
         LoadId v_paridnum, v_loadidnum, p_tooldata \PayLoad:=p_loaddata \WObj:=p_wobjdata \ConfAngle:=1 \SlowTest \Accuracy:=v_num;
-        LoadId;  ! -> RG311
+        LoadId;  ! -> RG311?
         LoadId v_paridnum, v_loadidnum, p_tooldata \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

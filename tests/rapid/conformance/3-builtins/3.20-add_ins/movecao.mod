@@ -11,7 +11,7 @@ MODULE Demo
     PROC main()
         MoveCAO v_robtarget, v_robtarget, v_speeddata, v_zonedata, p_tooldata, v_signalao, 1;
         MoveCAO v_robtarget, v_robtarget \ID:=v_identno, v_speeddata \T:=1, v_zonedata, p_tooldata \WObj:=p_wobjdata, v_signalao, 1;
-        MoveCAO;  ! -> RG311
+        MoveCAO;  ! -> RG311?
         MoveCAO v_robtarget, v_robtarget, v_speeddata, v_zonedata, p_tooldata, v_signalao, 1 \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

@@ -11,7 +11,7 @@ MODULE Demo
     PROC main()
         MoveCGO v_robtarget, v_robtarget, v_speeddata, v_zonedata, p_tooldata, v_signalgo;
         MoveCGO v_robtarget, v_robtarget \ID:=v_identno, v_speeddata \T:=1, v_zonedata, p_tooldata \WObj:=p_wobjdata, v_signalgo;
-        MoveCGO;  ! -> RG311
+        MoveCGO;  ! -> RG311?
         MoveCGO v_robtarget, v_robtarget, v_speeddata, v_zonedata, p_tooldata, v_signalgo \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

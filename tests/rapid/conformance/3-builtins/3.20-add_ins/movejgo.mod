@@ -11,7 +11,7 @@ MODULE Demo
     PROC main()
         MoveJGO v_robtarget, v_speeddata, v_zonedata, p_tooldata, v_signalgo;
         MoveJGO v_robtarget \ID:=v_identno, v_speeddata \T:=1, v_zonedata, p_tooldata \WObj:=p_wobjdata, v_signalgo \Value:=1;
-        MoveJGO;  ! -> RG311
+        MoveJGO;  ! -> RG311?
         MoveJGO v_robtarget, v_speeddata, v_zonedata, p_tooldata, v_signalgo \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

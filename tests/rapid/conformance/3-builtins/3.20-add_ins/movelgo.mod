@@ -11,7 +11,7 @@ MODULE Demo
     PROC main()
         MoveLGO v_robtarget, v_speeddata, v_zonedata, p_tooldata, v_signalgo;
         MoveLGO v_robtarget \ID:=v_identno, v_speeddata \T:=1, v_zonedata, p_tooldata \WObj:=p_wobjdata, v_signalgo \Value:=1;
-        MoveLGO;  ! -> RG311
+        MoveLGO;  ! -> RG311?
         MoveLGO v_robtarget, v_speeddata, v_zonedata, p_tooldata, v_signalgo \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

@@ -6,7 +6,7 @@ MODULE Demo
     PROC main()
         MToolRotCalib v_jointtarget, v_jointtarget, p_tooldata;
         MToolRotCalib v_jointtarget, v_jointtarget \XPos:=v_jointtarget, p_tooldata;
-        MToolRotCalib;  ! -> RG311
+        MToolRotCalib;  ! -> RG311?
         MToolRotCalib v_jointtarget, v_jointtarget, p_tooldata \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

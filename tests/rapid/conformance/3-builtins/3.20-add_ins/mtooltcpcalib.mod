@@ -6,7 +6,7 @@ MODULE Demo
     PERS tooldata p_tooldata;
     PROC main()
         MToolTCPCalib v_jointtarget, v_jointtarget, v_jointtarget, v_jointtarget, p_tooldata, v_num, v_num;
-        MToolTCPCalib;  ! -> RG311
+        MToolTCPCalib;  ! -> RG311?
         MToolTCPCalib v_jointtarget, v_jointtarget, v_jointtarget, v_jointtarget, p_tooldata, v_num, v_num \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

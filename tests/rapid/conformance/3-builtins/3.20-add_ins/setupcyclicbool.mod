@@ -6,7 +6,7 @@ MODULE Demo
     PROC main()
         SetupCyclicBool p_bool, TRUE;
         SetupCyclicBool p_bool, TRUE \Signal:=v_signaldo;
-        SetupCyclicBool;  ! -> RG311
+        SetupCyclicBool;  ! -> RG311?
         SetupCyclicBool p_bool, TRUE \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

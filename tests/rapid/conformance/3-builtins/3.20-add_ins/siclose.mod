@@ -4,7 +4,7 @@ MODULE Demo
     PERS sensor p_sensor;
     PROC main()
         SiClose p_sensor;
-        SiClose;  ! -> RG311
+        SiClose;  ! -> RG311?
         SiClose p_sensor \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

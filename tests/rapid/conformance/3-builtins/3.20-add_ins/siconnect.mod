@@ -5,7 +5,7 @@ MODULE Demo
     PROC main()
         SiConnect p_sensor;
         SiConnect p_sensor \NoStop;
-        SiConnect;  ! -> RG311
+        SiConnect;  ! -> RG311?
         SiConnect p_sensor \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

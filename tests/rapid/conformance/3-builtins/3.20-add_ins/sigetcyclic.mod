@@ -5,7 +5,7 @@ MODULE Demo
     PERS sensor p_sensor;
     PROC main()
         SiGetCyclic p_sensor, p_num, 1;
-        SiGetCyclic;  ! -> RG311
+        SiGetCyclic;  ! -> RG311?
         SiGetCyclic p_sensor, p_num, 1 \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

@@ -5,7 +5,7 @@ MODULE Demo
     PERS sensor p_sensor;
     PROC main()
         SiSetCyclic p_sensor, p_num, 1;
-        SiSetCyclic;  ! -> RG311
+        SiSetCyclic;  ! -> RG311?
         SiSetCyclic p_sensor, p_num, 1 \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

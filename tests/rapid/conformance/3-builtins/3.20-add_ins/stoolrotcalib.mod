@@ -5,7 +5,7 @@ MODULE Demo
     PERS tooldata p_tooldata;
     PROC main()
         SToolRotCalib v_robtarget, v_robtarget, v_robtarget, p_tooldata;
-        SToolRotCalib;  ! -> RG311
+        SToolRotCalib;  ! -> RG311?
         SToolRotCalib v_robtarget, v_robtarget, v_robtarget, p_tooldata \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

@@ -6,7 +6,7 @@ MODULE Demo
     PERS tooldata p_tooldata;
     PROC main()
         SToolTCPCalib v_robtarget, v_robtarget, v_robtarget, v_robtarget, p_tooldata, v_num, v_num;
-        SToolTCPCalib;  ! -> RG311
+        SToolTCPCalib;  ! -> RG311?
         SToolTCPCalib v_robtarget, v_robtarget, v_robtarget, v_robtarget, p_tooldata, v_num, v_num \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

@@ -4,7 +4,7 @@ MODULE Demo
     VAR triggdata v_triggdata;
     PROC main()
         TriggDataCopy v_triggdata, v_triggdata;
-        TriggDataCopy;  ! -> RG311
+        TriggDataCopy;  ! -> RG311?
         TriggDataCopy v_triggdata, v_triggdata \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

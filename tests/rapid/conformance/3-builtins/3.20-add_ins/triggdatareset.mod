@@ -4,7 +4,7 @@ MODULE Demo
     VAR triggdata v_triggdata;
     PROC main()
         TriggDataReset v_triggdata;
-        TriggDataReset;  ! -> RG311
+        TriggDataReset;  ! -> RG311?
         TriggDataReset v_triggdata \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

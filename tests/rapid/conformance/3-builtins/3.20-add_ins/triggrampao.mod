@@ -9,7 +9,7 @@ MODULE Demo
         TriggRampAO v_triggdata, 1, 1, v_signalao, 1, 1;
         TriggRampAO v_triggdata, 1 \Start, 1, v_signalao, 1, 1 \Time \Inhib:=p_bool \InhibSetValue:=p_num;
         TriggRampAO v_triggdata, 1 \Next, 1, v_signalao, 1, 1 \Time \Inhib:=p_bool \InhibSetValue:=p_num;
-        TriggRampAO;  ! -> RG311
+        TriggRampAO;  ! -> RG311?
         TriggRampAO v_triggdata, 1, 1, v_signalao, 1, 1 \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

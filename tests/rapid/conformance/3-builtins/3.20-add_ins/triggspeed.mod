@@ -9,7 +9,7 @@ MODULE Demo
     PROC main()
         TriggSpeed v_triggdata, 1, 1, v_signalao, 1;
         TriggSpeed v_triggdata, 1 \Start, 1, v_signalao, 1 \DipLag:=1 \ErrDO:=v_signaldo \Inhib:=p_bool \InhibSetValue:=p_num;
-        TriggSpeed;  ! -> RG311
+        TriggSpeed;  ! -> RG311?
         TriggSpeed v_triggdata, 1, 1, v_signalao, 1 \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

@@ -6,7 +6,7 @@ MODULE Demo
     PROC main()
         WaitSensor v_mecunit;
         WaitSensor v_mecunit \RelDist:=1 \PredTime:=1 \MaxTime:=1 \TimeFlag:=v_bool;
-        WaitSensor;  ! -> RG311
+        WaitSensor;  ! -> RG311?
         WaitSensor v_mecunit \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

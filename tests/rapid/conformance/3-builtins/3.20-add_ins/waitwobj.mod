@@ -6,7 +6,7 @@ MODULE Demo
     PROC main()
         WaitWObj p_wobjdata;
         WaitWObj p_wobjdata \RelDist:=1 \MaxTime:=1 \TimeFlag:=v_bool;
-        WaitWObj;  ! -> RG311
+        WaitWObj;  ! -> RG311?
         WaitWObj p_wobjdata \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

@@ -4,7 +4,7 @@ MODULE Demo
     PROC main()
         WriteBlock "x", 1, "x";
         WriteBlock "x", 1, "x" \TaskName:="x";
-        WriteBlock;  ! -> RG311
+        WriteBlock;  ! -> RG311?
         WriteBlock "x", 1, "x" \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

@@ -4,7 +4,7 @@ MODULE Demo
     PROC main()
         WriteVar "x", 1, 1;
         WriteVar "x", 1, 1 \TaskName:="x";
-        WriteVar;  ! -> RG311
+        WriteVar;  ! -> RG311?
         WriteVar "x", 1, 1 \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

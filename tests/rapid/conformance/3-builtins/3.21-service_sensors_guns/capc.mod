@@ -18,6 +18,6 @@ MODULE Demo
     PROC main()
         CapC v_robtarget, v_robtarget, v_speeddata, p_capdata, p_weavestartdata, p_capweavedata, v_zonedata, p_tooldata;
         CapC v_robtarget, v_robtarget \Id:=v_identno, v_speeddata, p_capdata \Movestart_timer:=v_num, p_weavestartdata, p_capweavedata, v_zonedata \Inpos:=v_stoppointdata, p_tooldata \WObj:=p_wobjdata \Track:=p_captrackdata \Time:=v_num \T1:=v_triggdata \T2:=v_triggdata \T3:=v_triggdata \T4:=v_triggdata \T5:=v_triggdata \T6:=v_triggdata \T7:=v_triggdata \T8:=v_triggdata \TLoad:=p_loaddata;
-        CapC;  ! -> RG311
+        CapC;  ! -> RG311?
     ENDPROC
 ENDMODULE

@@ -5,6 +5,6 @@ MODULE Demo
     VAR signaldo v_signaldo;
     PROC main()
         CapCondSetDO v_signaldo, v_dionum;
-        CapCondSetDO;  ! -> RG311
+        CapCondSetDO;  ! -> RG311?
     ENDPROC
 ENDMODULE

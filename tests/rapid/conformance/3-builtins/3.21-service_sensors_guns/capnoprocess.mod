@@ -4,6 +4,6 @@ MODULE Demo
     VAR num v_num;
     PROC main()
         CapNoProcess v_num;
-        CapNoProcess;  ! -> RG311
+        CapNoProcess;  ! -> RG311?
     ENDPROC
 ENDMODULE

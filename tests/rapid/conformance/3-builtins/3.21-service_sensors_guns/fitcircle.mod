@@ -7,6 +7,6 @@ MODULE Demo
     PROC main()
         FitCircle v_pos_2, v_pos, v_num, v_pos;
         FitCircle v_pos_2 \NumPoints:=v_num, v_pos, v_num, v_pos \RMS:=v_num \MaxErr:=v_num \IndexWorst:=v_num;
-        FitCircle;  ! -> RG311
+        FitCircle;  ! -> RG311?
     ENDPROC
 ENDMODULE

@@ -8,6 +8,6 @@ MODULE Demo
     PROC main()
         FricIdEvaluate p_num_2;
         FricIdEvaluate p_num_2 \MechUnit:=v_mecunit \BwdSpeed:=v_speeddata \NoPrint \FricLevelMax:=v_num \FricLevelMin:=v_num \OptTolerance:=v_num;
-        FricIdEvaluate;  ! -> RG311
+        FricIdEvaluate;  ! -> RG311?
     ENDPROC
 ENDMODULE

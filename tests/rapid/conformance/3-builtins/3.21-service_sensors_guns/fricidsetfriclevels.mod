@@ -6,6 +6,6 @@ MODULE Demo
     PROC main()
         FricIdSetFricLevels v_num_2;
         FricIdSetFricLevels v_num_2 \MechUnit:=v_mecunit;
-        FricIdSetFricLevels;  ! -> RG311
+        FricIdSetFricLevels;  ! -> RG311?
     ENDPROC
 ENDMODULE

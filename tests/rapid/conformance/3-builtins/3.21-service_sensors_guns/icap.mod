@@ -5,6 +5,6 @@ MODULE Demo
     VAR num v_num;
     PROC main()
         ICap v_intnum, v_num;
-        ICap;  ! -> RG311
+        ICap;  ! -> RG311?
     ENDPROC
 ENDMODULE

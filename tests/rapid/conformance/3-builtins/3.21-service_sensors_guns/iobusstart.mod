@@ -4,6 +4,6 @@ MODULE Demo
     VAR string v_string;
     PROC main()
         IOBusStart v_string;
-        IOBusStart;  ! -> RG311
+        IOBusStart;  ! -> RG311?
     ENDPROC
 ENDMODULE

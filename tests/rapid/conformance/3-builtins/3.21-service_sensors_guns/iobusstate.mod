@@ -6,6 +6,6 @@ MODULE Demo
     PROC main()
         IOBusState v_string, v_busstate;
         IOBusState v_string, v_busstate \Phys;
-        IOBusState;  ! -> RG311
+        IOBusState;  ! -> RG311?
     ENDPROC
 ENDMODULE

@@ -7,6 +7,6 @@ MODULE Demo
     PROC main()
         MatrixSolve v_dnum_2x2, v_dnum_2, v_dnum_2;
         MatrixSolve v_dnum_2x2 \A_m:=v_num \A_n:=v_num, v_dnum_2, v_dnum_2;
-        MatrixSolve;  ! -> RG311
+        MatrixSolve;  ! -> RG311?
     ENDPROC
 ENDMODULE

@@ -6,6 +6,6 @@ MODULE Demo
     PROC main()
         MatrixSolveQR v_dnum_2x2, v_dnum_2x2, v_dnum_2x2;
         MatrixSolveQR v_dnum_2x2 \A_m:=v_num \A_n:=v_num, v_dnum_2x2, v_dnum_2x2;
-        MatrixSolveQR;  ! -> RG311
+        MatrixSolveQR;  ! -> RG311?
     ENDPROC
 ENDMODULE

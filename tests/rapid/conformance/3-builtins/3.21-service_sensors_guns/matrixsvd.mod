@@ -7,6 +7,6 @@ MODULE Demo
     PROC main()
         MatrixSVD v_dnum_2x2, v_dnum_2x2, v_dnum_2, v_dnum_2x2;
         MatrixSVD v_dnum_2x2 \A_m:=v_num \A_n:=v_num, v_dnum_2x2, v_dnum_2, v_dnum_2x2 \Econ;
-        MatrixSVD;  ! -> RG311
+        MatrixSVD;  ! -> RG311?
     ENDPROC
 ENDMODULE

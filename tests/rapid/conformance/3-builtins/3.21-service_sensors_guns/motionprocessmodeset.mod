@@ -4,6 +4,6 @@ MODULE Demo
     VAR motionprocessmode v_motionprocessmode;
     PROC main()
         MotionProcessModeSet v_motionprocessmode;
-        MotionProcessModeSet;  ! -> RG311
+        MotionProcessModeSet;  ! -> RG311?
     ENDPROC
 ENDMODULE

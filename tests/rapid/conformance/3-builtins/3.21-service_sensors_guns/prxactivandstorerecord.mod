@@ -6,6 +6,6 @@ MODULE Demo
     VAR string v_string;
     PROC main()
         PrxActivAndStoreRecord v_mecunit, v_num, v_string;
-        PrxActivAndStoreRecord;  ! -> RG311
+        PrxActivAndStoreRecord;  ! -> RG311?
     ENDPROC
 ENDMODULE

@@ -5,6 +5,6 @@ MODULE Demo
     VAR num v_num;
     PROC main()
         PrxActivRecord v_mecunit, v_num;
-        PrxActivRecord;  ! -> RG311
+        PrxActivRecord;  ! -> RG311?
     ENDPROC
 ENDMODULE

@@ -5,6 +5,6 @@ MODULE Demo
     VAR string v_string;
     PROC main()
         PrxDbgStoreRecord v_mecunit, v_string;
-        PrxDbgStoreRecord;  ! -> RG311
+        PrxDbgStoreRecord;  ! -> RG311?
     ENDPROC
 ENDMODULE

@@ -4,6 +4,6 @@ MODULE Demo
     VAR mecunit v_mecunit;
     PROC main()
         PrxDeactRecord v_mecunit;
-        PrxDeactRecord;  ! -> RG311
+        PrxDeactRecord;  ! -> RG311?
     ENDPROC
 ENDMODULE

@@ -4,6 +4,6 @@ MODULE Demo
     VAR mecunit v_mecunit;
     PROC main()
         PrxResetPos v_mecunit;
-        PrxResetPos;  ! -> RG311
+        PrxResetPos;  ! -> RG311?
     ENDPROC
 ENDMODULE

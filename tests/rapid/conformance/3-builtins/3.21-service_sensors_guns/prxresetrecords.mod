@@ -4,6 +4,6 @@ MODULE Demo
     VAR mecunit v_mecunit;
     PROC main()
         PrxResetRecords v_mecunit;
-        PrxResetRecords;  ! -> RG311
+        PrxResetRecords;  ! -> RG311?
     ENDPROC
 ENDMODULE

@@ -5,6 +5,6 @@ MODULE Demo
     VAR num v_num;
     PROC main()
         PrxSetPosOffset v_mecunit, v_num;
-        PrxSetPosOffset;  ! -> RG311
+        PrxSetPosOffset;  ! -> RG311?
     ENDPROC
 ENDMODULE

@@ -5,6 +5,6 @@ MODULE Demo
     VAR num v_num;
     PROC main()
         PrxSetRecordSampleTime v_mecunit, v_num;
-        PrxSetRecordSampleTime;  ! -> RG311
+        PrxSetRecordSampleTime;  ! -> RG311?
     ENDPROC
 ENDMODULE

@@ -6,6 +6,6 @@ MODULE Demo
     PROC main()
         PrxSetSyncalarm v_mecunit;
         PrxSetSyncalarm v_mecunit \Time:=v_num;
-        PrxSetSyncalarm;  ! -> RG311
+        PrxSetSyncalarm;  ! -> RG311?
     ENDPROC
 ENDMODULE

@@ -5,6 +5,6 @@ MODULE Demo
     VAR num v_num;
     PROC main()
         PrxStartRecord v_mecunit, v_num, v_num;
-        PrxStartRecord;  ! -> RG311
+        PrxStartRecord;  ! -> RG311?
     ENDPROC
 ENDMODULE

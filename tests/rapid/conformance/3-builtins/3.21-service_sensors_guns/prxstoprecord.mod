@@ -4,6 +4,6 @@ MODULE Demo
     VAR mecunit v_mecunit;
     PROC main()
         PrxStopRecord v_mecunit;
-        PrxStopRecord;  ! -> RG311
+        PrxStopRecord;  ! -> RG311?
     ENDPROC
 ENDMODULE

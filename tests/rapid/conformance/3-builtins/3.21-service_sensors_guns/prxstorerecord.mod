@@ -6,6 +6,6 @@ MODULE Demo
     VAR string v_string;
     PROC main()
         PrxStoreRecord v_mecunit, v_num, v_string;
-        PrxStoreRecord;  ! -> RG311
+        PrxStoreRecord;  ! -> RG311?
     ENDPROC
 ENDMODULE

@@ -6,6 +6,6 @@ MODULE Demo
     VAR string v_string;
     PROC main()
         PrxUseFileRecord v_mecunit, v_num, v_string;
-        PrxUseFileRecord;  ! -> RG311
+        PrxUseFileRecord;  ! -> RG311?
     ENDPROC
 ENDMODULE

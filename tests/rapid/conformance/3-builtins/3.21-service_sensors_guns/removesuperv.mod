@@ -5,6 +5,6 @@ MODULE Demo
     VAR signaldi v_signaldi;
     PROC main()
         RemoveSuperv v_signaldi, v_num, v_num;
-        RemoveSuperv;  ! -> RG311
+        RemoveSuperv;  ! -> RG311?
     ENDPROC
 ENDMODULE

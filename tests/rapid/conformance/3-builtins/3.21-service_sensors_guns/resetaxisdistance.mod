@@ -5,6 +5,6 @@ MODULE Demo
     VAR num v_num;
     PROC main()
         ResetAxisDistance v_mecunit, v_num;
-        ResetAxisDistance;  ! -> RG311
+        ResetAxisDistance;  ! -> RG311?
     ENDPROC
 ENDMODULE

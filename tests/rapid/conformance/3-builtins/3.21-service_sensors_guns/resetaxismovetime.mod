@@ -5,6 +5,6 @@ MODULE Demo
     VAR num v_num;
     PROC main()
         ResetAxisMoveTime v_mecunit, v_num;
-        ResetAxisMoveTime;  ! -> RG311
+        ResetAxisMoveTime;  ! -> RG311?
     ENDPROC
 ENDMODULE

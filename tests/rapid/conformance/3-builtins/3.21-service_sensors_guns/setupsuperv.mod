@@ -7,6 +7,6 @@ MODULE Demo
     PROC main()
         SetupSuperv v_signaldi, v_num, v_num;
         SetupSuperv v_signaldi, v_num, v_num \ErrIndSig:=v_signaldo;
-        SetupSuperv;  ! -> RG311
+        SetupSuperv;  ! -> RG311?
     ENDPROC
 ENDMODULE

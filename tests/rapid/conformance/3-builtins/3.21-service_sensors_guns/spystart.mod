@@ -4,6 +4,6 @@ MODULE Demo
     VAR string v_string;
     PROC main()
         SpyStart v_string;
-        SpyStart;  ! -> RG311
+        SpyStart;  ! -> RG311?
     ENDPROC
 ENDMODULE

@@ -6,6 +6,6 @@ MODULE Demo
     PROC main()
         STCalib v_string;
         STCalib v_string \ToolChg \RetTipWear:=v_num \RetPosAdj:=v_num \PrePos:=v_num \Conc;
-        STCalib;  ! -> RG311
+        STCalib;  ! -> RG311?
     ENDPROC
 ENDMODULE

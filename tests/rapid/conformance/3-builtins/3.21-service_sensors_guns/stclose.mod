@@ -6,6 +6,6 @@ MODULE Demo
     PROC main()
         STClose v_string, v_num, v_num;
         STClose v_string, v_num, v_num \RetThickness:=v_num \Conc;
-        STClose;  ! -> RG311
+        STClose;  ! -> RG311?
     ENDPROC
 ENDMODULE

@@ -5,6 +5,6 @@ MODULE Demo
     VAR string v_string;
     PROC main()
         STIndGun v_string, v_num;
-        STIndGun;  ! -> RG311
+        STIndGun;  ! -> RG311?
     ENDPROC
 ENDMODULE

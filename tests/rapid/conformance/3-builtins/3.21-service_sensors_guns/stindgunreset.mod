@@ -4,6 +4,6 @@ MODULE Demo
     VAR string v_string;
     PROC main()
         STIndGunReset v_string;
-        STIndGunReset;  ! -> RG311
+        STIndGunReset;  ! -> RG311?
     ENDPROC
 ENDMODULE

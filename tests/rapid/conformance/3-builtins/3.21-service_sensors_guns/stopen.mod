@@ -5,6 +5,6 @@ MODULE Demo
     PROC main()
         STOpen v_string;
         STOpen v_string \WaitZeroSpeed \Conc;
-        STOpen;  ! -> RG311
+        STOpen;  ! -> RG311?
     ENDPROC
 ENDMODULE

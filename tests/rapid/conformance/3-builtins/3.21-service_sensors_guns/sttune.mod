@@ -6,6 +6,6 @@ MODULE Demo
     VAR tunegtype v_tunegtype;
     PROC main()
         STTune v_mecunit, v_num, v_tunegtype;
-        STTune;  ! -> RG311
+        STTune;  ! -> RG311?
     ENDPROC
 ENDMODULE

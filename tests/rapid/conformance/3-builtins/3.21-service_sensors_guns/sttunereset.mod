@@ -4,6 +4,6 @@ MODULE Demo
     VAR mecunit v_mecunit;
     PROC main()
         STTuneReset v_mecunit;
-        STTuneReset;  ! -> RG311
+        STTuneReset;  ! -> RG311?
     ENDPROC
 ENDMODULE

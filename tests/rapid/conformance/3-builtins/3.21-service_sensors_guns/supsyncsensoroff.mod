@@ -4,6 +4,6 @@ MODULE Demo
     VAR mecunit v_mecunit;
     PROC main()
         SupSyncSensorOff v_mecunit;
-        SupSyncSensorOff;  ! -> RG311
+        SupSyncSensorOff;  ! -> RG311?
     ENDPROC
 ENDMODULE

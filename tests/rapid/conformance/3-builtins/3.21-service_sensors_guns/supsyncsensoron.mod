@@ -6,6 +6,6 @@ MODULE Demo
     PROC main()
         SupSyncSensorOn v_mecunit, v_num, v_num, v_num;
         SupSyncSensorOn v_mecunit, v_num, v_num, v_num \SafetyDelay:=v_num;
-        SupSyncSensorOn;  ! -> RG311
+        SupSyncSensorOn;  ! -> RG311?
     ENDPROC
 ENDMODULE
