@@ -27,15 +27,23 @@ _Call = n.ProcedureCall | n.FunctionCall | n.LateCall
 
 @dataclass(frozen=True, slots=True)
 class Absent:
-    """A routine that is called and in no file; `type` is what it gives, empty for a procedure."""
+    """A routine that is called and in no file; `type` is what it gives, empty for the others."""
 
     name: str
     type: str
     parameters: tuple[str, ...]
     span: Span
+    is_trap: bool = False
+
+    @property
+    def kind(self) -> str:
+        """As it is told: proc, func num, trap."""
+        return f"func {self.type}" if self.type else "trap" if self.is_trap else "proc"
 
     def stub(self, value: str) -> str:
         """Its declaration, which does nothing and gives `value` (empty: that of its type)."""
+        if self.is_trap:
+            return f"    TRAP {self.name}\n    ENDTRAP\n"
         head = f"{self.name}({','.join(self.parameters)})"
         if not self.type:
             return f"    PROC {head}\n    ENDPROC\n"
@@ -62,6 +70,11 @@ def absent(modules: Sequence[ModuleScope], types: Mapping[str, str]) -> Iterator
             name = _unknown(node, scope)
             if not name or name.casefold() in told:
                 continue
+            at = module.tree.source.span(node.first, node.first)
+            if isinstance(node, n.Connect):
+                told.add(name.casefold())
+                yield Absent(name, "", (), at, is_trap=True)
+                continue
             assert isinstance(node, _Call)
             given = kinds.get(id(node), "").replace(NUMBER, "num")
             parameters = _parameters(node.arguments, scope, types)
@@ -69,7 +82,6 @@ def absent(modules: Sequence[ModuleScope], types: Mapping[str, str]) -> Iterator
             if parameters is None or (is_function and type_class(given) is None):
                 continue
             told.add(name.casefold())
-            at = module.tree.source.span(node.first, node.first)
             yield Absent(name, given if is_function else "", parameters, at)
 
 
@@ -88,6 +100,8 @@ def _unknown(node: n.Node, scope: Scope) -> str:
         name = constant(node.procedure, scope)
     elif isinstance(node, n.ProcedureCall | n.FunctionCall):
         name = node.name
+    elif isinstance(node, n.Connect):
+        name = node.trap
     if not isinstance(name, str) or _NAME.fullmatch(name) is None or name.upper() in KEYWORDS:
         return ""
     known = scope.find(name) is not None or name.lower() in unsupported.option_routines()

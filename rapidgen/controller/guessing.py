@@ -165,7 +165,7 @@ def guess(
     made |= {signal.name.casefold(): f"signal{signal.type.lower()}" for signal in system.signals}
     kinds = {name.casefold(): kind for name, kind in made.items()}
     stubs = {one.name.casefold(): one for scopes in tasks for one in absent(scopes, kinds)}
-    named += [Named(s.name, f"func {s.type}" if s.type else "proc", s.span) for s in stubs.values()]
+    named += [Named(s.name, s.kind, s.span) for s in stubs.values()]
     looked = tuple(
         flag
         for spec, scopes in zip(system.tasks, tasks, strict=True)

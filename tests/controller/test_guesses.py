@@ -44,6 +44,19 @@ def test_routines_in_no_file_do_nothing_and_are_told(tmp_path):
         assert controller.positions() == pytest.approx(start, abs=1e-5)
 
 
+def test_a_trap_in_no_file_does_nothing_and_is_told(tmp_path):
+    path = tmp_path / "calls.mod"
+    path.write_text(
+        "MODULE calls\n VAR intnum i;\n PROC main()\n  CONNECT i WITH later;\n"
+        '  ITimer \\Single, 0.1, i;\n  WaitTime 1;\n  TPWrite "end";\n ENDPROC\nENDMODULE\n'
+    )
+    found = load_target([path], Wishes(cell="guess"))
+    assert found.guessed is not None
+    assert {one.name: one.type for one in found.guessed.named} == {"later": "trap"}
+    with VirtualController.boot(found, cycle="once") as controller:
+        assert controller.run(max_time=20) == "finished"
+
+
 ENDS = {
     "what an initial value is made of is a constant": (
         " VAR num count := nParts;\n VAR robtarget p := pHome;\n PROC main()\n"

@@ -1,11 +1,14 @@
 """Batches of points one by one: what each reply says, and each way to spoil one."""
 
+import random
+
 from rapidgen.proving import messages
 from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.instructions import fails
 from rapidgen.proving.messages import RawReason, RawStreamFlag, RawTrajectoryState
 from rapidgen.proving.model import Broken
+from rapidgen.proving.programs import WHOLE, Programmer, orders
 from rapidgen.proving.stream import BEGIN, END, FLUSH, Streamer
 from rapidgen.proving.suite.motion_task import datum
 from rapidgen.proving.suite.streams import way
@@ -167,6 +170,10 @@ def _not_now(bench: Bench) -> None:
             raise Broken(f"after {action} points are answered by {told}")
         if (told.accepted, told.point, told.joint) != (0, -1, 0):
             raise Broken(f"after {action} points are answered by {told}")
+        program = Programmer(bench, stream.link)
+        told = program.send(orders(bench, 3, random.Random(3)), BEGIN | WHOLE)
+        if not isinstance(told, messages.RawPointsRefused) or told.reason not in reasons:
+            raise Broken(f"after {action} the first part of a program is answered by {told}")
         bench.start_again()
         bench.stays(3, f"points came after {action}")
         stream.link.close(then=1.2)

@@ -273,6 +273,7 @@ def _displaced(bench: Bench) -> None:
 def _displaced_before(bench: Bench) -> None:
     """Refused, or ended before it moves; without the displacement it moves."""
     first, *_, last = orders(bench, 3, random.Random(33))
+    last = replace(last, kind=RawInstruction.MOVE_ABSJ, pose=None)
     client, modal = Programmer(bench), bench.motion_group.modal
     client.takes("a program", [first])
     bench.wait_until_at(first.joints, 60)
@@ -283,6 +284,10 @@ def _displaced_before(bench: Bench) -> None:
         if isinstance(told, messages.RawPointsRefused):
             client.refused(told, RawReason.POSE_MISMATCH, 0, "poses that are displaced")
         bench.stays(1, "the customer's program has displaced the poses")
+    client.takes("joints, which no displacement takes elsewhere", [last])
+    bench.wait_until_at(last.joints, 60)
+    client.takes("the way back", [first])
+    bench.wait_until_at(first.joints, 60)
     modal.displacement = IDENTITY
     client.takes("a program without a displacement", [move])
     bench.wait_until_at(move.joints, 60)
