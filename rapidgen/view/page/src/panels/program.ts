@@ -82,7 +82,7 @@ class ProgramPanel {
       if (added.value.trim()) this.watchAll([...this.expressions, added.value.trim()]);
       added.value = "";
     } }, added, h("button", {}, "Watch"));
-    this.element = h("div", { class: "panel program", onkeydown: (event) => this.key(event as KeyboardEvent) },
+    this.element = h("div", { class: "panel program" },
       h("div", { class: "tools" },
         h("div", { class: "row" }, this.tasks, this.modules, h("label", {}, this.follow, " Follow")),
         h("div", { class: "row commands" }, this.go, ...this.steps, this.cursor),
@@ -97,6 +97,10 @@ class ProgramPanel {
       live(section("Log points", this.output)),
       live(h("p", { class: "soft" }, "Everything pauses, time and robots included. A step does not enter traps, event routines and " +
         "modules with NOSTEPIN: a breakpoint in one is noticed.")));
+    // Wherever the focus is: a value that is shown anew takes it away.
+    document.addEventListener("keydown", (event) => {
+      if (this.visible) this.key(event);
+    });
     link.on("loaded", (loaded) => {
       this.sources.take(loaded);
       this.origins.forget();
