@@ -114,9 +114,9 @@ class Cell:
             [[here[0] + (to - here[0]) * k / steps, *here[1:]] for k in range(steps + 1)]
         )
 
-    def stop(self) -> float:
+    def stop(self, service: str = "stop_motion") -> float:
         """The stop_motion service; seconds until it has answered."""
-        return self._call("stop_motion", "StopMotion")
+        return self._call(service, "StopMotion")
 
     def command_service(self, trajectory) -> float:
         """The joint_path_command service; seconds until it has answered."""

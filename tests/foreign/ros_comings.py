@@ -90,20 +90,32 @@ def two_nodes(cell: Cell, found: Findings) -> None:
 @case("a second motion node while the first one's trajectory is under way")
 def two_nodes_moving(cell: Cell, found: Findings) -> None:
     begin_moving(cell)
-    begin = time.monotonic()
     _start_second_node(cell)
     time.sleep(2.5)
-    moving = not cell.sim.standing()
-    where = cell.sim.positions()[0]
-    now = cell.next_status()
-    found.tell(
-        f"the robot {'goes on' if moving else f'was stopped at {where:.2f} rad'}, "
-        f"error_code {now.error_code}; log: {cell.user_sees(begin)!r}"
-    )
-    if moving:
-        found.must(cell.arrives([1.2], 25), "to the end")
-    else:
-        found.must(cell.quiet(2) and now.error_code, "with a reason, and stays")
+    moving, told = not cell.sim.standing(), cell.next_status().error_code
+    what = "goes on" if moving else f"was stopped at {cell.sim.positions()[0]:.2f} rad"
+    found.must(moving and not told, f"the robot {what}, error_code {told}")
+    found.must(cell.arrives([1.2], 25), "to the end")
+    publisher = _second_publisher()
+    publisher.publish(cell.ramp(1, to=0.0))
+    found.must(cell.arrives([0.0], 25), "the second one's trajectory is executed")
+    publisher.unregister()
+
+
+@case(
+    "a second motion node's stop_motion while the first one's trajectory is under way",
+    upstream=False,
+)
+def second_stops(cell: Cell, found: Findings) -> None:
+    begin_moving(cell)
+    _start_second_node(cell)
+    time.sleep(1.5)
+    found.must(not cell.sim.standing(), "the robot goes on")
+    begin = time.monotonic()
+    took = cell.stop("second_stop")
+    found.must(took < 0.5, f"answered after {took * 1000:.0f} ms")
+    found.stands(cell, begin)
+    found.must(cell.quiet(2) and not cell.at([1.2]), "and stays")
     publisher = _second_publisher()
     publisher.publish(cell.ramp(1, to=0.0))
     found.must(cell.arrives([0.0], 25), "the second one's trajectory is executed")

@@ -25,6 +25,8 @@ from tests.foreign.ros_cell import Cell
 URDF = Path(__file__).parents[2] / "robots" / "urdf"
 PARTS = (ros_commands, ros_refused, ros_comings)
 """Where the cases are; each enters its own."""
+ZEROS = "0,0,0,0,0,0"
+"""Where the generated driver's robot stands at first, too; the cases count on it."""
 
 
 def _try(workspace: Workspace, one: Case, target: str, options: tuple[str, ...]) -> Findings:
@@ -67,7 +69,7 @@ def main(folder: Path, wanted: list[str]) -> int:
                     failed.append(name)
                 if rapid is not None and one.upstream:
                     backup = write_backup(read_system(rapid.parent), Path(scratch) / "abb_driver")
-                    options = ("--robot", one.robot, *plan)
+                    options = ("--robot", one.robot, "--start", ZEROS, *plan)
                     print(f"abb_driver: {_try(workspace, one, str(backup), options)}", flush=True)
     finally:
         workspace.close()
