@@ -72,8 +72,9 @@ def farthest(seen: Points, way: Points) -> float:
         some = seen[first : first + _AT_ONCE, None]
         near = slice(max(0, at - _BACK), at + _AHEAD + _FASTER * len(some))
         away = some - start[near]
-        share = np.clip((away * along[near]).sum(axis=2) / length[near], 0.0, 1.0)
-        apart = np.linalg.norm(away - share[..., None] * along[near], axis=2)
+        share = np.clip(np.einsum("ijk,jk->ij", away, along[near]) / length[near], 0.0, 1.0)
+        away -= share[..., None] * along[near]
+        apart = np.sqrt(np.einsum("ijk,ijk->ij", away, away))
         piece, number = np.arange(apart.shape[1]), np.arange(len(some))[:, None]
         apart[piece + near.start >= at + _AHEAD + _FASTER * number] = np.inf
         worst = max(worst, float(apart.min(axis=1).max()))
