@@ -23,8 +23,8 @@ LONGEST = 12
 """Moves of a program at most; two at least."""
 PROGRAMS = Setting()
 """Under which they run."""
-SAMPLE = 12_000_000
-"""ns between two positions that are kept; the smallest zone takes about 20 ms."""
+SAMPLE = 20_000_000
+"""ns between two positions that are kept: in the smallest zone is one of them at least."""
 
 
 def name_of(seed: int) -> str:
