@@ -6,6 +6,8 @@ from collections.abc import Sequence
 from rapidgen.proving.messages import INDEX_WRAP, LONGEST, POINTS, RawComm, framed
 from rapidgen.proving.track import Point
 
+_MODULUS = 2**31 - 19
+
 
 def batch_points(joint_count: int) -> int:
     """Points that fit into one POINTS: 35 for six axes."""
@@ -45,7 +47,18 @@ def words_frame(
 ) -> bytes:
     """A batch of any words, that says to have `count` points; its checksum is right."""
     whole = [stream, flags, first, count, *words]
-    checksum = 0
-    for word in whole:
-        checksum = (2 * checksum + word + 2**31) % (2**31 - 19)
-    return framed(number, struct.pack(f"<{len(whole) + 1}i", *whole, checksum), comm)
+    return framed(number, struct.pack(f"<{len(whole) + 1}i", *whole, checksum(whole)), comm)
+
+
+def checksum(words: Sequence[int]) -> int:
+    """What stands behind these words of a batch, of its head and of all that follows."""
+    found = 0
+    for word in words:
+        found = (2 * found + word + 2**31) % _MODULUS
+    return found
+
+
+def words_to(wanted: int, words: Sequence[int], count: int) -> list[int]:
+    """`count` words behind which the checksum is the one that is wanted."""
+    zeros = [0] * (count - 1)
+    return [*zeros, (wanted - checksum([*words, *zeros, 0])) % _MODULUS]

@@ -3,6 +3,7 @@
 import random
 
 from rapidgen.proving import messages
+from rapidgen.proving.batches import checksum, words_frame, words_of, words_to
 from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.instructions import fails
@@ -313,6 +314,30 @@ def _unreadable(bench: Bench) -> None:
         bench.stays(0.3, f"read {after} of a batch has failed")
         bench.healthy()
         stream.link.close(then=0.3)
+
+
+@case(
+    "batch-fits-unread", "words that cannot be read, where the checksum is right without them", "R3"
+)
+def _fits_unread(bench: Bench) -> None:
+    """By a chance of one in 2^31: that they were not read must tell."""
+    words = 1 + len(bench.position)
+    for number, unread in enumerate(("a point", "the checksum"), 1):
+        stream, since, points = Streamer(bench, number=number), bench.now, way(bench, 9)
+        stream.put(points[:8], BEGIN | FLUSH)
+        sent = words_of(points[8])
+        head = [number, 0, 8, 2]
+        wanted = checksum([*head, *sent]) if unread == "a point" else 0
+        sent += words_to(wanted, [*head, *sent], words)
+        # The frame's own words, and the head's.
+        after = 4 + 4 + words * number
+        fails(bench, "ROS_motionServer", "UnpackRawBytes", "ERR_OUTOFBND", after=after)
+        told = stream.say(words_frame(number, 8, 2, sent))
+        if not isinstance(told, messages.RawPointsRefused) or told.reason != RawReason.CHECKSUM:
+            raise Broken(f"{unread} of a batch cannot be read, the reply is {told}")
+        bench.wait_until_at(points[7][0], 10)
+        bench.executed(points[:8], since)
+        stream.link.close(then=0.5)
 
 
 @case("batch-behind-end", "points behind the end")

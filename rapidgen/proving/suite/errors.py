@@ -11,7 +11,8 @@ from rapidgen.proving.instructions import fails
 from rapidgen.proving.link import STOP
 from rapidgen.proving.messages import STATUS, RawReason, RawTrajectoryState, RawTriState, text_of
 from rapidgen.proving.model import Broken
-from rapidgen.proving.suite.motion_task import Meter
+from rapidgen.proving.suite.motion_task import Meter, datum
+from rapidgen.proving.suite.off_path import STAYS_STOPPED
 from rapidgen.runtime.builtins.clocks import StopWatch
 
 case = Theme("failing")
@@ -122,16 +123,46 @@ def _errors(bench: Bench) -> list[str]:
 
 @case("path-stays", "a path that cannot be cleared is not executed")
 def _path_stays(bench: Bench) -> None:
-    """Should a path not be cleared at once, the robot stands until it is."""
-    for times in (1, 3, 5):
+    """Should a path not be cleared at once, or nobody know whether the robot stands: it does."""
+    for instruction, times in (
+        ("ClearPath", 1),
+        ("ClearPath", 3),
+        ("ClearPath", 5),
+        ("WaitRob", 3),
+    ):
         link = bench.motion()
-        points = bench.wave(12)
-        bench.sets_off(link, points, 0.5)
-        fails(bench, "ROS_motion", "ClearPath", "ERR_PATH_STOP", times)
+        # What is ordered already would take for longer than a stop does.
+        bench.sets_off(link, bench.wave(6, duration=2.0), 0.5)
+        fails(bench, "ROS_motion", instruction, "ERR_PATH_STOP", times)
         link.stop(2, "STOP is answered, whatever becomes of the path")
-        bench.rests(5, 6, f"it was stopped; ClearPath has failed {times} times")
+        bench.rests(1, 6, f"it was stopped; {instruction} has failed {times} times")
         bench.moves_through(link, bench.wave(4))
         link.close(then=1.5)
+
+
+@case("far-off-once", "a stop far off the path makes no later one so", "R7b")
+def _far_off_once(bench: Bench) -> None:
+    """StopMoveReset is for a robot that stands too far from its path, and for no later stop."""
+    link = bench.motion()
+    for error, why in (
+        ("ERR_PATHDIST", "It stands too far from the path that it left."),
+        ("ERR_PATH_STOP", "Its stop cannot be taken back."),
+    ):
+        last, keeps = bench.last_event, bench.setting.motion.stop_move_reset == "keeps"
+        bench.sets_off(link, bench.wave(12), 0.3)
+        recovers = fails(bench, "ROS_supervisor", "StartMove", error, 1000)
+        link.stop()
+        bench.rests(3, 3, f"it was stopped, StartMove says {error}")
+        said = [e.texts[0] for e in bench.controller.log.since(last) if e.title == STAYS_STOPPED]
+        held = keeps or error != "ERR_PATHDIST"
+        if bool(bench.motion_group.stop_reasons) != held or said != [why] * held:
+            raise Broken(
+                f"StartMove says {error}: held by {bench.motion_group.stop_reasons}, the event "
+                f"log says {said}"
+            )
+        recovers()
+        bench.run(0.5)
+        bench.moves_through(link, bench.wave(3))
 
 
 @case("port-taken", "a port that is taken is waited for", "R18")
@@ -169,6 +200,15 @@ def _counters_wrap(bench: Bench) -> None:
             if number >= WRAP or (number - first) % WRAP != 8:
                 raise Broken(f"after trajectory {first} come eight others, the last is {number}")
             other.healthy()
+
+
+@case("number-again", "a trajectory with the number of a program of years ago", needs="stream")
+def _number_again(bench: Bench) -> None:
+    """Numbers begin anew: its points are no instructions, although a program was called so."""
+    watcher, link = bench.watcher(), bench.motion()
+    task = bench.controller.task(bench.task("ROS_motion"))
+    task[datum(bench, "ros_program")] = bench.progress(watcher).trajectory + 1
+    bench.moves_through(link, bench.wave(4))
 
 
 def set_counters(bench: Bench, value: int) -> None:
@@ -219,6 +259,15 @@ def _state_for_hours(bench: Bench) -> None:
             raise Broken(f"STATUS {i} came at {when:.3f} s, more than a period off")
     if abs(len(stamps) - 1050 / period) > 3:
         raise Broken(f"{len(stamps)} STATUS in 1050 s, wanted {1050 / period:.0f}")
+
+
+@case("nobody-costs", "a driver that nobody talks to takes little of the processor", "R19")
+def _nobody_costs(bench: Bench) -> None:
+    """Each of its tasks waits for somebody."""
+    bench.run(0.1)
+    meter = Meter(bench)
+    bench.run(0.5)
+    meter.end("while nobody is there")
 
 
 @case("idle-costs", "a driver that waits takes little of the processor", "R19")

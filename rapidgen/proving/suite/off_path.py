@@ -12,7 +12,8 @@ case = Theme("off the path")
 
 _FAST = 0.8
 """Share of an axis' speed at which the stop comes."""
-_STOP_TOLD = "ROS: the robot stays stopped"
+STAYS_STOPPED = "ROS: the robot stays stopped"
+"""Title of the event that says why."""
 
 
 def _zigzag(bench: Bench, count: int, seconds: float) -> list[Point]:
@@ -76,7 +77,7 @@ def _stopped_at_speed(bench: Bench, action: str, quick: float, seconds: float) -
             other.start_again()
         told = f"after {action} at speed, {1000 * off:.0f} mm off the path"
         other.stays(4, f"{told}, nobody asked for motion")
-        said = [e for e in other.controller.log.since(last) if e.title == _STOP_TOLD]
+        said = [e for e in other.controller.log.since(last) if e.title == STAYS_STOPPED]
         held = off > motion.path_distance and motion.stop_move_reset == "keeps"
         if said and not held:
             raise Broken(f"{told}, the event log says {said[0]}")

@@ -7,13 +7,13 @@ import math
 import random
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from itertools import pairwise
+from itertools import pairwise, product
 
 from rapidgen.motion.moves import Move
 from rapidgen.proving import messages
 from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
-from rapidgen.proving.instructions import at_call
+from rapidgen.proving.instructions import at_call, fails
 from rapidgen.proving.link import RawLink
 from rapidgen.proving.messages import RawComm, RawInstruction, RawReason
 from rapidgen.proving.model import Broken
@@ -235,6 +235,42 @@ def _between(bench: Bench) -> None:
     if refreshed != [1.0] * (len(points) - 1):
         raise Broken(f"{len(points) - 1} moves with their time for SPEED 50, held to {refreshed}")
     _as_asked(bench, since, 50, 1.0)
+
+
+@case("speed-reached", "a move that was slowed down is reached before the next one begins")
+def _reached_first(bench: Bench) -> None:
+    """It ends in a stop: PROGRESS tells of it in the last move; and not where that stop fails."""
+    control, watcher, link = bench.control(), bench.watcher(), bench.motion()
+    line = _line(bench, 6, 0.6)
+    here, first, second, last = (line[n][0] for n in (0, 1, 2, 5))
+    points = [line[0], (first, 0.6), (second, 0.6), (last, 1.8)]
+    moves = [replace(_moves(bench, 1, _RATE * 0.6)[0], joints=p) for p in (first, second, last)]
+    program = [*(replace(move, zone=0.002) for move in moves[:-1]), moves[-1]]
+    for what, is_good in product(("a trajectory", "a program"), (True, False)):
+        if what == "a trajectory":
+            bench.sets_off(link, points)
+        elif bench.streams:
+            Programmer(bench, link).takes(what, program)
+        else:
+            return
+        bench.until(
+            lambda: abs(bench.position[0] - here[0]) > 1.4 * abs(first[0] - here[0]), 10, what
+        )
+        done(control.ask(messages.RawSpeed(50)), f"SPEED of {what}")
+        count = bench.progress(watcher).planned
+        if is_good:
+            bench.until(lambda: distance(bench.position, second) < 1e-3, 10, what)
+            bench.run(1)
+        else:
+            fails(bench, "ROS_motion", "MoveAbsJ", "ERR_COLL_STOP")
+            bench.rests(5, 0.5, f"the end of a slower move of {what} has failed")
+        told = bench.progress(watcher)
+        if (told.planned, told.reached) != ((count + 1, count) if is_good else (count, count - 1)):
+            raise Broken(f"the end of a slower move of {what}, which {is_good=}, is told as {told}")
+        if is_good:
+            bench.wait_until_at(last, 20)
+        bench.run(0.3)
+        bench.moves_through(link, bench.way_to(here))
 
 
 @case("speed", "a speed for one trajectory")
