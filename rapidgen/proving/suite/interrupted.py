@@ -13,7 +13,9 @@ from rapidgen.proving.link import STOP, RawLink
 from rapidgen.proving.messages import JOINT_TRAJ_PT, RawReason, RawTrajectoryState
 from rapidgen.proving.model import Broken
 from rapidgen.proving.suite.errors import set_counters
-from rapidgen.proving.suite.motion_task import begins, datum, patience, soon, unit_of
+from rapidgen.proving.suite.motion_task import Meter, begins, datum, patience, soon, unit_of
+from rapidgen.proving.suite.off_path import STAYS_STOPPED
+from rapidgen.proving.suite.supervisor import end_as_request
 from rapidgen.proving.track import SETTLED, Position
 from rapidgen.runtime.errors import RapidError
 from rapidgen.system.model import System
@@ -189,6 +191,55 @@ def _unseen(bench: Bench) -> None:
             _ended(other, watcher, reason, f"{action} of a driver without signals, then Start")
             other.run(patience(other))
             _works(other, link)
+
+
+@case("stopped-alone", "event routines alone tell that the program is stopped", background=True)
+def _stopped_alone(bench: Bench) -> None:
+    """No signals: what comes before Start is refused, and nothing of it is done then."""
+    with _beside(bench, _bare(bench.system, *(e.event for e in bench.system.events))) as other:
+        for action in ("stop", "e-stop", "power-loss"):
+            other.controller.perform(action)
+            other.run(patience(other))
+            link = other.motion()
+            link.send(end_as_request(other, 3, unit_of(other)))
+            told = messages.decode(link.expect_reply(3, "the end frame is answered"))
+            # Nobody tells of an emergency stop where it calls no event routine.
+            unseen = action == "e-stop" and not other.setting.dialect.e_stop_routines
+            if told != messages.RawRefused(RawReason.NOT_EXECUTING, -1, 0) and not unseen:
+                raise Broken(f"{action} of a driver without signals, a trajectory: {told}")
+            other.start_again()
+            other.stays(patience(other), f"{action} of a driver without signals, then Start")
+            _works(other, link)
+            link.close(then=0.3)
+
+
+@case("motion-task-cannot", "the motion task cannot drop its path, or not take back its own stop")
+def _cannot(bench: Bench) -> None:
+    """The robot stays stopped, which is said once, and why; as soon as it can, all is well."""
+    link = bench.motion()
+    for instruction, title in (
+        ("ClearPath", "ROS: the motion task does not answer"),
+        ("StartMove", STAYS_STOPPED),
+    ):
+        _moves(bench, link)
+        ends = fails(bench, "ROS_motion", instruction, "ERR_PATH_STOP", 10**6)
+        if instruction == "ClearPath":
+            link.stop()
+        else:
+            bench.controller.perform("stop")
+            bench.wait_until_standing(1)
+            bench.controller.perform("start")
+        bench.wait_until_standing(1)
+        last, meter = bench.last_event, Meter(bench)
+        bench.stays(2.5, f"{instruction} of the motion task fails")
+        meter.end(f"while {instruction} of the motion task fails")
+        said = [e.title for e in bench.controller.log.since(last) if e.title.startswith("ROS")]
+        if said != [title]:
+            raise Broken(f"{instruction} of the motion task fails, the event log says {said}")
+        ends()
+        bench.run(patience(bench))
+        link = link if not link.lost else bench.motion()
+        _works(bench, link)
 
 
 def _crept(bench: Bench, here: Position, wait: float, when: str) -> None:

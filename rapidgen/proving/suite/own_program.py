@@ -225,12 +225,8 @@ def _another_program(bench: Bench) -> None:
     """ROS_motion was replaced by another program: event routines are there, and nothing is held."""
     foreign = ModuleFile("foreign", "foreign.mod", _FOREIGN)
 
-    def stays(module: ModuleFile) -> bool:
-        # A main that calls ROS_run goes with it.
-        return module.name != "ROS_motion" and b"PROC main()" not in module.data
-
     tasks = tuple(
-        replace(task, modules=(*filter(stays, task.modules), foreign))
+        replace(task, modules=(*(m for m in task.modules if not _goes(m)), foreign))
         if task.name == bench.group.task
         else task
         for task in bench.system.tasks
@@ -259,6 +255,38 @@ def _another_program(bench: Bench) -> None:
             if own.signals:
                 _refused(other, other.motion(), "in another program")
             other.healthy()
+
+
+def _goes(module: ModuleFile) -> bool:
+    """Whether it goes with the driver's program: a main that calls ROS_run does."""
+    return module.name == "ROS_motion" or b"PROC main()" in module.data
+
+
+@case("program-replaced", "another program is loaded in a trajectory", "R7a", background=True)
+def _replaced(bench: Bench) -> None:
+    """It is begun at its main while the driver's stops are in force: they do not hold it."""
+    link, state = bench.motion(), bench.state()
+    bench.moves_through(link, bench.wave(3))
+    bench.sets_off(link, bench.wave(8), 0.4)
+    bench.controller.perform("stop")
+    bench.wait_until_standing(3)
+    bench.run(0.3)
+    program = bench.rapid_task("ROS_motion").program
+    (task,) = (t for t in bench.system.tasks if t.name == bench.group.task)
+    for module in filter(_goes, task.modules):
+        program.unload(module.name)
+    foreign = ModuleFile("foreign", "foreign.mod", _FOREIGN)
+    program.load([(bench.controller.parse_module(foreign), foreign)])
+    bench.controller.perform("pp-to-main")
+    bench.start_again()
+    _turns(bench)
+    if bench.motion_group.stop_reasons:
+        raise Broken(f"another program is held: {bench.motion_group.stop_reasons}")
+    _told_of_stop(bench, link, 1)
+    _refused(bench, link, "in another program")
+    if bench.status(state).motion_possible:
+        raise Broken("another program runs, STATUS says that a trajectory may come")
+    _turns(bench)
 
 
 def _told_of_stop(bench: Bench, link: RawLink, times: int) -> None:
