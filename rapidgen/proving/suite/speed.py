@@ -9,6 +9,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from itertools import pairwise, product
 
+import numpy as np
+
+from rapidgen.axes.frames import Pose, slerp
 from rapidgen.motion.moves import Move
 from rapidgen.proving import messages
 from rapidgen.proving.behaviour import Theme
@@ -237,6 +240,27 @@ def _between(bench: Bench) -> None:
     _as_asked(bench, since, 50, 1.0)
 
 
+@case("speed-of-short", "short moves get more time, and the robot does not stop between them")
+def _of_short(bench: Bench) -> None:
+    """No SpeedRefresh slows them down, which would end in a stop."""
+    if not bench.setting.corners_in_time:
+        return
+    control, link = bench.control(), bench.motion()
+    short = max(0.12, 1.05 * bench.config.trajectory.min_segment)
+    if short > _LONG:
+        return
+    line = _line(bench, 26, short)
+    # A long one before them counts no more.
+    points = [line[0], (line[6][0], 6 * short), *line[7:]]
+    bench.sets_off(link, points, 10 * short)
+    done(control.ask(messages.RawSpeed(50)), "SPEED 50")
+    since = bench.now
+    bench.until(lambda: distance(bench.position, points[-3][0]) < 5e-3, 30, "the last but two")
+    if any(pace < 0.05 for *_, pace in _paces(bench, since, _RATE)):
+        raise Broken("short moves are slower, and the robot stops between them")
+    bench.wait_until_at(points[-1][0], 10)
+
+
 @case("speed-reached", "a move that was slowed down is reached before the next one begins")
 def _reached_first(bench: Bench) -> None:
     """It ends in a stop: PROGRESS tells of it in the last move; and not where that stop fails."""
@@ -364,16 +388,16 @@ def _program(bench: Bench) -> None:
 @case("speed-on-circle", "a circle that is slowed down goes on where it was")
 def _circle(bench: Bench) -> None:
     """Its end is ordered anew, and is no circle through where the robot was before."""
-    if not computes(bench):
+    # The tool turns with the circle, which a palletizer's does not.
+    if not computes(bench) or len(bench.group.joints) < 6:
         return
     control, client = bench.control(), Programmer(bench)
     first, *_, last = orders(bench, 4, random.Random(31))
     client.takes("a program", [first])
     bench.wait_until_at(first.joints, 60)
-    middle = [(a + b) / 2 for a, b in zip(first.joints, last.joints, strict=True)]
-    (x, y, z), turned = reached(bench, tuple(middle))
     pose = reached(bench, last.joints)
-    circle = replace(last, kind=RawInstruction.MOVE_C, pose=pose, via=((x, y, z + 0.01), turned))
+    via = _aside(reached(bench, first.joints), pose)
+    circle = replace(last, kind=RawInstruction.MOVE_C, pose=pose, via=via)
     circle = replace(circle, speed=0.03, zone=0.002)
     back = RawOrder(RawInstruction.MOVE_ABSJ, first.joints, None, zone=None)
     ways: list[list[Position]] = []
@@ -386,13 +410,27 @@ def _circle(bench: Bench) -> None:
             bench.run(share * seconds)
             done(control.ask(messages.RawSpeed(30.0)), "SPEED on a circle")
         bench.until(lambda: distance(bench.position, last.joints) < 0.01, 60, "the circle ends")
-        seconds = seconds or bench.now - since
+        taken = bench.now - since
+        seconds = seconds or taken
+        # What is left of it takes more than three times as long; but it may be short.
+        if share is not None and seconds > 1 and taken < (1 + (1 - share)) * seconds:
+            raise Broken(
+                f"a circle of {seconds:.1f} s, {share:.0%} on the way SPEED 30: {taken:.1f} s"
+            )
         ways.append([place for at, place in bench.track if at >= since])
         bench.wait_until_at(first.joints, 60)
         bench.run(0.3)
     for way in ways[1:]:
         if (far := farthest(points(bench, way), points(bench, ways[0]))) > 0.004:
             raise Broken(f"a circle that was slowed down is left by {far * 1000:.1f} mm")
+
+
+def _aside(one: Pose, other: Pose) -> Pose:
+    """Beside the middle between two places, for an arc of some 80 degrees."""
+    way = np.subtract(other[0], one[0])
+    side = np.cross(way, np.eye(3)[np.argmin(np.abs(way))])
+    x, y, z = (np.add(one[0], other[0]) / 2 + 0.2 * side).tolist()
+    return (x, y, z), slerp(one[1], other[1], 0.5)
 
 
 def _moves(bench: Bench, count: int, step: float) -> list[RawOrder]:
