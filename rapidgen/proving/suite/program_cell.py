@@ -317,11 +317,15 @@ def _settings(bench: Bench) -> None:
     for value in (4.0, -1.0, 0.5):
         told = _sends(client, SETTINGS, [value])
         client.refused(told, RawReason.BAD_VALUE, 0, f"settings {value}")
-    for bits in range(4):
+    for asks, bits in ((False, 0), *((True, bits) for bits in range(4))):
         start = replace(there, joints=bench.position)
         # As a routine of the customer's may have left them.
-        modal.check_joint, modal.singularities = False, Singularities.WRIST
-        _accepted(_sends(client, SETTINGS, [float(bits)], behind=there))
+        modal.check_joint = modal.check_linear = False
+        modal.singularities = Singularities.WRIST
+        if asks:
+            _accepted(_sends(client, SETTINGS, [float(bits)], behind=there))
+        else:
+            client.takes("a program without settings", [there])
         bench.wait_until_moving()
         if not modal.check_joint:
             raise Broken("ConfJ is off in a program that did not ask for it")

@@ -3,6 +3,7 @@
 import random
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import TypeAlias
 
 from rapidgen.axes import frames
 from rapidgen.axes.frames import Pose
@@ -26,6 +27,8 @@ from rapidgen.runtime.values import Value
 case = Theme("programs", needs="stream")
 
 TOOL, WORK_OBJECT = RawInstruction.TOOL, RawInstruction.WORK_OBJECT
+Other: TypeAlias = tuple[RawInstruction, Sequence[float]]
+"""An instruction that is no move: its kind and its operands."""
 MOVES = (RawInstruction.MOVE_L, RawInstruction.MOVE_J)
 _NEAR = 1e-3
 """mm, kg, and parts of a quaternion within which a value is the one that was sent."""
@@ -107,20 +110,20 @@ def _own(bench: Bench) -> None:
     right = _tool(0.05, 2.0), _object(0.1)
     if bench.motion_group.kinematics is None:
         for kind, values in zip((TOOL, WORK_OBJECT), right, strict=True):
-            client.refused(_says(client, (kind, values)), RawReason.NO_INSTRUCTION, 0, kind.name)
+            client.refused(says(client, (kind, values)), RawReason.NO_INSTRUCTION, 0, kind.name)
         return
     for kind, values in _wrong():
-        told = _says(client, (kind, values))
+        told = says(client, (kind, values))
         client.refused(told, RawReason.BAD_VALUE, 0, f"{kind.name} {values}")
     for kind, values in _largest():
-        if not isinstance(_says(client, (kind, values)), messages.RawPointsAccepted):
+        if not isinstance(says(client, (kind, values)), messages.RawPointsAccepted):
             raise Broken(f"{kind.name} {values} is refused")
         bench.run(0.5)
     own, their = (tools, 0), (0, objects)
     standing = replace(first, kind=RawInstruction.MOVE_ABSJ, pose=None, joints=bench.position)
     for order in (replace(standing, frames=own), replace(standing, frames=their)):
-        client.refused(_says(client, order), RawReason.NO_FRAME, 0, "values that nobody gave")
-    told = _says(client, (TOOL, right[0]), replace(standing, frames=their))
+        client.refused(says(client, order), RawReason.NO_FRAME, 0, "values that nobody gave")
+    told = says(client, (TOOL, right[0]), replace(standing, frames=their))
     client.refused(told, RawReason.NO_FRAME, 1, "a tool is no work object")
     if not computes(bench):
         return
@@ -136,13 +139,13 @@ def _own(bench: Bench) -> None:
         )
         for order, values in ((first, before), (second, before), (third, behind))
     ]
-    told = _says(client, (TOOL, behind), (WORK_OBJECT, right[1]), way[0])
+    told = says(client, (TOOL, behind), (WORK_OBJECT, right[1]), way[0])
     client.refused(told, RawReason.POSE_MISMATCH, 2, "a pose of another tool")
     # To where the robot has no further way on a line.
     client.takes("a program", [replace(standing, joints=first.joints)])
     bench.wait_until_at(first.joints, 60)
     start, since = bench.position, bench.now
-    told = _says(
+    told = says(
         client, (TOOL, before), (WORK_OBJECT, right[1]), way[0], way[1], (TOOL, behind), way[2]
     )
     if not isinstance(told, messages.RawPointsAccepted):
@@ -155,16 +158,14 @@ def _own(bench: Bench) -> None:
     bench.followed(joints, since=since, corner=0.1)
     _stood_at(bench, second.joints, since)
     client.refused(
-        _says(client, replace(way[2], frames=(tools, objects))),
+        says(client, replace(way[2], frames=(tools, objects))),
         RawReason.NO_FRAME,
         0,
         "values of a program that is over",
     )
 
 
-def _says(
-    client: Programmer, *orders: RawOrder | tuple[RawInstruction, Sequence[float]]
-) -> messages.RawContent:
+def says(client: Programmer, *orders: RawOrder | Other) -> messages.RawContent:
     """A program of moves, and of instructions with their operands; the reply."""
     client.number += 1
     words = millionths(client.bench.position)
@@ -173,6 +174,11 @@ def _says(
             order.words if isinstance(order, RawOrder) else [int(order[0]), *millionths(order[1])]
         )
     return client.say(words, len(orders), ALL)
+
+
+def tool_of(away: float, mass: float) -> Other:
+    """TOOL: as the frames of these cases have it."""
+    return TOOL, _tool(away, mass)
 
 
 def _tool(away: float, mass: float) -> list[float]:

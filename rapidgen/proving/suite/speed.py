@@ -396,7 +396,7 @@ def _circle(bench: Bench) -> None:
     client.takes("a program", [first])
     bench.wait_until_at(first.joints, 60)
     pose = reached(bench, last.joints)
-    via = _aside(reached(bench, first.joints), pose)
+    via = aside(reached(bench, first.joints), pose)
     circle = replace(last, kind=RawInstruction.MOVE_C, pose=pose, via=via)
     circle = replace(circle, speed=0.03, zone=0.002)
     back = RawOrder(RawInstruction.MOVE_ABSJ, first.joints, None, zone=None)
@@ -425,7 +425,7 @@ def _circle(bench: Bench) -> None:
             raise Broken(f"a circle that was slowed down is left by {far * 1000:.1f} mm")
 
 
-def _aside(one: Pose, other: Pose) -> Pose:
+def aside(one: Pose, other: Pose) -> Pose:
     """Beside the middle between two places, for an arc of some 80 degrees."""
     way = np.subtract(other[0], one[0])
     side = np.cross(way, np.eye(3)[np.argmin(np.abs(way))])
