@@ -7,16 +7,15 @@ import math
 import random
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from itertools import pairwise, product
+from itertools import pairwise
 
 import numpy as np
 
 from rapidgen.axes.frames import Pose, slerp
-from rapidgen.motion.moves import Move
 from rapidgen.proving import messages
 from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
-from rapidgen.proving.instructions import at_call, fails
+from rapidgen.proving.instructions import at_call
 from rapidgen.proving.link import RawLink
 from rapidgen.proving.messages import RawComm, RawInstruction, RawReason
 from rapidgen.proving.model import Broken
@@ -29,11 +28,11 @@ from rapidgen.proving.ways import farthest, points
 
 case = Theme("speed", needs="control")
 
-_RATE = 0.08
+RATE = 0.08
 """rad/s or m/s of the axis that is looked at."""
 _TICK = 0.1
 """s between two SpeedRefresh of the driver, the shortest that ITimer does."""
-_LONG = 0.25
+LONG = 0.25
 """s of a move that the driver slows down by SpeedRefresh."""
 _RAMPS = 0.15
 """s in which the axis has come to another speed."""
@@ -44,10 +43,10 @@ _MOMENT = 0.05
 """... and for so many s much faster."""
 
 
-def _line(bench: Bench, count: int, seconds: float) -> list[Point]:
+def straight(bench: Bench, count: int, seconds: float) -> list[Point]:
     """Points on a straight way of the first axis, all as fast."""
     here, joint = bench.position, bench.group.joints[0]
-    step = inward(joint, here[0], _RATE * seconds) - here[0]
+    step = inward(joint, here[0], RATE * seconds) - here[0]
     return [
         (here, 10.0),
         *((changed(here, 0, here[0] + n * step), seconds) for n in range(1, count)),
@@ -59,7 +58,7 @@ def _slow(bench: Bench) -> float:
     return soon(bench) + bench.setting.latest_interrupt
 
 
-def _paces(bench: Bench, since: float, rate: float) -> list[tuple[float, float, float]]:
+def paces(bench: Bench, since: float, rate: float) -> list[tuple[float, float, float]]:
     """From when to when the axis was how fast, in shares of its speed."""
     track = [(when, seen[0]) for when, seen in bench.track if when >= since]
     return [
@@ -69,7 +68,7 @@ def _paces(bench: Bench, since: float, rate: float) -> list[tuple[float, float, 
     ]
 
 
-def _as_asked(
+def as_asked(
     bench: Bench,
     since: float,
     percent: float,
@@ -82,22 +81,22 @@ def _as_asked(
     `seconds`: what a move takes at the speed before. `stops`: how often it comes to rest. `rate`:
     of the axis in moves without a time of their own.
     """
-    asked, paces = percent / 100, _paces(bench, since, _RATE if rate is None else rate)
+    asked, seen = percent / 100, paces(bench, since, RATE if rate is None else rate)
     lag = bench.setting.motion.servo_lag
     ordered = 2 * seconds + bench.setting.motion.planning_lead + _slow(bench) + lag
-    acts = rate is not None or (seconds > _LONG and bench.setting.motion.refresh_timed)
+    acts = rate is not None or (seconds > LONG and bench.setting.motion.refresh_timed)
     # Each move that was ordered may begin as fast as it was ordered, until a timer comes.
     most = _TICK + _slow(bench) + _RAMPS + lag if acts else ordered
     last = since + (ordered / asked if acts else ordered) + most
     fast = 0.0
-    for when, then, pace in paces:
+    for when, then, pace in seen:
         fast = fast + then - when if pace > _PEAK * asked else 0.0
         if fast > most or (fast > _MOMENT and then > last):
             raise Broken(
                 f"{then - since:.2f} s behind SPEED {percent:g} the robot is at {100 * pace:.0f} % "
                 f"of its speed, for {fast:.2f} s"
             )
-    slow = sum(then - when for when, then, pace in paces if pace < 0.75 * asked)
+    slow = sum(then - when for when, then, pace in seen if pace < 0.75 * asked)
     at_rest = _RAMPS + _slow(bench) + _TICK + bench.setting.motion.settle + lag
     if slow > stops * at_rest:
         raise Broken(f"at SPEED {percent:g} the robot is slower than that for {slow:.2f} s")
@@ -135,7 +134,7 @@ def _kept(bench: Bench) -> None:
         ways.append((_stream, 24, short))
     for send, count, seconds in ways:
         for percents in ((50.0,), (60.0, 20.0), (20.0, 60.0)):
-            points, begun = _line(bench, count, seconds), bench.now
+            points, begun = straight(bench, count, seconds), bench.now
             send(bench, link, points)
             bench.wait_until_moving()
             # Once when no other move is ordered, once when one is.
@@ -150,16 +149,16 @@ def _kept(bench: Bench) -> None:
                     bench.wait_until_at(points[-1][0], 10 + 8 * count * seconds)
                     # What was ordered for less keeps that.
                     stops = 2 if percent < 100 * before else 2 + math.ceil(2 * seconds / before)
-                    _as_asked(bench, since, percent, seconds / before, stops)
+                    as_asked(bench, since, percent, seconds / before, stops)
                 else:
                     bench.run(0.3)
                 before = percent / 100
             bench.executed(points, begun)
             bench.wait_until_standing()
-        points, since = _line(bench, count, seconds), bench.now
+        points, since = straight(bench, count, seconds), bench.now
         send(bench, link, points)
         bench.wait_until_at(points[-1][0], 10 + 8 * count * seconds)
-        _as_asked(bench, since, 100, seconds)
+        as_asked(bench, since, 100, seconds)
         bench.wait_until_standing()
 
 
@@ -167,7 +166,7 @@ def _kept(bench: Bench) -> None:
 def _in_pause(bench: Bench) -> None:
     """SpeedRefresh may do nothing while the robot stands."""
     control, link = bench.control(), bench.motion()
-    points, begun = _line(bench, 6, 0.8), bench.now
+    points, begun = straight(bench, 6, 0.8), bench.now
     bench.sets_off(link, points, 1.0)
     done(control.ask(messages.RawPause(1)), "PAUSE")
     bench.wait_until_standing(3)
@@ -177,124 +176,21 @@ def _in_pause(bench: Bench) -> None:
     done(control.ask(messages.RawPause(0)), "the end of a pause")
     bench.wait_until_moving()
     bench.arrives(points, begun, 60)
-    _as_asked(bench, since, 40, 0.8, 3)
+    as_asked(bench, since, 40, 0.8, 3)
 
 
 @case("speed-at-end", "a speed that is asked for in the last move is over with it")
 def _at_the_end(bench: Bench) -> None:
     """SpeedRefresh may last, and may do nothing while the robot stands."""
     control, link = bench.control(), bench.motion()
-    bench.sets_off(link, _line(bench, 2, 1.0), 0.2)
+    bench.sets_off(link, straight(bench, 2, 1.0), 0.2)
     done(control.ask(messages.RawSpeed(50)), "SPEED")
     bench.wait_until_standing()
     bench.run(2)
-    points, since = _line(bench, 4, 1.0), bench.now
+    points, since = straight(bench, 4, 1.0), bench.now
     bench.sets_off(link, points)
     bench.arrives(points, since, 20)
-    _as_asked(bench, since, 100, 1.0)
-
-
-@case("speed-before-order", "a speed that comes just before a long move is ordered holds for it")
-def _before_the_order(bench: Bench) -> None:
-    """Its time is computed already: it is slowed down like a move that is ordered."""
-    control, link = bench.control(), bench.motion()
-    short = max(0.12, 1.05 * bench.config.trajectory.min_segment)
-    line = _line(bench, 9, short)
-    step = line[1][0][0] - line[0][0][0]
-    far = changed(line[-1][0], 0, line[-1][0][0] + step * 1.5 / short)
-    points = [*line, (far, 1.5), (changed(far, 0, far[0] + 4 * step), 4 * short)]
-    since: list[float] = []
-
-    def ask() -> None:
-        since.append(bench.now)
-        control.at_once(messages.encode(messages.RawSpeed(50), RawComm.REQUEST))
-        bench.rapid_task("ROS_motion").sleep(0.05)
-
-    # Interrupts are off at the beginning of a trajectory, and for each move just before its order.
-    at_call(bench, "ROS_motion", "IDisable", 1 + len(line), ask)
-    begun = bench.now
-    bench.sets_off(link, points)
-    bench.arrives(points, begun, 30)
-    _as_asked(bench, since[0], 50, 1.5)
-
-
-@case("speed-between", "a speed that comes as a trajectory begins is not held twice")
-def _between(bench: Bench) -> None:
-    """All its moves get their time: that those before it were long counts no more."""
-    control, link, group = bench.control(), bench.motion(), bench.motion_group
-    bench.moves_through(link, _line(bench, 2, 1.0))
-    bench.run(0.5)
-    refreshed: list[float] = []
-
-    def heard(move: Move) -> None:
-        refreshed.append(group.refresh)
-
-    asks_as_it_begins(bench, control, 50)
-    group.listeners.append(heard)
-    points, since = _line(bench, 4, 1.0), bench.now
-    bench.sets_off(link, points)
-    bench.arrives(points, since, 30)
-    group.listeners.remove(heard)
-    if refreshed != [1.0] * (len(points) - 1):
-        raise Broken(f"{len(points) - 1} moves with their time for SPEED 50, held to {refreshed}")
-    _as_asked(bench, since, 50, 1.0)
-
-
-@case("speed-of-short", "short moves get more time, and the robot does not stop between them")
-def _of_short(bench: Bench) -> None:
-    """No SpeedRefresh slows them down, which would end in a stop."""
-    if not bench.setting.corners_in_time:
-        return
-    control, link = bench.control(), bench.motion()
-    short = max(0.12, 1.05 * bench.config.trajectory.min_segment)
-    if short > _LONG:
-        return
-    line = _line(bench, 26, short)
-    # A long one before them counts no more.
-    points = [line[0], (line[6][0], 6 * short), *line[7:]]
-    bench.sets_off(link, points, 10 * short)
-    done(control.ask(messages.RawSpeed(50)), "SPEED 50")
-    since = bench.now
-    bench.until(lambda: distance(bench.position, points[-3][0]) < 5e-3, 30, "the last but two")
-    if any(pace < 0.05 for *_, pace in _paces(bench, since, _RATE)):
-        raise Broken("short moves are slower, and the robot stops between them")
-    bench.wait_until_at(points[-1][0], 10)
-
-
-@case("speed-reached", "a move that was slowed down is reached before the next one begins")
-def _reached_first(bench: Bench) -> None:
-    """It ends in a stop: PROGRESS tells of it in the last move; and not where that stop fails."""
-    control, watcher, link = bench.control(), bench.watcher(), bench.motion()
-    line = _line(bench, 6, 0.6)
-    here, first, second, last = (line[n][0] for n in (0, 1, 2, 5))
-    points = [line[0], (first, 0.6), (second, 0.6), (last, 1.8)]
-    moves = [replace(_moves(bench, 1, _RATE * 0.6)[0], joints=p) for p in (first, second, last)]
-    program = [*(replace(move, zone=0.002) for move in moves[:-1]), moves[-1]]
-    for what, is_good in product(("a trajectory", "a program"), (True, False)):
-        if what == "a trajectory":
-            bench.sets_off(link, points)
-        elif bench.streams:
-            Programmer(bench, link).takes(what, program)
-        else:
-            return
-        bench.until(
-            lambda: abs(bench.position[0] - here[0]) > 1.4 * abs(first[0] - here[0]), 10, what
-        )
-        done(control.ask(messages.RawSpeed(50)), f"SPEED of {what}")
-        count = bench.progress(watcher).planned
-        if is_good:
-            bench.until(lambda: distance(bench.position, second) < 1e-3, 10, what)
-            bench.run(1)
-        else:
-            fails(bench, "ROS_motion", "MoveAbsJ", "ERR_COLL_STOP")
-            bench.rests(5, 0.5, f"the end of a slower move of {what} has failed")
-        told = bench.progress(watcher)
-        if (told.planned, told.reached) != ((count + 1, count) if is_good else (count, count - 1)):
-            raise Broken(f"the end of a slower move of {what}, which {is_good=}, is told as {told}")
-        if is_good:
-            bench.wait_until_at(last, 20)
-        bench.run(0.3)
-        bench.moves_through(link, bench.way_to(here))
+    as_asked(bench, since, 100, 1.0)
 
 
 @case("speed", "a speed for one trajectory")
@@ -353,16 +249,16 @@ def _at_the_start(bench: Bench) -> None:
 def _program(bench: Bench) -> None:
     """Slower and faster within a move and between two, and at full speed in the next program."""
     control, client = bench.control(), Programmer(bench)
-    step, count = _RATE * 0.6, 6
-    program = _moves(bench, count, step)
+    step, count = RATE * 0.6, 6
+    program = straight_moves(bench, count, step)
     since = bench.now
     client.takes("a program", program)
     bench.wait_until_at(program[-1].joints, 60)
-    rates = sorted(pace for *_, pace in _paces(bench, since, 1.0))
+    rates = sorted(pace for *_, pace in paces(bench, since, 1.0))
     rate = max(rates[-len(rates) // 4 :])
     seconds = step / rate
     for percents in ((50.0,), (60.0, 20.0), (20.0, 60.0)):
-        program, begun = _moves(bench, count, step), bench.position
+        program, begun = straight_moves(bench, count, step), bench.position
         client.takes("a program", program)
         bench.wait_until_moving()
         bench.run(seconds * (0.5 if percents[-1] > 50 else 1.5))
@@ -373,16 +269,16 @@ def _program(bench: Bench) -> None:
             if percent == percents[-1]:
                 bench.wait_until_at(program[-1].joints, 10 + 8 * count * seconds)
                 stops = 2 if percent < 100 * before else 2 + math.ceil(2 * seconds / before)
-                _as_asked(bench, since, percent, seconds / before, stops, rate)
+                as_asked(bench, since, percent, seconds / before, stops, rate)
             else:
                 bench.run(0.3)
             before = percent / 100
         bench.followed([begun, *(order.joints for order in program)], since=since)
         bench.wait_until_standing()
-    program, since = _moves(bench, count, step), bench.now
+    program, since = straight_moves(bench, count, step), bench.now
     client.takes("a program", program)
     bench.wait_until_at(program[-1].joints, 60)
-    _as_asked(bench, since, 100, seconds, rate=rate)
+    as_asked(bench, since, 100, seconds, rate=rate)
 
 
 @case("speed-on-circle", "a circle that is slowed down goes on where it was")
@@ -433,7 +329,7 @@ def aside(one: Pose, other: Pose) -> Pose:
     return (x, y, z), slerp(one[1], other[1], 0.5)
 
 
-def _moves(bench: Bench, count: int, step: float) -> list[RawOrder]:
+def straight_moves(bench: Bench, count: int, step: float) -> list[RawOrder]:
     """Moves on a straight way of the first axis, each in about 0.6 s, the last a stop point."""
     here, joint = bench.position, bench.group.joints[0]
     step = inward(joint, here[0], step) - here[0]

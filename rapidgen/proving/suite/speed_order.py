@@ -1,0 +1,167 @@
+"""SPEED and the order of moves: it comes as one is ordered, between short ones, is over."""
+
+from dataclasses import replace
+from itertools import product
+
+from rapidgen.motion.moves import Move
+from rapidgen.proving import messages
+from rapidgen.proving.behaviour import Theme
+from rapidgen.proving.bench import Bench
+from rapidgen.proving.instructions import Instruction, at_call, fails, wrapped
+from rapidgen.proving.messages import RawComm
+from rapidgen.proving.model import Broken
+from rapidgen.proving.programs import Programmer
+from rapidgen.proving.suite.control import done
+from rapidgen.proving.suite.speed import (
+    LONG,
+    RATE,
+    as_asked,
+    asks_as_it_begins,
+    paces,
+    straight,
+    straight_moves,
+)
+from rapidgen.proving.track import changed, distance
+
+case = Theme("speed", needs="control")
+
+
+@case("speed-before-order", "a speed that comes just before a long move is ordered holds for it")
+def _before_the_order(bench: Bench) -> None:
+    """Its time is computed already: it is slowed down like a move that is ordered, also where it
+    begins long after the speed was asked for."""
+    control, link = bench.control(), bench.motion()
+    short = max(0.12, 1.05 * bench.config.trajectory.min_segment)
+    for percent in (50.0, 5.0):
+        line = straight(bench, 9, short)
+        here, step = line[0][0], line[1][0][0] - line[0][0][0]
+        far = changed(line[-1][0], 0, line[-1][0][0] + step * 1.5 / short)
+        last = changed(far, 0, far[0] + 4 * step), 4 * short
+        points = [*line, (far, 1.5), last]
+        since: list[float] = []
+
+        def ask(wanted: float = percent, since: list[float] = since) -> None:
+            since.append(bench.now)
+            control.at_once(messages.encode(messages.RawSpeed(wanted), RawComm.REQUEST))
+            bench.rapid_task("ROS_motion").sleep(0.05)
+
+        # Interrupts are off at the beginning of a trajectory, and for each move before its order.
+        at_call(bench, "ROS_motion", "IDisable", 1 + len(line), ask)
+        begun = bench.now
+        bench.sets_off(link, points)
+        bench.arrives(points, begun, 100)
+        # A stop between two moves is a move of 0.1 s, and may be slowed down as well.
+        as_asked(bench, since[0], percent, 1.5, 2 if percent > 10 else 6)
+        bench.run(0.5)
+        bench.moves_through(link, bench.way_to(here))
+        bench.run(0.5)
+
+
+@case("speed-between", "a speed that comes as a trajectory begins is not held twice")
+def _between(bench: Bench) -> None:
+    """All its moves get their time: that those before it were long counts no more."""
+    control, link, group = bench.control(), bench.motion(), bench.motion_group
+    bench.moves_through(link, straight(bench, 2, 1.0))
+    bench.run(0.5)
+    refreshed: list[float] = []
+
+    def heard(move: Move) -> None:
+        refreshed.append(group.refresh)
+
+    asks_as_it_begins(bench, control, 50)
+    group.listeners.append(heard)
+    points, since = straight(bench, 4, 1.0), bench.now
+    bench.sets_off(link, points)
+    bench.arrives(points, since, 30)
+    group.listeners.remove(heard)
+    if refreshed != [1.0] * (len(points) - 1):
+        raise Broken(f"{len(points) - 1} moves with their time for SPEED 50, held to {refreshed}")
+    as_asked(bench, since, 50, 1.0)
+
+
+@case("speed-of-short", "short moves get more time, and the robot does not stop between them")
+def _of_short(bench: Bench) -> None:
+    """No SpeedRefresh slows them down, which would end in a stop."""
+    if not bench.setting.corners_in_time:
+        return
+    control, link = bench.control(), bench.motion()
+    short = max(0.12, 1.05 * bench.config.trajectory.min_segment)
+    if short > LONG:
+        return
+    line = straight(bench, 26, short)
+    # A long one before them counts no more.
+    points = [line[0], (line[6][0], 6 * short), *line[7:]]
+    bench.sets_off(link, points, 10 * short)
+    done(control.ask(messages.RawSpeed(50)), "SPEED 50")
+    since = bench.now
+    bench.until(lambda: distance(bench.position, points[-3][0]) < 5e-3, 30, "the last but two")
+    if any(pace < 0.05 for *_, pace in paces(bench, since, RATE)):
+        raise Broken("short moves are slower, and the robot stops between them")
+    bench.wait_until_at(points[-1][0], 10)
+
+
+@case("speed-reached", "a move that was slowed down is reached before the next one begins")
+def _reached_first(bench: Bench) -> None:
+    """It ends in a stop: PROGRESS tells of it in the last move; and not where that stop fails."""
+    control, watcher, link = bench.control(), bench.watcher(), bench.motion()
+    line = straight(bench, 6, 0.6)
+    here, first, second, last = (line[n][0] for n in (0, 1, 2, 5))
+    points = [line[0], (first, 0.6), (second, 0.6), (last, 1.8)]
+    moves = [
+        replace(straight_moves(bench, 1, RATE * 0.6)[0], joints=p) for p in (first, second, last)
+    ]
+    program = [*(replace(move, zone=0.002) for move in moves[:-1]), moves[-1]]
+    for what, is_good in product(("a trajectory", "a program"), (True, False)):
+        if what == "a trajectory":
+            bench.sets_off(link, points)
+        elif bench.streams:
+            Programmer(bench, link).takes(what, program)
+        else:
+            return
+        bench.until(
+            lambda: abs(bench.position[0] - here[0]) > 1.4 * abs(first[0] - here[0]), 10, what
+        )
+        done(control.ask(messages.RawSpeed(50)), f"SPEED of {what}")
+        count = bench.progress(watcher).planned
+        if is_good:
+            bench.until(lambda: distance(bench.position, second) < 1e-3, 10, what)
+            bench.run(1)
+        else:
+            fails(bench, "ROS_motion", "MoveAbsJ", "ERR_COLL_STOP")
+            bench.rests(5, 0.5, f"the end of a slower move of {what} has failed")
+        told = bench.progress(watcher)
+        if (told.planned, told.reached) != ((count + 1, count) if is_good else (count, count - 1)):
+            raise Broken(f"the end of a slower move of {what}, which {is_good=}, is told as {told}")
+        if is_good:
+            bench.wait_until_at(last, 20)
+        bench.run(0.3)
+        bench.moves_through(link, bench.way_to(here))
+
+
+@case("speed-said-enough", "SpeedRefresh is said for as long as it may be lost, and no longer")
+def _said_enough(bench: Bench) -> None:
+    """It is said again at the full speed of the next trajectory, and then left alone."""
+    control, link, said = bench.control(), bench.motion(), list[float]()
+
+    def noted(as_before: Instruction) -> Instruction:
+        def noting(*arguments: object) -> object:
+            said.append(bench.now)
+            return as_before(*arguments)
+
+        return noting
+
+    wrapped(bench.rapid_task("ROS_motion"), "SpeedRefresh", noted)
+    points = straight(bench, 2, 1.0)
+    bench.sets_off(link, points, 0.3)
+    done(control.ask(messages.RawSpeed(50)), "SPEED 50")
+    bench.wait_until_at(points[-1][0], 20)
+    bench.run(0.5)
+    since, points = bench.now, straight(bench, 5, 1.0)
+    bench.sets_off(link, points, 2.0)
+    if not any(when > since for when in said):
+        raise Broken("a speed is over, and SpeedRefresh has not said so while the robot moves")
+    enough = bench.now
+    bench.wait_until_at(points[-1][0], 20)
+    late = [when for when in said if enough < when < bench.now - 0.5]
+    if late:
+        raise Broken(f"SpeedRefresh is said again at {late}, 2 s behind the beginning")
