@@ -44,6 +44,23 @@ def test_routines_in_no_file_do_nothing_and_are_told(tmp_path):
         assert controller.positions() == pytest.approx(start, abs=1e-5)
 
 
+def test_a_routine_in_no_file_has_the_optional_arguments_of_all_its_calls(tmp_path):
+    """A logger of a public cell is called with another level each time."""
+    path = tmp_path / "logs.mod"
+    path.write_text(
+        "MODULE talks\n PROC main()\n"
+        '  logs \\Warning \\Origin:="a", "one";\n  logs \\Debug \\Origin:="a", "two";\n'
+        '  logs \\Debug, "three" \\Code:=3;\n  logs "four" \\Code:=4 \\Twice;\n'
+        '  TPWrite "behind";\n ENDPROC\nENDMODULE\n'
+    )
+    shown: list[str] = []
+    with VirtualController.from_files([path], cell="guess", cycle="once") as controller:
+        controller.operator.subscribe(lambda _task, text: shown.append(text))
+        controller.run(max_time=5)
+        assert controller.task("T_ROB1").fault is None
+    assert shown == ["behind"]
+
+
 def test_a_trap_in_no_file_does_nothing_and_is_told(tmp_path):
     path = tmp_path / "calls.mod"
     path.write_text(
