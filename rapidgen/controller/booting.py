@@ -7,11 +7,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import rapidgen.system as files
+from rapidgen.axes.starts import usual_start
 from rapidgen.config import from_manifest, load_config
 from rapidgen.config.model import GroupConfig, RobotConfig
 from rapidgen.config.registry import is_path
 from rapidgen.controller.mechanics import DEFAULT_ROBOT, mechanics
-from rapidgen.controller.starts import in_front, stands, start_of, usual_start
+from rapidgen.controller.starts import in_front, stands, start_of
 from rapidgen.controller.surroundings import Surroundings, cameras_of, force_of, furnish
 from rapidgen.diagnostics import Diagnostic, refusal, suggest
 from rapidgen.system.model import System

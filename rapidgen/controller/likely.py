@@ -10,12 +10,12 @@ from rapidgen.axes import frames
 from rapidgen.axes.frames import Pose
 from rapidgen.axes.kinematics import AxisConfiguration, Kinematics
 from rapidgen.axes.mapping import ABSENT, JointMap
+from rapidgen.axes.starts import usual_start
 from rapidgen.config import shipped_names
 from rapidgen.config.compiled import shipped_groups
 from rapidgen.config.library import variants
 from rapidgen.config.model import GroupConfig
 from rapidgen.config.of_variant import group_of
-from rapidgen.controller.starts import usual_start
 from rapidgen.controller.targets import Meant, meant
 from rapidgen.rapid import Dialect, parse
 from rapidgen.rapid.binding import TaskScope

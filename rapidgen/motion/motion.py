@@ -1,6 +1,6 @@
 """What a robot does from a moment on: everything that positions depend on."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import ceil
 
 from rapidgen.axes.kinematics import Posture
@@ -37,13 +37,14 @@ class Motion:
     """The axes' own way to rest when the brakes stop them; the law then tells where on the path
     the robot should have stopped."""
 
-    @property
-    def end(self) -> int:
-        """When it stands still."""
+    end: int = field(init=False)
+    """When it stands still: asked for at every event."""
+
+    def __post_init__(self) -> None:
         end = self.start
         if self.law.phases[0]:
             end += ceil((self.law.duration + self.ramp) * S)
-        return end if self.coast is None else max(end, self.coast.end)
+        object.__setattr__(self, "end", end if self.coast is None else max(end, self.coast.end))
 
     def planned(self, now: int) -> tuple[float, float]:
         """Place and speed of the law at a time: from there on it may be planned anew."""

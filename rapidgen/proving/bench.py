@@ -34,6 +34,7 @@ from rapidgen.proving.model import Broken
 from rapidgen.proving.settings import Setting
 from rapidgen.proving.track import SETTLED, Point, Position, distance, on_path, still
 from rapidgen.python310 import Self
+from rapidgen.runtime.compiler.symbols import CannotCompile
 from rapidgen.runtime.errors import FatalError
 from rapidgen.runtime.task.task import Task
 from rapidgen.system.model import ModuleFile, System
@@ -289,6 +290,8 @@ class Bench:
     def compile(self) -> None:
         """Compile all RAPID now, not on first call: copies of this bench then need not."""
         for task in self.controller.rapid_tasks.values():
+            with suppress(CannotCompile):
+                task.program.find_initial_values()
             for module in task.program.modules.values():
                 for routine in module.routines.values():
                     # What cannot be linked ends its task when it is called, not here.

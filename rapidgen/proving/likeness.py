@@ -23,6 +23,8 @@ LONGEST = 12
 """Moves of a program at most; two at least."""
 PROGRAMS = Setting()
 """Under which they run."""
+SAMPLE = 20_000_000
+"""ns between two positions that are kept: in the smallest zone is one of them at least."""
 
 
 def name_of(seed: int) -> str:
@@ -53,6 +55,7 @@ def liken(
     finding = None
     setting = replace(PROGRAMS, tracing=trace is not None)
     with boot(config, system, setting) as bench:
+        bench.sample = SAMPLE
         if trace is not None:
             Trace(bench.controller, trace)
         program = orders(bench, chance.randint(2, LONGEST), chance)
@@ -60,6 +63,7 @@ def liken(
         end = record(bench.controller) if record is not None else None
         try:
             other = boot(config, called(config, bench.group.task), setting)
+            other.sample = SAMPLE
             one_like_rapid(Programmer(bench), bench, program, other)
             bench.healthy()
         except FAILURES as error:

@@ -4,10 +4,6 @@ import random
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from itertools import pairwise
-
-import numpy as np
-from numpy.typing import NDArray
 
 from rapidgen.axes.frames import Pose
 from rapidgen.config.model import RobotConfig
@@ -258,35 +254,3 @@ def _target(pose: Pose, like: Value) -> str:
 
 def _list(values: Sequence[float]) -> str:
     return "[" + ",".join(f"{value:.9G}" for value in values) + "]"
-
-
-def movement(track: Sequence[tuple[float, Position]]) -> tuple[float, list[Position]]:
-    """s from the first movement to the last, and where the robot was meanwhile."""
-    moving = [later for earlier, later in pairwise(track) if earlier[1] != later[1]]
-    return (moving[-1][0] - moving[0][0], [place for _, place in moving]) if moving else (0.0, [])
-
-
-def farthest(bench: Bench, places: Sequence[Position], way: Sequence[Position]) -> float:
-    """The largest distance of a place from the way through others, in their order: of the TCP in m,
-    of an axis where the robot's geometry is not known."""
-    if not places:
-        return 0.0
-    line, seen = _followed(bench, way), _followed(bench, places)
-    start, along = line[:-1], np.diff(line, axis=0)
-    length = np.maximum((along * along).sum(axis=1), np.finfo(float).tiny)
-    at, worst = 0, 0.0
-    for place in seen:
-        # The way is followed from one to the next, not left out.
-        near = slice(max(0, at - 3), at + 40)
-        away = place - start[near]
-        share = np.clip((away * along[near]).sum(axis=1) / length[near], 0.0, 1.0)
-        apart = np.linalg.norm(away - share[:, None] * along[near], axis=1)
-        nearest = int(apart.argmin())
-        at, worst = near.start + nearest, max(worst, float(apart[nearest]))
-    return worst
-
-
-def _followed(bench: Bench, places: Sequence[Position]) -> NDArray[np.float64]:
-    """Rows of what is compared."""
-    known = bench.motion_group.kinematics is not None
-    return np.array([bench.tcp(place) for place in places] if known else places)

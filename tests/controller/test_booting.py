@@ -3,12 +3,13 @@
 import pytest
 
 from rapidgen.axes.kinematics import Kinematics
+from rapidgen.axes.starts import usual_start
 from rapidgen.config import load_config
 from rapidgen.config.cell import load_cell
 from rapidgen.controller import VirtualController
 from rapidgen.controller.booting import Wishes, load_target
 from rapidgen.controller.likely import Likely
-from rapidgen.controller.starts import shown, usual_start
+from rapidgen.controller.starts import shown
 from rapidgen.controller.surroundings import GUESSED
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.system.releases import UNTOLD

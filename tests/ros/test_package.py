@@ -130,7 +130,7 @@ def _joints(groups, name, urdf):
     return found.union(*(_joints(groups, one, urdf) for one in within))
 
 
-@pytest.mark.parametrize("name", ["irb120", "irb2400", "irb5400", "irb14050"])
+@pytest.mark.parametrize("name", ["irb120", "irb2400", "irb5400", "irb14050", "irb14000"])
 def test_nothing_of_an_arm_collides_with_itself_at_home(name):
     """With move_group a start state in collision has no plan, whatever is asked for."""
     files = package(name)
@@ -138,8 +138,8 @@ def test_nothing_of_an_arm_collides_with_itself_at_home(name):
     urdf = ET.fromstring(text)
     srdf = ET.fromstring(files[f"config/{name}_rapidgen.srdf"])
     robot = yourdfpy.URDF.load(BytesIO(text.encode()), load_meshes=False)
-    home = next(srdf.iter("group_state"))
-    robot.update_cfg({j.attrib["name"]: float(j.attrib["value"]) for j in home.iter("joint")})
+    home = srdf.findall("group_state/joint")
+    robot.update_cfg({j.attrib["name"]: float(j.attrib["value"]) for j in home})
     bars = {
         link.attrib["name"]: _points_in_bar(link.find("collision"), robot, link.attrib["name"])
         for link in urdf.iter("link")

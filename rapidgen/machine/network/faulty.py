@@ -30,16 +30,13 @@ class _Lane:
         self._taken = 0
         self._last = 0
         self.pieces: deque[tuple[int, bytes]] = deque()
+        self.waiting = 0
+        """Bytes in the queue."""
 
     @property
     def active(self) -> bool:
         """Whether any rule is about this direction."""
         return bool(self._rules)
-
-    @property
-    def waiting(self) -> int:
-        """Bytes in the queue."""
-        return sum(len(piece) for _, piece in self.pieces)
 
     def ended_by(self) -> NetworkRule | None:
         """The rule that keeps further bytes from passing."""
@@ -91,6 +88,18 @@ class _Lane:
                 time = -(-time // stretch) * stretch
             self._last = time
             self.pieces.append((time, part[start : start + size]))
+        self.waiting += len(part)
+
+    def take(self) -> tuple[int, bytes]:
+        """The first piece, with its time."""
+        time, piece = self.pieces.popleft()
+        self.waiting -= len(piece)
+        return time, piece
+
+    def give_back(self, time: int, rest: bytes) -> None:
+        """What could not pass of the first piece."""
+        self.pieces.appendleft((time, rest))
+        self.waiting += len(rest)
 
 
 class _Line:
@@ -243,13 +252,13 @@ class FaultyNetwork(Network):
         now = self._scheduler.now
         arrived = line.lane_in.pieces
         while arrived and arrived[0][0] <= now:
-            line.ready += arrived.popleft()[1]
+            line.ready += line.lane_in.take()[1]
         leaving = line.lane_out.pieces
         while leaving and leaving[0][0] <= now:
-            time, piece = leaving.popleft()
+            time, piece = line.lane_out.take()
             taken = self._offer(endpoint, line, piece)
             if taken < len(piece):
-                leaving.appendleft((time, piece[taken:]))
+                line.lane_out.give_back(time, piece[taken:])
                 break
         if line.closing and not leaving:
             self._lines.pop(endpoint, None)

@@ -24,12 +24,11 @@ from rapidgen.proving.programs import (
     by_hand,
     called,
     computes,
-    farthest,
-    movement,
     orders,
     reached,
 )
 from rapidgen.proving.track import SETTLED, Position, changed, distance, inward, small_unit
+from rapidgen.proving.ways import farthest, movement, points
 
 case = Theme("programs", needs="stream")
 
@@ -93,8 +92,9 @@ def one_like_rapid(
         theirs = _moved(other, program, 0.5)
     if abs(mine[0] - theirs[0]) > _LATER * theirs[0]:
         raise Broken(f"a program took {mine[0]:.3f} s, {theirs[0]:.3f} s when written in RAPID")
-    for one, way in ((mine[1], theirs[1]), (theirs[1], mine[1])):
-        far = farthest(bench, one, way)
+    ways = points(bench, mine[1]), points(bench, theirs[1])
+    for one, way in (ways, ways[::-1]):
+        far = farthest(one, way)
         if far > _SAME:
             raise Broken(f"a program is {far * 1000:.3f} mm off the way of the same in RAPID")
 

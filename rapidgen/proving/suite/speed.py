@@ -17,11 +17,12 @@ from rapidgen.proving.instructions import at_call
 from rapidgen.proving.link import RawLink
 from rapidgen.proving.messages import RawComm, RawInstruction, RawReason
 from rapidgen.proving.model import Broken
-from rapidgen.proving.programs import Programmer, RawOrder, computes, farthest, orders, reached
+from rapidgen.proving.programs import Programmer, RawOrder, computes, orders, reached
 from rapidgen.proving.stream import BEGIN, END, Streamer
 from rapidgen.proving.suite.control import done, not_done
 from rapidgen.proving.suite.motion_task import begins, soon, unit_of
 from rapidgen.proving.track import Point, Position, changed, distance, inward
+from rapidgen.proving.ways import farthest, points
 
 case = Theme("speed", needs="control")
 
@@ -354,7 +355,7 @@ def _circle(bench: Bench) -> None:
         bench.wait_until_at(first.joints, 60)
         bench.run(0.3)
     for way in ways[1:]:
-        if (far := farthest(bench, way, ways[0])) > 0.004:
+        if (far := farthest(points(bench, way), points(bench, ways[0]))) > 0.004:
             raise Broken(f"a circle that was slowed down is left by {far * 1000:.1f} mm")
 
 

@@ -286,6 +286,8 @@ class _Collector:
     """
 
     LEAST = 1_000_000
+    FEW = 2_000
+    """Tokens of a text whose tree is left where it is: asking what is frozen goes through that."""
 
     def __init__(self) -> None:
         self.promoted = 0
@@ -293,13 +295,13 @@ class _Collector:
 
     @contextmanager
     def paused(self) -> Iterator[None]:
-        running = gc.isenabled()
+        running, before = gc.isenabled(), self.promoted
         gc.disable()
         try:
             yield
         finally:
             if running:
-                if gc.get_freeze_count() == 0:
+                if self.promoted - before > self.FEW and gc.get_freeze_count() == 0:
                     gc.freeze()
                     gc.unfreeze()
                 gc.enable()

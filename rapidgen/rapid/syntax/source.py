@@ -81,7 +81,7 @@ class Source:
 
     def line(self, token: int) -> int:
         """Line (from 1) on which a token starts."""
-        return self.position(self.starts[token])[0]
+        return bisect_right(self.lines, self.starts[token])
 
     def span(self, first: int, last: int) -> Span:
         """Place from the start of token `first` to the end of token `last`."""

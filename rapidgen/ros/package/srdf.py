@@ -8,6 +8,8 @@ robot's real shape, and a check too many harms nobody.
 from collections.abc import Sequence
 from xml.etree import ElementTree as ET
 
+from rapidgen.axes.mapping import JointMap
+from rapidgen.axes.starts import usual_start
 from rapidgen.config.model import GroupConfig
 from rapidgen.ros.package.shapes import overlapping
 from rapidgen.ros.package.urdf import Drawn, PlacedRobot, urdf_range
@@ -70,9 +72,13 @@ def _group(root: ET.Element, group: GroupConfig, prefix: str, drawn: Drawn) -> N
 
 
 def home_posture(group: GroupConfig) -> list[tuple[str, float]]:
-    """All joints at 0, or as near to it as their range allows; rad or m."""
+    """Where the model usually begins, as near as a joint's range in the URDF allows; rad or m.
+
+    With all joints at 0 wrists are singular, and the hands of two arms may touch.
+    """
     found = []
-    for joint in group.joints:
+    values = JointMap.of(group).to_urdf(usual_start(group))
+    for joint, value in zip(group.joints, values, strict=True):
         lower, upper = urdf_range(joint)
-        found.append((joint.name, min(max(0.0, lower), upper)))
+        found.append((joint.name, min(max(value, lower), upper)))
     return found

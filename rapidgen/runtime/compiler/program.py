@@ -1,6 +1,6 @@
 """The program of one task: modules linked into one Python namespace, compiled on first call."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 from functools import partial
 from typing import Protocol
@@ -41,6 +41,8 @@ class Program:
         self.codes: dict[str, Compiled] = {}
         self._linked: set[Routine] = set()
         """What is compiled as the modules are now."""
+        self._initial: dict[str, Value] = {}
+        """Values that nothing has changed yet, by where they are kept."""
         self.space: dict[str, Value] = {
             **runtime.NAMESPACE,
             "R": executor,
@@ -83,6 +85,7 @@ class Program:
 
     def _reset_code(self) -> None:
         self._linked.clear()
+        self._initial = {}
         for module in self.modules.values():
             for routine in module.routines.values():
                 self.space[routine.code] = self._stub(routine)
@@ -92,6 +95,19 @@ class Program:
 
         Data of built-in modules keep theirs, but for what a shared one has for each task [K §13.2].
         """
+        self.find_initial_values()
+        self.space |= self._initial
+        # Arrays and records are changed in place: next time these are others.
+        self._initial = {}
+
+    def find_initial_values(self) -> None:
+        """Work out now what `reset_variables` will give, so that copies of this need not.
+
+        CannotCompile: some value is none."""
+        if not self._initial:
+            self._initial = dict(self._initial_values())
+
+    def _initial_values(self) -> Iterator[tuple[str, Value]]:
         for module in self.modules.values():
             for key, d in module.declarations.items():
                 if d.kind != "VAR":
@@ -100,7 +116,7 @@ class Program:
                     continue
                 data = self.find_data(module, key)
                 if data is not None and data.type.name not in self.shared.unknown:
-                    self.space[data.code] = self.evaluate(module, module.scope, d)[2]
+                    yield data.code, self.evaluate(module, module.scope, d)[2]
 
     # -- names -----------------------------------------------------------------------------------
 
