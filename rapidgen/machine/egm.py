@@ -20,7 +20,7 @@ class Session:
 
     task: str
     guidance: Guidance | None = None
-    """What it was set up for; None: not set up."""
+    """What it was set up for; None: for streaming alone, or not at all."""
     device: UdpDevice | None = None
     patience: float | None = None
     """Seconds without a datagram after which there is no communication; None: never."""

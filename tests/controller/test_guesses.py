@@ -80,6 +80,11 @@ ENDS = {
         "  MoveJ p, v100, fine, tool0;\n  TPWrite ValToStr(count);\n ENDPROC\n",
         "Statement cannot be executed",
     ),
+    "a size that nobody says is a constant, and as long as the initial value": (
+        " VAR num many{maxSources};\n VAR num few{maxParts} := [1,2,3];\n PROC main()\n"
+        "  many{3} := few{3};\n  TPWrite ValToStr(Dim(few, 1));\n ENDPROC\n",
+        "Statement cannot be executed",
+    ),
     "what only a persistent may be is one": (
         ' PROC main()\n  WaitTestAndSet gripLock;\n  TPWrite "mine";\n'
         "  gripLock := FALSE;\n ENDPROC\n",

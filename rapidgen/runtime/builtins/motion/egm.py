@@ -90,17 +90,17 @@ def egm_get_state(_task: Task, identity: Identity) -> int:
 
 @by_name("EGMSetupUC")
 def egm_setup_uc(task: Task, _name: str, given: Arguments) -> None:
-    """FatalError: the mode is not given, or there is no such device. How long a silent partner is
-    waited for without \\CommTimeout is the switch `egm_patience`."""
+    """FatalError: there is no such device. Without a mode positions are streamed only, as a public
+    program for that alone has it [code: rparak/ABB_EGM_Motion_Mirroring]. How long a silent partner
+    is waited for without \\CommTimeout is the switch `egm_patience`."""
     session = _session(task, given["EGMid"])
     modes = [mode for mode in get_args(Guidance) if given[mode]]
-    if not modes:
-        raise _refused("one of \\Joint, \\Pose and \\PathCorr")
     device = task.controller.egm.device(given["UCDevice"])
     if device is None:
         raise _refused(f"there is no UDP device {given['UCDevice']} in the configuration (SIO)")
     session.end()
-    session.guidance, session.device, session.active = cast(Guidance, modes[0]), device, None
+    session.guidance = cast(Guidance, modes[0]) if modes else None
+    session.device, session.active = device, None
     patience = task.controller.dialect.egm_patience
     session.patience = given["CommTimeout"]
     if patience == "never":
@@ -114,6 +114,8 @@ def egm_act(task: Task, name: str, given: Arguments) -> None:
     """The last one counts. FatalError: it was set up for something else."""
     session = _set_up(task, given["EGMid"])
     wanted: Guidance = "Joint" if name == "EGMActJoint" else "Pose"
+    if session.guidance is None:
+        raise _refused(f"EGMSetupUC \\{wanted} comes first")
     if session.guidance != wanted:
         raise _mismatch(f"{name} behind EGMSetupUC \\{session.guidance}")
     session.active = wanted

@@ -29,7 +29,10 @@ MODULE egm
         ClkStart watch;
         EGMRunJoint id, EGM_STOP_HOLD \CondTime:=20;
         TPWrite "nothing to move: " + State();
+        EGMSetupUC ROB_1, id, "default", "UCdevice";
         Streams;
+        EGMSetupUC ROB_1, id, "default", "UCdevice" \Joint \CommTimeout:=5;
+        EGMActJoint id \J1:=near;
         CONNECT ends WITH stops;
         ITimer \Single, 3, ends;
         Guided;
