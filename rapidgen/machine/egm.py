@@ -15,7 +15,7 @@ Guidance: TypeAlias = Literal["Joint", "Pose", "PathCorr"]
 
 
 @dataclass(slots=True, eq=False)
-class Session:
+class EgmSession:
     """What stands behind an identity, from EGMGetId to EGMReset."""
 
     task: str
@@ -53,12 +53,12 @@ class Session:
         self.changed.notify()
 
 
-class Sessions:
+class EgmSessions:
     """The identities of a controller. `devices` None: its configuration is not known."""
 
     def __init__(self, devices: tuple[UdpDevice, ...] | None) -> None:
         self._devices = devices
-        self._sessions: list[Session] = []
+        self._sessions: list[EgmSession] = []
 
     def device(self, name: str) -> UdpDevice | None:
         """A device by its name, behind which programs may write a colon; None: there is none."""
@@ -67,14 +67,14 @@ class Sessions:
             return UdpDevice(wanted)
         return next((d for d in self._devices if d.name.lower() == wanted.lower()), None)
 
-    def take(self, task: str) -> Session | None:
+    def take(self, task: str) -> EgmSession | None:
         """A new session; None: all identities are in use."""
         if len(self._sessions) >= MAX_IDENTITIES:
             return None
-        self._sessions.append(Session(task))
+        self._sessions.append(EgmSession(task))
         return self._sessions[-1]
 
-    def free(self, session: Session) -> None:
+    def free(self, session: EgmSession) -> None:
         """Its identity can be taken again."""
         session.end()
         if session in self._sessions:

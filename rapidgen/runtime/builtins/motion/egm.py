@@ -9,7 +9,7 @@ be followed.
 
 from typing import Final, cast, get_args
 
-from rapidgen.machine.egm import MAX_IDENTITIES, Guidance, Session
+from rapidgen.machine.egm import MAX_IDENTITIES, EgmSession, Guidance
 from rapidgen.machine.scheduler import S
 from rapidgen.runtime.builtins.motion.access import moving_group
 from rapidgen.runtime.errors import FatalError, RapidError
@@ -25,23 +25,23 @@ _DISCONNECTED, _CONNECTED, _RUNNING = range(3)
 """Only their order is documented; a public program noted 0 and 1 [code: C-projectabout-...]."""
 
 
-class Identity:
+class EgmIdentity:
     """An egmident: what EGMGetId has put into it."""
 
     __slots__ = ("session",)
 
     def __init__(self) -> None:
-        self.session: Session | None = None
+        self.session: EgmSession | None = None
 
 
-register_type("egmident", Identity)
+register_type("egmident", EgmIdentity)
 
 
 def _refused(text: str, *, event: int = GUIDED, title: str = "EGM not possible") -> FatalError:
     return FatalError(event, title, text)
 
 
-def _session(task: Task, identity: Identity) -> Session:
+def _session(task: Task, identity: EgmIdentity) -> EgmSession:
     """FatalError: it is no motion task, or the identity was not taken, or was given back."""
     moving_group(task)
     if identity.session is None:
@@ -49,7 +49,7 @@ def _session(task: Task, identity: Identity) -> Session:
     return identity.session
 
 
-def _set_up(task: Task, identity: Identity) -> Session:
+def _set_up(task: Task, identity: EgmIdentity) -> EgmSession:
     """FatalError: nothing was set up."""
     session = _session(task, identity)
     if session.device is None:
@@ -58,7 +58,7 @@ def _set_up(task: Task, identity: Identity) -> Session:
 
 
 @builtin("EGMGetId")
-def egm_get_id(task: Task, identity: Identity) -> None:
+def egm_get_id(task: Task, identity: EgmIdentity) -> None:
     """The same variable keeps its own. FatalError: all four are in use [GoFa 7.21]."""
     moving_group(task)
     if identity.session is not None:
@@ -72,7 +72,7 @@ def egm_get_id(task: Task, identity: Identity) -> None:
 
 
 @builtin("EGMReset")
-def egm_reset(task: Task, identity: Identity) -> None:
+def egm_reset(task: Task, identity: EgmIdentity) -> None:
     """Give it back; one that was not taken is left alone."""
     moving_group(task)
     if identity.session is not None:
@@ -81,7 +81,7 @@ def egm_reset(task: Task, identity: Identity) -> None:
 
 
 @builtin("EGMGetState")
-def egm_get_state(_task: Task, identity: Identity) -> int:
+def egm_get_state(_task: Task, identity: EgmIdentity) -> int:
     """DISCONNECTED without EGMGetId, RUNNING while positions would go out or in."""
     if identity.session is None:
         return _DISCONNECTED
@@ -128,13 +128,13 @@ def _mismatch(text: str) -> FatalError:
 
 
 @builtin("EGMStreamStart")
-def egm_stream_start(task: Task, identity: Identity, _rate: float | None) -> None:
+def egm_stream_start(task: Task, identity: EgmIdentity, _rate: float | None) -> None:
     """Positions would go out; nobody has to read them."""
     _set_up(task, identity).streaming = True
 
 
 @builtin("EGMStreamStop")
-def egm_stream_stop(task: Task, identity: Identity) -> None:
+def egm_stream_stop(task: Task, identity: EgmIdentity) -> None:
     """They would no longer."""
     _set_up(task, identity).streaming = False
 
@@ -167,7 +167,7 @@ def egm_run(task: Task, name: str, given: Arguments) -> None:
         )
 
 
-def _await(task: Task, session: Session, name: str) -> None:
+def _await(task: Task, session: EgmSession, name: str) -> None:
     """Until EGMStop in a trap. ERR_UDPUC_COMM."""
     try:
         ended = task.wait_for(
@@ -182,13 +182,13 @@ def _await(task: Task, session: Session, name: str) -> None:
         raise RapidError("ERR_UDPUC_COMM", f"no datagram of {session.partner}")
 
 
-def _silent(task: Task, session: Session) -> None:
+def _silent(task: Task, session: EgmSession) -> None:
     session.end()
     task.order(_refused(session.partner, event=_NO_DATA, title="No data from the UdpUc device"))
 
 
 @builtin("EGMWaitCond")
-def egm_wait_cond(task: Task, identity: Identity, _time: float | None) -> None:
+def egm_wait_cond(task: Task, identity: EgmIdentity, _time: float | None) -> None:
     """Until what EGMRunJoint \\NoWaitCond began has come to its end. A silence is fatal there."""
     session = _set_up(task, identity)
     if session.guided:
@@ -200,7 +200,7 @@ def egm_wait_cond(task: Task, identity: Identity, _time: float | None) -> None:
 
 
 @builtin("EGMStop")
-def egm_stop(task: Task, identity: Identity, _mode: float, _ramp_out: float | None) -> None:
+def egm_stop(task: Task, identity: EgmIdentity, _mode: float, _ramp_out: float | None) -> None:
     """Guiding ends, and with it EGMRunJoint, from whose trap this is called. The robot has stayed
     at its start, so neither mode moves it."""
     _session(task, identity).end()
