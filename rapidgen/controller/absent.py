@@ -1,14 +1,15 @@
 """Routines that programs call and that are in no file, as stubs: a guess.
 
 Public modules call what stayed on the controller. A stub takes the arguments of its first call, by
-their types, does nothing, and gives what RAPID makes of a declaration without a value: 0, FALSE, an
-empty text; where a robot stands for a target. A call whose arguments have no type that could be
-told, or a type of the program's own, gets no stub, and the task stops there as before.
+their types, and the optional ones of all further calls. It does nothing, and gives what RAPID makes
+of a declaration without a value: 0, FALSE, an empty text; where a robot stands for a target. A call
+whose arguments have no type that could be told, or a type of the program's own, gets no stub, and
+the task stops there as before.
 """
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from rapidgen.controller.uses import passed, read, scoped
 from rapidgen.diagnostics import Span
@@ -26,12 +27,29 @@ _Call = n.ProcedureCall | n.FunctionCall | n.LateCall
 
 
 @dataclass(frozen=True, slots=True)
+class _Parameter:
+    """Of a stub; `name` is empty where no call says it."""
+
+    name: str
+    declaration: str
+    """Without its name."""
+
+    @property
+    def optional(self) -> bool:
+        return self.declaration.startswith("\\")
+
+    def text(self, number: int) -> str:
+        before, _, after = self.declaration.partition("{")
+        return f"{before} {self.name or f'given{number}'}" + (f"{{{after}" if after else "")
+
+
+@dataclass(frozen=True, slots=True)
 class Absent:
     """A routine that is called and in no file; `type` is what it gives, empty for the others."""
 
     name: str
     type: str
-    parameters: tuple[str, ...]
+    parameters: tuple[_Parameter, ...]
     span: Span
     is_trap: bool = False
 
@@ -44,7 +62,8 @@ class Absent:
         """Its declaration, which does nothing and gives `value` (empty: that of its type)."""
         if self.is_trap:
             return f"    TRAP {self.name}\n    ENDTRAP\n"
-        head = f"{self.name}({','.join(self.parameters)})"
+        given = (p.text(number) for number, p in enumerate(self.parameters, 1))
+        head = f"{self.name}({','.join(given)})"
         if not self.type:
             return f"    PROC {head}\n    ENDPROC\n"
         initial = f" := {value}" if value else ""
@@ -56,10 +75,10 @@ class Absent:
         )
 
 
-def absent(modules: Sequence[ModuleScope], types: Mapping[str, str]) -> Iterator[Absent]:
+def absent(modules: Sequence[ModuleScope], types: Mapping[str, str]) -> tuple[Absent, ...]:
     """What the modules of a task call and none of them declares, each once, where a stub can be
     made. `types` are those of names that nobody declares, by lower-case name."""
-    told: set[str] = set()
+    found: dict[str, Absent] = {}
     for module in modules:
         if not module.tree.name:
             continue
@@ -68,21 +87,44 @@ def absent(modules: Sequence[ModuleScope], types: Mapping[str, str]) -> Iterator
             # What stands around a call comes before it.
             kinds.update((id(e), kind) for e, kind in _wanted(node, scope))
             name = _unknown(node, scope)
-            if not name or name.casefold() in told:
+            if not name:
                 continue
+            before = found.get(name.casefold())
             at = module.tree.source.span(node.first, node.first)
             if isinstance(node, n.Connect):
-                told.add(name.casefold())
-                yield Absent(name, "", (), at, is_trap=True)
+                found.setdefault(name.casefold(), Absent(name, "", (), at, is_trap=True))
                 continue
             assert isinstance(node, _Call)
-            given = kinds.get(id(node), "").replace(NUMBER, "num")
             parameters = _parameters(node.arguments, scope, types)
-            is_function = isinstance(node, n.FunctionCall)
-            if parameters is None or (is_function and type_class(given) is None):
+            if parameters is None:
                 continue
-            told.add(name.casefold())
-            yield Absent(name, given if is_function else "", parameters, at)
+            if before is not None and not before.is_trap:
+                merged = _with_options(before.parameters, parameters)
+                found[name.casefold()] = replace(before, parameters=merged)
+                continue
+            given = kinds.get(id(node), "").replace(NUMBER, "num")
+            is_function = isinstance(node, n.FunctionCall)
+            if not is_function or type_class(given) is not None:
+                kind = given if is_function else ""
+                found[name.casefold()] = Absent(name, kind, parameters, at)
+    return tuple(found.values())
+
+
+def _with_options(
+    known: Sequence[_Parameter], further: Sequence[_Parameter]
+) -> tuple[_Parameter, ...]:
+    """The optional ones that another call has, too, where they stand in it."""
+    merged, place = list(known), 0
+    for parameter in further:
+        names = [p.name.casefold() if p.optional else "" for p in merged]
+        if parameter.optional and parameter.name.casefold() in names:
+            place = names.index(parameter.name.casefold()) + 1
+        elif not parameter.optional:
+            place = next((k for k in range(place, len(names)) if not names[k]), place - 1) + 1
+        else:
+            merged.insert(place, parameter)
+            place += 1
+    return tuple(merged)
 
 
 def _wanted(node: n.Node, scope: Scope) -> Iterator[tuple[n.Expression, str]]:
@@ -110,12 +152,13 @@ def _unknown(node: n.Node, scope: Scope) -> str:
 
 def _parameters(
     arguments: Sequence[n.Argument], scope: Scope, types: Mapping[str, str]
-) -> tuple[str, ...] | None:
-    """Declarations of parameters that take these arguments; None: a type is not known."""
+) -> tuple[_Parameter, ...] | None:
+    """Parameters that take these arguments; None: a type is not known."""
     found = []
-    for i, argument in enumerate(arguments, 1):
+    for argument in arguments:
+        name = argument.name or ""
         if argument.kind == "switch":
-            found.append(f"\\switch {argument.name}")
+            found.append(_Parameter(name, "\\switch"))
             continue
         value = argument.value
         kind = None if value is None else type_of(value, scope) or declared_type(value, scope)
@@ -128,6 +171,5 @@ def _parameters(
         mode = "" if kept == "value" else "VAR "
         dimensions = "{" + ",".join("*" * degree(kind)) + "}" if degree(kind) else ""
         optional = "" if argument.kind == "required" else "\\"
-        name = argument.name or f"given{i}"
-        found.append(f"{optional}{mode}{element(kind)} {name}{dimensions}")
+        found.append(_Parameter(name, f"{optional}{mode}{element(kind)}{dimensions}"))
     return tuple(found)

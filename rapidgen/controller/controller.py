@@ -21,6 +21,7 @@ from rapidgen.controller.views import Signals, TaskView
 from rapidgen.machine.arc_equipment import ArcEquipment
 from rapidgen.machine.cameras import cameras
 from rapidgen.machine.costs import Costs
+from rapidgen.machine.egm import EgmSessions
 from rapidgen.machine.files import FileSystem
 from rapidgen.machine.force import ForceSensors
 from rapidgen.machine.io import IOSystem
@@ -168,6 +169,8 @@ class VirtualController:
         """The hands of a YuMi: `hands["L"].part = 12.0` puts something between the fingers."""
         self.cameras = cameras(system.cameras, surroundings.cameras)
         """By lower-case name."""
+        self.egm = EgmSessions(system.udp_devices)
+        """Of externally guided motion, whose partners are silent."""
         self.force = ForceSensors(surroundings.force)
         """Of the robots."""
         self.configuration = SystemParameters(system, tuple(robots))

@@ -54,6 +54,8 @@ _MADE = frozenset(("mecunit", "cameradev"))
 _NUM = re.compile(r"n[A-Z_\d]|num[A-Z_\d]|reg\d")
 """Names that programmers give to numbers: nCount."""
 _NUMBERED = re.compile(r"[vz](\d{1,4})", re.I)
+_ELEMENTS = 20
+"""Of an array whose size nobody says."""
 _NOTHING: Mapping[str, str] = {"num": "0", "dnum": "0", "bool": "FALSE", "string": '""'}
 _ORDER = frozenset(("<", ">", "<=", ">="))
 _ALIASIO = 2
@@ -160,7 +162,12 @@ def guess(
     rows = dict.fromkeys(row for row in looked_at if row.signal in inputs)
     kept = {name for scopes in tasks for scope in scopes for name in _persistent(scope)}
     initial = {word for scopes in tasks for scope in scopes for word in _in_initial_values(scope)}
-    data = tuple(_declaration(one, stands, initial, kept) for one in named if _is_plain(one.type))
+    sizes = {name: size for scopes in tasks for scope in scopes for name, size in _sizes(scope)}
+    data = tuple(
+        _declaration(one, stands, initial | sizes.keys(), kept, sizes)
+        for one in named
+        if _is_plain(one.type)
+    )
     made_units = tuple(one.name for one in named if one.type == "mecunit")
     made |= {signal.name.casefold(): f"signal{signal.type.lower()}" for signal in system.signals}
     kinds = {name.casefold(): kind for name, kind in made.items()}
@@ -192,11 +199,15 @@ def _is_plain(kind: str) -> bool:
 
 
 def _declaration(
-    one: Named, stands: Mapping[str, str], initial: Collection[str], kept: Collection[str]
+    one: Named,
+    stands: Mapping[str, str],
+    initial: Collection[str],
+    kept: Collection[str],
+    sizes: Mapping[str, int],
 ) -> tuple[str, str, str]:
     """What an initial value is made of is a constant, where its value is known; what only a
     persistent may be is one."""
-    value = _value(one, stands)
+    value = str(sizes.get(one.name.casefold()) or _value(one, stands))
     if one.name.casefold() in initial:
         value = value or _NOTHING.get(one.type, "")
         return f"{'CONST' if value else 'VAR'} {one.type}", one.name, value
@@ -221,6 +232,17 @@ def _in_initial_values(module: ModuleScope) -> Iterator[str]:
             for node in walk(declared.initial):
                 if isinstance(node, n.Name):
                     yield node.name.casefold()
+
+
+def _sizes(module: ModuleScope) -> Iterator[tuple[str, int]]:
+    """Names that stand for the size of an array, and as many elements as its initial value has."""
+    tree = module.tree
+    for declared in (*tree.data, *(d for routine in tree.routines for d in routine.data)):
+        for place, size in enumerate(declared.dimensions):
+            if isinstance(size, n.Name):
+                whole = declared.initial if place == 0 else None
+                known = len(whole.members) if isinstance(whole, n.Aggregate) else _ELEMENTS
+                yield size.name.casefold(), known
 
 
 def _value(one: Named, stands: Mapping[str, str]) -> str:

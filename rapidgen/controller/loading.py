@@ -70,6 +70,7 @@ def load(
         else:
             task.state = "ready"
         found += missing_routines(task.program)
+    found += _unguided(tasks)
     if not entries_wanted or any(task.state == "ready" for task in tasks):
         found = [replace(d, severity=Severity.WARNING) if d.code == "RG402" else d for d in found]
     if any(d.severity is Severity.ERROR for d in found):
@@ -82,6 +83,25 @@ def _tell_its_robot(task: Task) -> None:
     group = task.controller.motion.of_task(task.name)
     unit = task.program.value(None, "rob_id")
     unit.value = group.config.mechanical_unit if group is not None else ""
+
+
+def _unguided(tasks: Iterable[Task]) -> list[Diagnostic]:
+    """One note for all programs that set up externally guided motion."""
+    for module in (module for task in tasks for module in task.program.modules.values()):
+        source = module.tree.source
+        for at, token in enumerate(source.tokens):
+            if token.lower() == "egmsetupuc":
+                return [
+                    error(
+                        "RG408",
+                        source.span(at, at),
+                        "the virtual controller has no EGM partner: nobody guides a robot here",
+                        label="what is to be guided stands still and waits",
+                        notes=("no datagram is sent or read, and no position is corrected",),
+                        severity=Severity.WARNING,
+                    )
+                ]
+    return []
 
 
 def _no_entry(task: Task) -> Diagnostic:

@@ -45,6 +45,8 @@ def read(node: n.Node, scope: Scope) -> Iterator[tuple[n.Expression, str]]:
             yield node.subject, next(filter(None, (type_of(v, scope) for v in values)), "")
         case n.For():
             yield from ((end, "num") for end in (node.start, node.end))
+        case n.DataDeclaration():
+            yield from ((size, "num") for size in node.dimensions)
         case n.Index():
             yield from ((index, "num") for index in node.indices)
 

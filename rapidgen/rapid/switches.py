@@ -170,6 +170,11 @@ class Switches:
     """RMQSendWait without \\TimeOut gives up after 60 s [mem]. False: it waits for ever, as
     RMQReadWait does."""
 
+    egm_patience: Literal["second", "told", "never"] = "second"
+    """After which silence of an EGM partner EGMRunJoint raises ERR_UDPUC_COMM: after \\CommTimeout
+    and, without it, after 1 s (as one of ABB's engineers recalls; the manual is silent), after
+    \\CommTimeout alone, or never (a GoFa with RobotWare 7.21 stayed for 2 min with 5 s told)."""
+
     sockets_limited: bool = True
     """32 sockets of a controller may be open [mem]. False: any number."""
 
@@ -206,6 +211,7 @@ NOT_THE_DRIVERS = frozenset(
         "bit_order",
         "list_number",
         "queue_patience",
+        "egm_patience",
         "sockets_limited",
         "stationary_zones",
         "hands_calibrated",

@@ -7,6 +7,7 @@ from typing import Literal, Protocol, TypeAlias
 from rapidgen.machine.arc_equipment import ArcEquipment
 from rapidgen.machine.cameras import Camera
 from rapidgen.machine.costs import Costs
+from rapidgen.machine.egm import EgmSessions
 from rapidgen.machine.files import FileSystem
 from rapidgen.machine.force import ForceSensors
 from rapidgen.machine.io import IOSystem
@@ -85,6 +86,8 @@ class Host(Protocol):
     """What tasks weld with."""
     cameras: dict[str, Camera]
     """By lower-case name."""
+    egm: EgmSessions
+    """Of externally guided motion."""
     force: ForceSensors
     """Of the robots."""
     hands: Hands

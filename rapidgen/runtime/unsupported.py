@@ -10,10 +10,8 @@ from rapidgen.rapid.builtins import signatures
 
 _GROUPS: Final[tuple[tuple[str, str], ...]] = (
     (
-        "externally guided motion (option 689-1) is not simulated",
-        """EGMGetId EGMGetState EGMSetupUC EGMSetupAI EGMSetupAO EGMSetupLTAPP EGMActJoint
-        EGMSetupGI EGMActPose EGMActMove EGMRunJoint EGMRunPose EGMMoveL EGMMoveC EGMStop EGMReset
-        EGMStreamStart EGMStreamStop EGMWaitCond""",
+        "nothing here guides a robot by signals, or corrects its path",
+        "EGMSetupAI EGMSetupAO EGMSetupGI EGMSetupLTAPP EGMActMove EGMMoveL EGMMoveC",
     ),
     ("the servo loops are not simulated", "TuneServo TuneReset"),
     (

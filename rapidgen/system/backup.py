@@ -19,7 +19,7 @@ from rapidgen.system.cfg import CfgText, parse_cfg
 from rapidgen.system.controller_cfg import ControllerCfg
 from rapidgen.system.interpret import ModuleEntry, modules_of, tasks_of, with_cfg
 from rapidgen.system.loading import load_entries, load_module
-from rapidgen.system.model import ModuleFile, System, TaskSpec
+from rapidgen.system.model import ModuleFile, System, TaskSpec, UdpDevice
 from rapidgen.system.paths import inside, module_files, read_limited
 
 _TASK_LINE = re.compile(rb">>TASK(\d+):\s*\(\s*([^,()\s]+)")
@@ -74,7 +74,7 @@ def read_backup(folder: Path | str, *, notes: list[Diagnostic] | None = None) ->
         )
         for n, task in enumerate(tasks_of(sys_cfg), 1)
     )
-    proc = _further(folder, "PROC", collected)
+    proc, sio = _further(folder, "PROC", collected), _further(folder, "SIO", collected)
     told = _robotware(info)
     if told is None:
         collected.append(_not_told(sys_cfg))
@@ -86,7 +86,8 @@ def read_backup(folder: Path | str, *, notes: list[Diagnostic] | None = None) ->
         home=home if home.is_dir() else None,
         robot_types=_robot_types(folder, collected),
         arc=() if proc is None else arc_signals(proc),
-        cameras=_cameras(folder, collected),
+        cameras=() if sio is None else _cameras(sio),
+        udp_devices=None if sio is None else _udp_devices(sio),
     )
     return with_cfg(found, sys_cfg, eio_cfg)
 
@@ -97,11 +98,25 @@ def _robot_types(folder: Path, notes: list[Diagnostic]) -> tuple[tuple[str, str]
     return tuple((robot.text("Name"), robot.text("use_robot_type")) for robot in robots)
 
 
-def _cameras(folder: Path, notes: list[Diagnostic]) -> tuple[str, ...]:
+def _cameras(sio: CfgText) -> tuple[str, ...]:
     """COM_APP instances of type CAMERA, as a backup of a controller with a camera has one [cfg]."""
-    sio = _further(folder, "SIO", notes)
-    rows = () if sio is None else sio.instances("COM_APP")
+    rows = sio.instances("COM_APP")
     return tuple(row.text("Name") for row in rows if row.text("Type").upper() == "CAMERA")
+
+
+def _udp_devices(sio: CfgText) -> tuple[UdpDevice, ...]:
+    """COM_TRP of type UDPUC, whose address is spelt with one d, and UDPUC_HOST, where a port that
+    is left out is 6510 [cfg: MCUBE 6.03, rparak 6.x, GoFa 7.6; manual 3HAC073318]."""
+    rows = [row for row in sio.instances("COM_TRP") if row.text("Type").upper() == "UDPUC"]
+    rows += sio.instances("UDPUC_HOST")
+    return tuple(
+        UdpDevice(
+            row.text("Name"),
+            row.text("RemoteAdress") or row.text("RemoteAddress"),
+            int(row.number("RemotePortNumber", 6510)),
+        )
+        for row in rows
+    )
 
 
 def backup_cfg(folder: Path, robotware: tuple[int, int], notes: list[Diagnostic]) -> ControllerCfg:

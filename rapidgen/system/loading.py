@@ -41,7 +41,8 @@ def expand(path: Path) -> list[Path]:
     Raises RG704 (nothing there) and RG709 (no modules in it).
     """
     if path.is_dir():
-        programs, found = sorted(path.glob("*.pgf")), list(module_files(path))
+        programs = [p for p in sorted(path.glob("*.pgf")) if not p.name.startswith("._")]
+        found = list(module_files(path))
         if len(programs) == 1:
             # Tasks get their system modules from the configuration: a program names none.
             named = expand(programs[0])

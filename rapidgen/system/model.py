@@ -140,6 +140,19 @@ class ArcSignals:
 
 
 @dataclass(frozen=True, slots=True)
+class UdpDevice:
+    """COM_TRP of type UDPUC (RobotWare 6), UDPUC_HOST (7): whom a controller sends datagrams to."""
+
+    name: str
+    address: str = ""
+    """Empty: nobody tells."""
+    port: int = 6510
+
+    def __str__(self) -> str:
+        return f"{self.name} at {self.address}:{self.port}" if self.address else self.name
+
+
+@dataclass(frozen=True, slots=True)
 class System:
     """A whole controller: tasks in order, I/O, mechanical units, RobotWare, HOME:."""
 
@@ -166,3 +179,5 @@ class System:
     """Of PROC.cfg, where a backup has it."""
     cameras: tuple[str, ...] = ()
     """Names of cameras: COM_APP of SIO.cfg, or of a cell."""
+    udp_devices: tuple[UdpDevice, ...] | None = None
+    """Of SIO.cfg; None: there is no configuration that tells."""

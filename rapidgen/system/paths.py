@@ -80,7 +80,8 @@ def home_file(home: Path, target: str) -> Path:
 
 
 def module_files(folder: Path) -> Iterator[Path]:
-    """Module files directly in a folder, sorted without case.
+    """Module files directly in a folder, sorted without case; macOS leaves a ._NAME beside a file
+    that it copies, which is no module.
 
     Raises DiagnosticError: RG705 (too many entries), RG706 (a link that leaves the folder).
     """
@@ -90,7 +91,7 @@ def module_files(folder: Path) -> Iterator[Path]:
     if len(names) > MAX_FILES:
         raise refusal("RG705", None, f"{folder} holds more than {MAX_FILES} files")
     for name in names:
-        if name.casefold().endswith(MODULE_SUFFIXES):
+        if name.casefold().endswith(MODULE_SUFFIXES) and not name.startswith("._"):
             yield inside(folder, name)
 
 

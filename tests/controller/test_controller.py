@@ -277,9 +277,7 @@ def test_a_backup_without_an_entry_routine_boots() -> None:
 
 
 def test_missing_routines_are_said_at_load_and_stop_when_reached() -> None:
-    controller, printed = boot(
-        'VAR egmident e;\nPROC main()\n TPWrite "x";\n EGMReset e;\n nobody;\nENDPROC'
-    )
+    controller, printed = boot('PROC main()\n TPWrite "x";\n FCRefStart;\n nobody;\nENDPROC')
     with controller:
         assert {d.code for d in controller.diagnostics} == {"RG403", "RG404"}
         controller.start_program()

@@ -4,6 +4,8 @@ import pytest
 
 from rapidgen.controller import VirtualController
 from rapidgen.controller.booting import Wishes, load_target
+from rapidgen.diagnostics import Severity
+from rapidgen.rapid import check
 
 
 def test_routines_in_no_file_do_nothing_and_are_told(tmp_path):
@@ -44,6 +46,23 @@ def test_routines_in_no_file_do_nothing_and_are_told(tmp_path):
         assert controller.positions() == pytest.approx(start, abs=1e-5)
 
 
+def test_a_routine_in_no_file_has_the_optional_arguments_of_all_its_calls(tmp_path):
+    """A logger of a public cell is called with another level each time."""
+    path = tmp_path / "logs.mod"
+    path.write_text(
+        "MODULE talks\n PROC main()\n"
+        '  logs \\Warning \\Origin:="a", "one";\n  logs \\Debug \\Origin:="a", "two";\n'
+        '  logs \\Debug, "three" \\Code:=3;\n  logs "four" \\Code:=4 \\Twice;\n'
+        '  TPWrite "behind";\n ENDPROC\nENDMODULE\n'
+    )
+    shown: list[str] = []
+    with VirtualController.from_files([path], cell="guess", cycle="once") as controller:
+        controller.operator.subscribe(lambda _task, text: shown.append(text))
+        controller.run(max_time=5)
+        assert controller.task("T_ROB1").fault is None
+    assert shown == ["behind"]
+
+
 def test_a_trap_in_no_file_does_nothing_and_is_told(tmp_path):
     path = tmp_path / "calls.mod"
     path.write_text(
@@ -61,6 +80,11 @@ ENDS = {
     "what an initial value is made of is a constant": (
         " VAR num count := nParts;\n VAR robtarget p := pHome;\n PROC main()\n"
         "  MoveJ p, v100, fine, tool0;\n  TPWrite ValToStr(count);\n ENDPROC\n",
+        "Statement cannot be executed",
+    ),
+    "a size that nobody says is a constant, and as long as the initial value": (
+        " VAR num many{maxSources};\n VAR num few{maxParts} := [1,2,3];\n PROC main()\n"
+        "  many{3} := few{3};\n  TPWrite ValToStr(Dim(few, 1));\n ENDPROC\n",
         "Statement cannot be executed",
     ),
     "what only a persistent may be is one": (
@@ -99,6 +123,23 @@ def test_a_program_ends_in_a_guessed_cell_alone(name, tmp_path):
     with VirtualController.from_files([path], cycle="once") as controller:
         controller.run(max_time=20)
         assert lacks in str(controller.task("T_ROB1").fault)
+
+
+def test_the_size_of_an_array_that_nobody_says_is_a_constant(tmp_path):
+    """As long as the initial value, if there is one; modules for picking leave it to others."""
+    path = tmp_path / "sizes.mod"
+    path.write_text(
+        "MODULE sizes\n VAR num many{maxSources};\n VAR num few{maxParts} := [1,2,3];\n"
+        " PROC main()\n  FOR i FROM 1 TO maxParts DO\n   many{i} := few{i};\n  ENDFOR\n"
+        "  TPWrite ValToStr(Dim(few, 1) + many{3});\n ENDPROC\nENDMODULE\n"
+    )
+    found = load_target([path], Wishes(cell="guess"))
+    assert [d for d in check(found.system, gaps=True) if d.severity is Severity.ERROR] == []
+    shown: list[str] = []
+    with VirtualController.boot(found, cycle="once") as controller:
+        controller.operator.subscribe(lambda _task, text: shown.append(text))
+        controller.run(max_time=5)
+    assert shown == ["6"]
 
 
 FAR = """MODULE far

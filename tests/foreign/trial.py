@@ -6,9 +6,9 @@ Nothing of a program is changed. It is what `rapidgen run PROGRAM --cell guess` 
 guessed robot does not reach a position on the one with which it gets furthest: what no module
 declares is made up, an input that the program waits for and a dialog answer, and nobody else does.
 A backup moves its own robot. For each program it says how it ended (whole; waits for a partner:
-socket, file; stops behind a partner: a dialog was answered before; goes round and round; stops with
-an error; does not load), what of its lines was reached, and why not further. The last lines are the
-sums.
+socket, file, guide; stops behind a partner: a dialog was answered before; goes round and round;
+stops with an error; does not load), what of its lines was reached, and why not further. The last
+lines are the sums.
 """
 
 import re
@@ -35,7 +35,9 @@ ROBOTS = (
 )
 """Tried behind the guessed one, in this order, while a position cannot be reached."""
 _MISFIT = re.compile("REACH|ROBLIMIT|not compatible|singularity")
-_PARTNER = re.compile(r"Socket|bytes from|waits for an answer|message|ERR_SOCK|ERR_FILE|ERR_TP_")
+_PARTNER = re.compile(
+    r"Socket|bytes from|waits for an answer|message|ERR_SOCK|ERR_FILE|ERR_TP_|EGM partner|ERR_UDPUC"
+)
 _TIME = 300.0
 _STATEMENTS = 2_000_000
 _LITTLE = 0.6

@@ -436,3 +436,10 @@ def test_a_folder_with_a_program_has_the_system_modules_beside_it(tmp_path):
         put(tmp_path / name, f"MODULE {name[:-4]}\nENDMODULE\n")
     (task,) = read_files([tmp_path]).tasks
     assert [module.name for module in task.modules] == ["work", "lib"]
+
+
+def test_what_macos_leaves_beside_a_file_is_no_module(tmp_path):
+    put(tmp_path / "main.mod", MODULE % b"Main")
+    put(tmp_path / "._main.mod", b"\x00\x05\x16\x07\x00\x02\x00\x00Mac OS X")
+    (task,) = read_files({"T_ROB1": [tmp_path]}).tasks
+    assert [module.name for module in task.modules] == ["Main"]

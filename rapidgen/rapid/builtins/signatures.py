@@ -56,6 +56,10 @@ Value = float | bool | str | tuple["Value", ...]
 """A RAPID value that is known before the run: records and arrays are tuples."""
 
 _WITHOUT_ROUTINES: Final = frozenset(("constants", "data", "names", "types"))
+_OF_OPTIONS: Final = frozenset(
+    ("arc", "bullseye", "options", "production", "smartgripper", "touch", "zones")
+)
+"""Files of what only some controllers have."""
 _FOLDER: Final = Path(__file__).parent
 _HEADER: Final = re.compile(
     r"^(PROC|FUNC (\w+)) (\w+)(\(.*?\))(?:[ ]+!([^\n]*))?$", re.MULTILINE | re.DOTALL
@@ -95,6 +99,8 @@ class Signature:
     until: Version | None = None
     marks: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     """What stands behind the header: each mark with the lower-case names that follow it."""
+    everywhere: bool = True
+    """Whether every controller has it, whatever its release and its options."""
 
     def argument_version(self, mark: Literal["came", "went"], name: str) -> Version | None:
         """With which RobotWare an argument came or went, None: it has always been there."""
@@ -147,12 +153,13 @@ def _themes() -> tuple[str, ...]:
 
 
 @cache
-def _headers() -> dict[str, tuple[str, str | None, str, str | None]]:
-    """Lower-case name to (name, type, parameters as text, marks)."""
-    found: dict[str, tuple[str, str | None, str, str | None]] = {}
+def _headers() -> dict[str, tuple[str, str | None, str, str | None, bool]]:
+    """Lower-case name to (name, type, parameters as text, marks, whether it is of an option)."""
+    found: dict[str, tuple[str, str | None, str, str | None, bool]] = {}
     for file in _themes():
+        of_option = file in _OF_OPTIONS
         for _, type_name, name, parameters, marks in _HEADER.findall(_read(file)):
-            found[name.lower()] = (name, type_name or None, parameters, marks or None)
+            found[name.lower()] = (name, type_name or None, parameters, marks or None, of_option)
     return found
 
 
@@ -162,13 +169,14 @@ def routine(name: str) -> Signature | None:
     header = _headers().get(name.lower())
     if header is None:
         return None
-    proper, type_name, text, marks = header
+    proper, type_name, text, marks, of_option = header
     tokens = lexer.tokenize(text, f"<{proper}>", "utf-8", radix=False)
     parameters, _ = ModuleParser(tokens, builtin=True).data.parameters(1)
     known = _marks(marks or "")
     since, until = (_version(known.pop(word, ())) for word in ("since", "until"))
     kind: Literal["PROC", "FUNC"] = "FUNC" if type_name else "PROC"
-    return Signature(proper, kind, type_name, tuple(parameters), since, until, known)
+    everywhere = not of_option and since is None
+    return Signature(proper, kind, type_name, tuple(parameters), since, until, known, everywhere)
 
 
 def _marks(text: str) -> dict[str, tuple[str, ...]]:

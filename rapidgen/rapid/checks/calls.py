@@ -45,6 +45,7 @@ _Call = FunctionCall | ProcedureCall | LateCall
 """Minor release that stands for a whole line of them."""
 _RAW_BYTES: Final = 1024
 """Bytes of a rawbytes."""
+_OTHER: Final = ("a module that is not given may declare another routine of that name [K §2.12]",)
 _MODES: Final = {
     "VAR": "a variable",
     "PERS": "a persistent",
@@ -100,29 +101,44 @@ class CallChecker:
         self._version(symbol, node)
         arguments = _up_to_placeholder(node.arguments)
         found = match(parameters, arguments, lambda a, these: self._fitting(parameters, a, these))
+        missing = found.missing if len(arguments) == len(node.arguments) else ()
+        hidden = self._may_be_hidden(symbol, node, found.pairs)
         surplus = False
         for pair in found.pairs:
             again = surplus and Misfit.SURPLUS in pair.misfits
             surplus = surplus or Misfit.SURPLUS in pair.misfits
             if pair.misfits and not again:  # one argument too many says it all
-                self._misfits(symbol, parameters, pair)
-            if pair.parameter < 0:
+                self._misfits(symbol, parameters, pair, hidden)
+            if pair.parameter < 0 or hidden:
                 self.loose_arguments([pair.argument])
             else:
                 self._argument(symbol, parameters[pair.parameter], pair.argument)
-        if found.missing and len(arguments) == len(node.arguments):
-            listed = ", ".join(f"'{parameters[k].name}'" for k in found.missing)
-            # A module that is not here may declare a routine without parameters that hides it.
-            hidden = isinstance(node, ProcedureCall) and not node.arguments
-            hidden = hidden and symbol.node is None and not self.findings.given.knows_all
+        if missing:
+            listed = ", ".join(f"'{parameters[k].name}'" for k in missing)
             self.report(
                 "RG311",
                 f"{symbol.name} needs {listed}",
                 node.first,
                 help=f"it takes {_listed(parameters)}",
+                notes=_OTHER if hidden else (),
                 related=self.declared(symbol),
                 severity=Severity.WARNING if hidden else Severity.ERROR,
             )
+
+    def _may_be_hidden(
+        self, symbol: RoutineSymbol, node: _Call, pairs: Sequence[Pairing[Argument]]
+    ) -> bool:
+        """Whether a module that is not here may declare the routine that is meant [K §2.12].
+
+        Public programs hide built-ins by procedures without parameters (Reset), and those that not
+        every controller has by procedures with more of them (GetJointData) [code].
+        """
+        if symbol.signature is None or self.findings.given.knows_all:
+            return False
+        if isinstance(node, ProcedureCall) and not node.arguments:
+            return True
+        surplus = any(Misfit.SURPLUS in pair.misfits for pair in pairs)
+        return surplus and not symbol.signature.everywhere
 
     def _version(self, symbol: RoutineSymbol, node: _Call) -> None:
         signature = symbol.signature
@@ -175,9 +191,14 @@ class CallChecker:
     # -- matching ------------------------------------------------------------------------
 
     def _misfits(
-        self, symbol: RoutineSymbol, parameters: Sequence[Parameter], pair: Pairing[Argument]
+        self,
+        symbol: RoutineSymbol,
+        parameters: Sequence[Parameter],
+        pair: Pairing[Argument],
+        hidden: bool,
     ) -> None:
-        """Say what is wrong with the place of an argument."""
+        """Say what is wrong with the place of an argument; `hidden`: of a routine that may be
+        another one."""
         argument = pair.argument
         for misfit in pair.misfits:
             if misfit is Misfit.SURPLUS:
@@ -186,7 +207,9 @@ class CallChecker:
                     f"{symbol.name} has no parameter for this argument",
                     argument,
                     help=f"it takes {_listed(parameters)}",
+                    notes=_OTHER if hidden else (),
                     related=self.declared(symbol),
+                    severity=Severity.WARNING if hidden else Severity.ERROR,
                 )
             elif misfit is Misfit.UNKNOWN:
                 self._no_parameter(symbol, parameters, argument)

@@ -76,6 +76,7 @@ class Run:
         task.cyclic.clear()
         controller.sockets.close_task(task.name)
         controller.files.close_task(task.name)
+        controller.egm.close_task(task.name)
         group = controller.motion.moved_by(task.name)
         if self.routine is None and group is not None:
             group.reset()

@@ -6,7 +6,7 @@ MODULE missing
 
     PROC main()
         TPWrite "before";
-        EGMGetId id;
+        EGMActMove id, tool0.tframe;
         TPWrite "never";
     ENDPROC
 ENDMODULE

@@ -3,6 +3,6 @@
 MODULE Demo
     PROC main()
         ActEventBuffer;
-        ActEventBuffer 1;  ! -> RG311
+        ActEventBuffer 1;  ! -> RG311?
     ENDPROC
 ENDMODULE

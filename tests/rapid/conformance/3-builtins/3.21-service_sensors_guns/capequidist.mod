@@ -5,6 +5,6 @@ MODULE Demo
     PROC main()
         CapEquiDist;
         CapEquiDist \Distance:=v_num \Reset;
-        CapEquiDist 1;  ! -> RG311
+        CapEquiDist 1;  ! -> RG311?
     ENDPROC
 ENDMODULE

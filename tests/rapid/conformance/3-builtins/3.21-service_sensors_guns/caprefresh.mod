@@ -6,6 +6,6 @@ MODULE Demo
     PROC main()
         CapRefresh;
         CapRefresh \MainSpeed \MainWeave \Startweave:=v_bool \RestartDist:=v_num;
-        CapRefresh 1;  ! -> RG311
+        CapRefresh 1;  ! -> RG311?
     ENDPROC
 ENDMODULE

@@ -3,6 +3,6 @@
 MODULE Demo
     PROC main()
         DeactEventBuffer;
-        DeactEventBuffer 1;  ! -> RG311
+        DeactEventBuffer 1;  ! -> RG311?
     ENDPROC
 ENDMODULE

@@ -3,6 +3,6 @@
 MODULE Demo
     PROC main()
         FricIdInit;
-        FricIdInit 1;  ! -> RG311
+        FricIdInit 1;  ! -> RG311?
     ENDPROC
 ENDMODULE

@@ -4,6 +4,6 @@ MODULE Demo
     VAR num result;
     PROC main()
         result := GetNumberOfCyclicBool();
-        result := GetNumberOfCyclicBool(1);  ! -> RG311
+        result := GetNumberOfCyclicBool(1);  ! -> RG311?
     ENDPROC
 ENDMODULE

@@ -3,6 +3,6 @@
 MODULE Demo
     PROC main()
         HollowWristReset;
-        HollowWristReset 1;  ! -> RG311
+        HollowWristReset 1;  ! -> RG311?
     ENDPROC
 ENDMODULE

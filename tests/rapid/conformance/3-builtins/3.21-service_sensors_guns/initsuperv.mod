@@ -3,6 +3,6 @@
 MODULE Demo
     PROC main()
         InitSuperv;
-        InitSuperv 1;  ! -> RG311
+        InitSuperv 1;  ! -> RG311?
     ENDPROC
 ENDMODULE

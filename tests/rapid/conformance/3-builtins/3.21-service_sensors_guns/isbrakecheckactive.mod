@@ -4,6 +4,6 @@ MODULE Demo
     VAR bool result;
     PROC main()
         result := IsBrakeCheckActive();
-        result := IsBrakeCheckActive(1);  ! -> RG311
+        result := IsBrakeCheckActive(1);  ! -> RG311?
     ENDPROC
 ENDMODULE

@@ -9,6 +9,6 @@ MODULE Demo
     PROC main()
         ManLoadIdProc;
         ManLoadIdProc \ParIdType:=v_paridnum \MechUnit:=v_mecunit \AxisNumber:=v_num \PayLoad:=v_loaddata \ConfigAngle:=v_num \DeactAll \DefinedFlag:=v_bool \DoExit:=v_bool;
-        ManLoadIdProc 1;  ! -> RG311
+        ManLoadIdProc 1;  ! -> RG311?
     ENDPROC
 ENDMODULE

@@ -4,6 +4,6 @@ MODULE Demo
     VAR string result;
     PROC main()
         result := SafetyControllerGetChecksum();
-        result := SafetyControllerGetChecksum(1);  ! -> RG311
+        result := SafetyControllerGetChecksum(1);  ! -> RG311?
     ENDPROC
 ENDMODULE

@@ -4,6 +4,6 @@ MODULE Demo
     VAR string result;
     PROC main()
         result := SafetyControllerGetOpModePinCode();
-        result := SafetyControllerGetOpModePinCode(1);  ! -> RG311
+        result := SafetyControllerGetOpModePinCode(1);  ! -> RG311?
     ENDPROC
 ENDMODULE

@@ -4,6 +4,6 @@ MODULE Demo
     VAR string result;
     PROC main()
         result := SafetyControllerGetSWVersion();
-        result := SafetyControllerGetSWVersion(1);  ! -> RG311
+        result := SafetyControllerGetSWVersion(1);  ! -> RG311?
     ENDPROC
 ENDMODULE

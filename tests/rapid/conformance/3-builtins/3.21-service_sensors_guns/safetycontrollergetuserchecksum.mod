@@ -4,6 +4,6 @@ MODULE Demo
     VAR string result;
     PROC main()
         result := SafetyControllerGetUserChecksum();
-        result := SafetyControllerGetUserChecksum(1);  ! -> RG311
+        result := SafetyControllerGetUserChecksum(1);  ! -> RG311?
     ENDPROC
 ENDMODULE

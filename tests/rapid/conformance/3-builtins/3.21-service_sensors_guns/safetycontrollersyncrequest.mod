@@ -3,6 +3,6 @@
 MODULE Demo
     PROC main()
         SafetyControllerSyncRequest;
-        SafetyControllerSyncRequest 1;  ! -> RG311
+        SafetyControllerSyncRequest 1;  ! -> RG311?
     ENDPROC
 ENDMODULE

@@ -3,6 +3,6 @@
 MODULE Demo
     PROC main()
         SpyStop;
-        SpyStop 1;  ! -> RG311
+        SpyStop 1;  ! -> RG311?
     ENDPROC
 ENDMODULE
