@@ -181,6 +181,11 @@ def tool_of(away: float, mass: float) -> Other:
     return TOOL, _tool(away, mass)
 
 
+def object_of(away: float) -> Other:
+    """WORK_OBJECT, likewise."""
+    return WORK_OBJECT, _object(away)
+
+
 def _tool(away: float, mass: float) -> list[float]:
     """Operands of TOOL: so far from the flange, turned by half a turn."""
     return [0.01, 0.0, away, 0.0, 1.0, 0.0, 0.0, 0.0, 0.01, away, 0, 1, 0, 0, mass, 0.1, 0.2, 0.3]

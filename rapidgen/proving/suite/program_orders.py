@@ -9,14 +9,15 @@ from dataclasses import astuple, replace
 from rapidgen.axes.frames import IDENTITY, Pose
 from rapidgen.motion.moves import Move
 from rapidgen.proving import messages
+from rapidgen.proving.batches import millionths
 from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.instructions import at_call
 from rapidgen.proving.messages import RawInstruction, RawReason, RawTrajectoryState
 from rapidgen.proving.model import Broken
-from rapidgen.proving.programs import Programmer, RawOrder, computes, orders, reached
+from rapidgen.proving.programs import ALL, Programmer, RawOrder, computes, orders, reached
 from rapidgen.proving.suite.motion_task import patience
-from rapidgen.proving.suite.program_frames import Other, says, tool_of
+from rapidgen.proving.suite.program_frames import Other, object_of, says, tool_of
 from rapidgen.proving.suite.speed import aside, asks_as_it_begins
 from rapidgen.runtime.builtins.motion.access import data_of
 from rapidgen.runtime.robot_data import NO_OFFSETS
@@ -64,9 +65,18 @@ def _zones(bench: Bench) -> None:
         )
         _stop_at(client, [two, line, circle, one, two], [0, 0, 0, 0, 1])
     if bench.motion_group.kinematics is not None:
-        own = len((bench.group.tool, *bench.group.tools)), 0
-        tool = replace(one, frames=own), replace(two, frames=own)
-        _stop_at(client, [tool_of(0.05, 2.0), one, two, *tool, one], [0, 1, 0, 1, 1])
+        tool = len((bench.group.tool, *bench.group.tools))
+        wobj = len((bench.group.work_object, *bench.group.work_objects))
+        # An object of its own once, a tool of its own twice.
+        own = [replace(one, frames=f) for f in ((0, wobj), (tool, wobj), (tool, wobj))]
+        given = tool_of(0.05, 2.0), object_of(0.1)
+        _stop_at(client, [*given, one, two, *own, one], [0, 1, 1, 0, 1, 1])
+        _stop_at(client, [*given, one, own[1]], [1, 1])
+    if computes(bench):
+        # Frames are the usual ones again.
+        pose = replace(orders(bench, 1, random.Random(61))[0], kind=RawInstruction.MOVE_J)
+        client.takes("a pose", [replace(pose, pose=reached(bench, pose.joints))])
+        bench.wait_until_at(pose.joints, 60)
 
 
 def _stop_at(client: Programmer, program: Sequence[RawOrder | Other], stops: list[int]) -> None:
@@ -81,6 +91,34 @@ def _stop_at(client: Programmer, program: Sequence[RawOrder | Other], stops: lis
     if [int(move.zone.fine) for move in moves] != stops:
         raise Broken(f"stops at {[int(move.zone.fine) for move in moves]}, wanted at {stops}")
     bench.run(0.5)
+
+
+@case("program-operands", "each speed and each radius of a zone is looked at by itself")
+def _operands(bench: Bench) -> None:
+    """What is wrong is refused with its reason and place; the smallest and the widest is right."""
+    client, start = Programmer(bench), millionths(bench.position)
+    order = RawOrder(RawInstruction.MOVE_ABSJ, bench.position, None)
+    speeds, zones = range(1, 5), range(6, 12)
+    slowest, widest = [1], millionths([1.0])
+    for place, wrong, reason in (
+        *((n, value, RawReason.BAD_SPEED) for n in speeds for value in (0, -1, 2**31 - 1)),
+        *((n, value, RawReason.BAD_ZONE) for n in zones for value in (-1, 2**31 - 1)),
+        *((5, value, RawReason.BAD_ZONE) for value in (-1, 1, *millionths([2.0]))),
+    ):
+        words = order.words
+        words[place] = wrong
+        client.number += 1
+        told = client.say([*start, *order.words, *words], 2, ALL)
+        client.refused(told, reason, 1, f"word {place} of a move is {wrong}")
+    # What is behind it is wrong.
+    for places, value in ((speeds, slowest), (zones, [0]), (zones[:3], widest)):
+        for place in places:
+            words = order.words
+            words[place : place + 1] = value
+            client.number += 1
+            told = client.say([*start, *words, 99], 2, ALL)
+            client.refused(told, RawReason.NO_INSTRUCTION, 1, f"word {place} of a move is {value}")
+    bench.stays(0.5, "no program was right")
 
 
 @case("program-speeds", "a slower program is slower in each of its speeds", needs="control")

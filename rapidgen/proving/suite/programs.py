@@ -157,7 +157,6 @@ def _refused(bench: Bench) -> None:
     """Nothing moves for a program of which one instruction is wrong, or that begins elsewhere."""
     right = orders(bench, 6, random.Random(3))
     client, watcher = Programmer(bench), bench.watcher()
-    joint = bench.group.joints[0]
     for n, own in enumerate(bench.group.joints):
         for value in (own.lower - 2 * small_unit(own), own.upper + 2 * small_unit(own)):
             outside = replace(right[3], joints=changed(right[3].joints, n, value), pose=None)
@@ -223,8 +222,11 @@ def _refused(bench: Bench) -> None:
     client.number += 1
     told = client.say([*millionths(bench.position), *right[0].words, 0], 1, ALL)
     client.refused(told, RawReason.FRAMING, 1, "a word too many")
-    there = changed(bench.position, 0, inward(joint, bench.position[0], 0.1))
-    client.refused(client.send(right, start=there), RawReason.START_TOO_FAR, 0, "another beginning")
+    for n, own in enumerate(bench.group.joints):
+        there = changed(bench.position, n, inward(own, bench.position[n], 0.1))
+        told = client.send(right, start=there)
+        if told[-3:] != (RawReason.START_TOO_FAR, 0, n + 1):
+            raise Broken(f"another beginning for joint {n + 1}, the reply is {told}")
     many = [right[0]] * (bench.config.trajectory.ring + 3)
     told = client.send(many)
     if not isinstance(told, messages.RawPointsRefused) or told.reason != RawReason.OVERRUN:
@@ -322,7 +324,8 @@ def _waits(bench: Bench) -> None:
     corners_made(bench)
     for seconds in (-1.0, 2001.0):
         client.refused(sends(seconds), RawReason.BAD_VALUE, 1, f"a wait of {seconds} s")
-    sends(1000.0)
+    # The longest.
+    sends(2000.0)
     bench.wait_until_at(there.joints, 60)
     bench.run(0.5)
     client.link.stop()
