@@ -217,6 +217,7 @@ def _speed(bench: Bench) -> None:
     done(control.ask(messages.RawSpeed(1)), "the smallest SPEED")
     link.stop()
     bench.rests(3, 1, "it was stopped")
+    bench.moves_through(link, bench.wave(3))
 
 
 @case("speed-at-start", "a speed that comes at the beginning of a trajectory")

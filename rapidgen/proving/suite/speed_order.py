@@ -8,6 +8,7 @@ from rapidgen.proving import messages
 from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.instructions import Instruction, at_call, fails, wrapped
+from rapidgen.proving.link import RawLink
 from rapidgen.proving.messages import RawComm
 from rapidgen.proving.model import Broken
 from rapidgen.proving.programs import Programmer
@@ -21,7 +22,7 @@ from rapidgen.proving.suite.speed import (
     straight,
     straight_moves,
 )
-from rapidgen.proving.track import changed, distance
+from rapidgen.proving.track import changed, distance, inward
 
 case = Theme("speed", needs="control")
 
@@ -136,6 +137,46 @@ def _reached_first(bench: Bench) -> None:
             bench.wait_until_at(last, 20)
         bench.run(0.3)
         bench.moves_through(link, bench.way_to(here))
+
+
+@case("speed-is-over", "a speed that comes behind the last move leaves nothing to be ended", "R5")
+def _is_over(bench: Bench) -> None:
+    """In a stay at the end nothing is slowed down: what comes next begins where the robot is."""
+    here = bench.position
+    link = _asked_in_a_stay(bench, bench.motion())
+    bench.controller.perform("stop")
+    bench.run(0.5)
+    # By hand.
+    bench.motion_group.jump(here)
+    bench.start_again()
+    link.close(then=1.5)
+    link = bench.motion()
+    there = changed(here, 1, inward(bench.group.joints[1], here[1], 0.05))
+    bench.moves_through(link, bench.way_to(there))
+    if not bench.streams:
+        return
+    # Nor is the last instruction of an earlier program executed again.
+    client = Programmer(bench, link)
+    moves = straight_moves(bench, 2, RATE * 0.6)
+    client.takes("a program", moves)
+    bench.wait_until_at(moves[-1].joints, 60)
+    _asked_in_a_stay(bench, link)
+    moves, since = straight_moves(bench, 2, RATE * 0.6), bench.now
+    begun = bench.position
+    client.takes("a program behind a trajectory", moves)
+    bench.wait_until_at(moves[-1].joints, 60)
+    bench.followed([begun, *(move.joints for move in moves)], since=since, corner=0.002)
+
+
+def _asked_in_a_stay(bench: Bench, link: RawLink) -> RawLink:
+    """A trajectory with SPEED in a stay at its end, which is over."""
+    control, points = bench.control(), straight(bench, 2, 1.0)
+    bench.sets_off(link, [*points, (points[1][0], 1.0)])
+    bench.wait_until_at(points[1][0], 5)
+    done(control.ask(messages.RawSpeed(50)), "SPEED in a stay")
+    bench.run(1.5)
+    control.close()
+    return link
 
 
 @case("speed-said-enough", "SpeedRefresh is said for as long as it may be lost, and no longer")

@@ -9,7 +9,7 @@ MODULE ROS_motion
     ! check was made before a point was put in. A point whose successor is there is passed
     ! through its zone; without one it is a stop point, so the planner never runs dry in a corner.
 
-    CONST string ROS_BUILD_MOTION := "a04c4b823046";
+    CONST string ROS_BUILD_MOTION := "ca0f00a7130c";
 
     ! With \T in the move the speed is only formal.
     LOCAL CONST speeddata SPEED := [1000,500,1000,1000];
@@ -182,8 +182,9 @@ MODULE ROS_motion
         VAR num asked;
 
         taken := pace;
-        IF share < 100 THEN
+        IF share < 100 AND session = ROS_session THEN
             ! SpeedRefresh may hold for one move or for all: its move ends before another is ordered.
+            ! One of another trajectory is over: the robot may stand elsewhere by now.
             point.duration := 0.1;
             move fine;
             IF fault = ROS_REASON_NONE AND ROS_abort = ROS_abort_done ROS_reached := ROS_planned;
@@ -270,7 +271,7 @@ MODULE ROS_motion
         VAR num arrived;
         VAR bool stops;
 
-        IF share < 100 THEN
+        IF share < 100 AND session = ROS_session THEN
             ! As for points: the move that was slowed down ends before another is ordered.
             ROS_end_way;
             carry_out TRUE;

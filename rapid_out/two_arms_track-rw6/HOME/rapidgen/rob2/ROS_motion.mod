@@ -9,7 +9,7 @@ MODULE ROS_motion
     ! check was made before a point was put in. A point whose successor is there is passed
     ! through its zone; without one it is a stop point, so the planner never runs dry in a corner.
 
-    CONST string ROS_BUILD_MOTION := "d941d01de33b";
+    CONST string ROS_BUILD_MOTION := "4570130ae9fc";
 
     ! With \T in the move the speed is only formal.
     LOCAL CONST speeddata SPEED := [5000,500,5000,1000];
@@ -171,8 +171,9 @@ MODULE ROS_motion
         VAR bool waited;
 
         taken := pace;
-        IF share < 100 THEN
+        IF share < 100 AND session = ROS_session_2 THEN
             ! SpeedRefresh may hold for one move or for all: its move ends before another is ordered.
+            ! One of another trajectory is over: the robot may stand elsewhere by now.
             point.duration := 0.1;
             move fine;
             IF fault = ROS_REASON_NONE AND ROS_abort_2 = ROS_abort_done_2 ROS_reached_2 := ROS_planned_2;
@@ -250,7 +251,7 @@ MODULE ROS_motion
         VAR num arrived;
         VAR bool stops;
 
-        IF share < 100 THEN
+        IF share < 100 AND session = ROS_session_2 THEN
             ! As for points: the move that was slowed down ends before another is ordered.
             ROS_end_way;
             carry_out TRUE;
