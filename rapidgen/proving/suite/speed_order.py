@@ -183,10 +183,12 @@ def _asked_in_a_stay(bench: Bench, link: RawLink) -> RawLink:
 def _said_enough(bench: Bench) -> None:
     """It is said again at the full speed of the next trajectory, and then left alone."""
     control, link, said = bench.control(), bench.motion(), list[float]()
+    values: list[object] = []
 
     def noted(as_before: Instruction) -> Instruction:
         def noting(*arguments: object) -> object:
             said.append(bench.now)
+            values.append(arguments[-1])
             return as_before(*arguments)
 
         return noting
@@ -195,6 +197,8 @@ def _said_enough(bench: Bench) -> None:
     points = straight(bench, 2, 1.0)
     bench.sets_off(link, points, 0.3)
     done(control.ask(messages.RawSpeed(50)), "SPEED 50")
+    if set(values) != {50.0}:
+        raise Broken(f"SPEED 50 of a move that is under way is confirmed, SpeedRefresh: {values}")
     bench.wait_until_at(points[-1][0], 20)
     bench.run(0.5)
     since, points = bench.now, straight(bench, 5, 1.0)
