@@ -175,6 +175,8 @@ def _asked_in_a_stay(bench: Bench, link: RawLink) -> RawLink:
     bench.wait_until_at(points[1][0], 5)
     done(control.ask(messages.RawSpeed(50)), "SPEED in a stay")
     bench.run(1.5)
+    if bench.motion_group.refresh != 1.0:
+        raise Broken(f"a trajectory is over, SpeedRefresh is {bench.motion_group.refresh}")
     control.close()
     return link
 

@@ -9,7 +9,7 @@ MODULE ROS_motion
     ! check was made before a point was put in. A point whose successor is there is passed
     ! through its zone; without one it is a stop point, so the planner never runs dry in a corner.
 
-    CONST string ROS_BUILD_MOTION := "ca0f00a7130c";
+    CONST string ROS_BUILD_MOTION := "f825a9969806";
 
     ! With \T in the move the speed is only formal.
     LOCAL CONST speeddata SPEED := [1000,500,1000,1000];
@@ -256,7 +256,11 @@ MODULE ROS_motion
         IF ROS_abort = ROS_abort_done
             MoveAbsJ point.target \NoEOffs, SPEED \T:=point.duration, zone, torch \WObj:=table;
         in_move := FALSE;
-        IF zone.finep share := 100;
+        IF zone.finep THEN
+            ! The robot stands: nothing is left that SpeedRefresh could slow down.
+            share := 100;
+            latest := 0;
+        ENDIF
     ERROR
         in_move := FALSE;
         fault := ROS_REASON_MOTION_ERROR;

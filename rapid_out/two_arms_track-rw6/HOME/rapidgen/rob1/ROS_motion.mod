@@ -9,7 +9,7 @@ MODULE ROS_motion
     ! check was made before a point was put in. A point whose successor is there is passed
     ! through its zone; without one it is a stop point, so the planner never runs dry in a corner.
 
-    CONST string ROS_BUILD_MOTION := "4570130ae9fc";
+    CONST string ROS_BUILD_MOTION := "e7227c722b19";
 
     ! With \T in the move the speed is only formal.
     LOCAL CONST speeddata SPEED := [5000,500,5000,1000];
@@ -242,7 +242,11 @@ MODULE ROS_motion
         IF ROS_abort_1 = ROS_abort_done_1
             MoveAbsJ point.target \NoEOffs, SPEED \T:=point.duration, zone, torch \WObj:=wobj0;
         in_move := FALSE;
-        IF zone.finep share := 100;
+        IF zone.finep THEN
+            ! The robot stands: nothing is left that SpeedRefresh could slow down.
+            share := 100;
+            latest := 0;
+        ENDIF
     ERROR
         in_move := FALSE;
         fault := ROS_REASON_MOTION_ERROR;
