@@ -23,6 +23,7 @@ from rapidgen.proving.suite.speed import (
     straight_moves,
 )
 from rapidgen.proving.track import changed, distance, inward
+from rapidgen.runtime.task.task import Task
 
 case = Theme("speed", needs="control")
 
@@ -142,8 +143,10 @@ def _reached_first(bench: Bench) -> None:
 @case("speed-is-over", "a speed that comes behind the last move leaves nothing to be ended", "R5")
 def _is_over(bench: Bench) -> None:
     """In a stay at the end nothing is slowed down: what comes next begins where the robot is."""
-    here = bench.position
+    here, said = bench.position, _refreshes(bench)
     link = _asked_in_a_stay(bench, bench.motion())
+    if any(value < 100 for _, value in said) or bench.motion_group.refresh < 1:
+        raise Broken(f"nothing is left to be slowed down, SpeedRefresh: {said}")
     bench.controller.perform("stop")
     bench.run(0.5)
     # By hand.
@@ -171,12 +174,12 @@ def _is_over(bench: Bench) -> None:
 def _asked_in_a_stay(bench: Bench, link: RawLink) -> RawLink:
     """A trajectory with SPEED in a stay at its end, which is over."""
     control, points = bench.control(), straight(bench, 2, 1.0)
-    bench.sets_off(link, [*points, (points[1][0], 1.0)])
+    bench.sets_off(link, [*points, (points[1][0], 2.0)])
     bench.wait_until_at(points[1][0], 5)
+    # Until the motion task knows that the robot stands.
+    bench.run(0.3 + 2 * bench.setting.motion.settle)
     done(control.ask(messages.RawSpeed(50)), "SPEED in a stay")
-    bench.run(1.5)
-    if bench.motion_group.refresh != 1.0:
-        raise Broken(f"a trajectory is over, SpeedRefresh is {bench.motion_group.refresh}")
+    bench.run(2.5)
     control.close()
     return link
 
@@ -184,31 +187,35 @@ def _asked_in_a_stay(bench: Bench, link: RawLink) -> RawLink:
 @case("speed-said-enough", "SpeedRefresh is said for as long as it may be lost, and no longer")
 def _said_enough(bench: Bench) -> None:
     """It is said again at the full speed of the next trajectory, and then left alone."""
-    control, link, said = bench.control(), bench.motion(), list[float]()
-    values: list[object] = []
-
-    def noted(as_before: Instruction) -> Instruction:
-        def noting(*arguments: object) -> object:
-            said.append(bench.now)
-            values.append(arguments[-1])
-            return as_before(*arguments)
-
-        return noting
-
-    wrapped(bench.rapid_task("ROS_motion"), "SpeedRefresh", noted)
+    control, link, said = bench.control(), bench.motion(), _refreshes(bench)
     points = straight(bench, 2, 1.0)
     bench.sets_off(link, points, 0.3)
     done(control.ask(messages.RawSpeed(50)), "SPEED 50")
-    if set(values) != {50.0}:
-        raise Broken(f"SPEED 50 of a move that is under way is confirmed, SpeedRefresh: {values}")
+    if {value for _, value in said} != {50.0}:
+        raise Broken(f"SPEED 50 of a move that is under way is confirmed, SpeedRefresh: {said}")
     bench.wait_until_at(points[-1][0], 20)
     bench.run(0.5)
     since, points = bench.now, straight(bench, 5, 1.0)
     bench.sets_off(link, points, 2.0)
-    if not any(when > since for when in said):
+    if not any(when > since for when, _ in said):
         raise Broken("a speed is over, and SpeedRefresh has not said so while the robot moves")
     enough = bench.now
     bench.wait_until_at(points[-1][0], 20)
-    late = [when for when in said if enough < when < bench.now - 0.5]
+    late = [when for when, _ in said if enough < when < bench.now - 0.5]
     if late:
         raise Broken(f"SpeedRefresh is said again at {late}, 2 s behind the beginning")
+
+
+def _refreshes(bench: Bench) -> list[tuple[float, float]]:
+    """From now on, when the motion task says which SpeedRefresh."""
+    said: list[tuple[float, float]] = []
+
+    def noted(as_before: Instruction) -> Instruction:
+        def noting(task: Task, percent: float) -> object:
+            said.append((bench.now, percent))
+            return as_before(task, percent)
+
+        return noting
+
+    wrapped(bench.rapid_task("ROS_motion"), "SpeedRefresh", noted)
+    return said
