@@ -22,7 +22,7 @@ from rapidgen.controller.absent import absent
 from rapidgen.controller.blank import Blank, blanks
 from rapidgen.controller.conversing import Heard, heard
 from rapidgen.controller.flags import Flag, flags
-from rapidgen.controller.polling import Polled, polled
+from rapidgen.controller.polling import Polled, handed_on, polled
 from rapidgen.controller.uses import passed, read, scoped
 from rapidgen.diagnostics import Span
 from rapidgen.rapid import Dialect, parse
@@ -110,7 +110,6 @@ def guess(
     """
     found: dict[str, Named] = {}
     assigned: set[str] = set()
-    looked_at: list[Polled] = []
     tasks: list[list[ModuleScope]] = []
     known = [(signal.name, f"signal{signal.type.lower()}") for signal in system.signals]
     known += [(camera, "cameradev") for camera in system.cameras]
@@ -125,7 +124,6 @@ def guess(
         ]
         tasks.append(scopes)
         for scope in scopes:
-            looked_at += polled(scope, spec.entry)
             assigned |= _assigned(scope)
             for one in _undeclared(scope):
                 before = found.setdefault(one.name.casefold(), one)
@@ -158,8 +156,18 @@ def guess(
     )
     named = [one for one in found.values() if _can_be_made(one.type)]
     unknown = [one for one in found.values() if not _can_be_made(one.type)]
-    inputs = {name.casefold() for name, keys in cell.signals.items() if keys.kind[1] == "I"}
-    rows = dict.fromkeys(row for row in looked_at if row.signal in inputs)
+    handed = {name for scopes in tasks for scope in scopes for name in handed_on(scope)}
+    given = {
+        name.casefold()
+        for name, keys in cell.signals.items()
+        if keys.kind[1] == "I" or name.casefold() not in handed
+    }
+    rows = dict.fromkeys(
+        row
+        for spec, scopes in zip(system.tasks, tasks, strict=True)
+        for scope in scopes
+        for row in polled(scope, spec.entry, given)
+    )
     kept = {name for scopes in tasks for scope in scopes for name in _persistent(scope)}
     initial = {word for scopes in tasks for scope in scopes for word in _in_initial_values(scope)}
     sizes = {name: size for scopes in tasks for scope in scopes for name, size in _sizes(scope)}

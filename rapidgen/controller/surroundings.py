@@ -67,8 +67,9 @@ class Surroundings:
 
 @dataclass(frozen=True, slots=True)
 class Guessed:
-    """What happened because a cell is a guess; both grow while programs run."""
+    """What happened because a cell is a guess; all grow while programs run."""
 
+    is_guess: bool = False
     answered: "list[Said]" = field(default_factory=list)
     """Signals and dialogs, and what they became because a program waited for it."""
     missed: "list[Said]" = field(default_factory=list)
@@ -207,7 +208,7 @@ def _nameless(system: System, cell: "CellDescription") -> Iterator[Diagnostic]:
 def settle(controller: Booted, around: Surroundings) -> Guessed:
     """Put the robots where they start, let devices watch their signals, and guessed inputs become
     what a program waits for."""
-    guessed = Guessed()
+    guessed = Guessed(around.is_guess)
     answered = guessed.answered
     for name, posture in around.starts.items():
         controller.motion.group(name).jump(posture)

@@ -1,0 +1,115 @@
+"""Conditions that a program looks at again and again, each as what has to hold together.
+
+`IF diDoor = 1 AND bAuto THEN IF nOrder = 3 ...` inside a loop needs three things at once. What is
+looked at in the routines that a loop calls is looked at by the loop.
+"""
+
+from collections.abc import Iterator, Mapping
+from itertools import product
+from typing import get_args
+
+from rapidgen.machine.io import Relation
+from rapidgen.rapid.binding import ModuleScope, RoutineScope, RoutineSymbol
+from rapidgen.rapid.binding.names import called
+from rapidgen.rapid.syntax import nodes as n
+from rapidgen.rapid.syntax.walk import children, walk
+
+Term = tuple[n.Expression, bool, RoutineScope]
+"""A comparison or a name, whether it has to hold, and where it stands."""
+Terms = tuple[Term, ...]
+RELATIONS = frozenset(get_args(Relation))
+NEGATED: Mapping[str, str] = {"=": "<>", "<>": "=", "<": ">=", ">=": "<", ">": "<=", "<=": ">"}
+SWAPPED: Mapping[str, str] = {"<": ">", ">": "<", "<=": ">=", ">=": "<="}
+_WAYS = 8
+"""Of one condition."""
+
+
+def looked_at(module: ModuleScope, entry: str) -> Iterator[tuple[int, int, Terms]]:
+    """Lines of each loop of a module, and all that it looks at; what leaves it comes last. The
+    routine that a task starts in is a loop: it is executed in cycles. So is a WaitUntil."""
+    source = module.tree.source
+    for routine in module.tree.routines:
+        scope = module.routine(routine)
+        for loop in walk(routine):
+            cycle = loop is routine and routine.name.lower() == entry.lower()
+            if cycle or _is_wait(loop) or isinstance(loop, n.While):
+                lines = source.line(loop.first), source.line(loop.last)
+                for terms in _inside(loop, scope, (), {routine.name.lower()}):
+                    yield *lines, terms
+                if isinstance(loop, n.While):
+                    for terms in _ways(loop.condition, scope, holds=False):
+                        yield *lines, terms
+
+
+def _is_wait(node: n.Node) -> bool:
+    return isinstance(node, n.ProcedureCall) and node.name.lower() == "waituntil"
+
+
+def _inside(node: n.Node, scope: RoutineScope, around: Terms, known: set[str]) -> Iterator[Terms]:
+    """What a node looks at; `around` are the conditions that it stands in."""
+    condition, guarded = _condition(node)
+    if condition is not None:
+        ways = _ways(condition, scope, holds=True)
+        yield from (around + way for way in ways)
+        inside = around + (ways[0] if ways else ())
+        yield from _called(condition, scope, around, known)
+        for statement in guarded:
+            yield from _inside(statement, scope, inside, known)
+        return
+    if isinstance(node, n.Binary) and node.operator in RELATIONS:
+        yield (*around, (node, True, scope))
+    elif isinstance(node, n.Test):
+        for case in node.cases:
+            one = [n.Binary(v.first, v.last, "=", node.subject, v) for v in case.values]
+            yield from ((*around, (term, True, scope)) for term in one)
+            inside = (*around, (one[0], True, scope)) if one else around
+            for child in case.body:
+                yield from _inside(child, scope, inside, known)
+        for child in node.default or ():
+            yield from _inside(child, scope, around, known)
+        return
+    yield from _called(node, scope, around, known)
+    inner = scope.loop(node) if isinstance(node, n.For) else scope
+    for child in children(node):
+        yield from _inside(child, inner, around, known)
+
+
+def _condition(node: n.Node) -> tuple[n.Expression | None, list[n.Statement]]:
+    """The condition of a node, and what is executed where it holds."""
+    match node:
+        case n.Branch() | n.While():
+            return node.condition, node.body
+        case n.CompactIf():
+            return node.condition, [node.statement]
+        case n.Return() if node.value is not None:
+            return node.value, []
+        case n.ProcedureCall() if _is_wait(node):
+            given = (a.value for a in node.arguments if a.kind == "required")
+            return next(given, None), []
+    return None, []
+
+
+def _called(node: n.Node, scope: RoutineScope, around: Terms, known: set[str]) -> Iterator[Terms]:
+    """What the routines look at that a node calls itself, or an expression with all in it."""
+    for one in walk(node) if isinstance(node, n.Expression) else (node,):
+        if isinstance(one, n.ProcedureCall | n.FunctionCall) and one.name.lower() not in known:
+            routine = called(scope.find(one.name))
+            if isinstance(routine, RoutineSymbol) and routine.node is not None and routine.module:
+                known.add(one.name.lower())
+                inside = routine.module.routine(routine.node)
+                yield from _inside(routine.node, inside, around, known)
+
+
+def _ways(node: n.Expression, scope: RoutineScope, *, holds: bool) -> list[Terms]:
+    """In which ways a condition holds, or does not: what has to hold together."""
+    match node:
+        case n.Parenthesis():
+            return _ways(node.inner, scope, holds=holds)
+        case n.Unary() if node.operator == "NOT":
+            return _ways(node.operand, scope, holds=not holds)
+        case n.Binary() if node.operator in ("AND", "OR", "XOR"):
+            left, right = (_ways(e, scope, holds=holds) for e in (node.left, node.right))
+            if (node.operator == "AND") is holds and node.operator != "XOR":
+                return [a + b for a, b in product(left, right)][:_WAYS]
+            return (left + right)[:_WAYS]
+    return [((node, holds, scope),)]
