@@ -5,9 +5,9 @@ the parameter that it is an argument of; where it is only read, its first letter
 examples name signals (di, do, gi, go, ai, ao), and what is compared with 0 or 1 is a digital input.
 Tools have the load of tool0 and are the flange; a work object is a table in front of the robot; a
 mechanical unit has no axes, a camera sees one thing in its middle. Data of other types are what
-RAPID makes of a declaration without a value: 0, FALSE, an empty text; but a target is where the
-robot stands at first, `v25` is a speed of 25 mm/s and `z5` a zone of 5 mm. What has no type that
-could be told stays unknown.
+RAPID makes of a declaration without a value: 0, FALSE, an empty text; but what a program divides by
+is 1, a target is where the robot stands at first, `v25` is a speed of 25 mm/s and `z5` a zone of
+5 mm. What has no type that could be told stays unknown.
 """
 
 import re
@@ -135,9 +135,12 @@ def guess(
         if found[key].type.startswith("signal"):
             found[key] = replace(found[key], type="num")
     made = {one.name: one.type for one in found.values()}
+    divisors = {name for scopes in tasks for scope in scopes for name in _divisors(scope)}
     cell = CellDescription(
         signals={
-            name: CellSignalKeys(cast(Kind, kind[6:].upper()))
+            name: CellSignalKeys(
+                cast(Kind, kind[6:].upper()), value=float(name.casefold() in divisors)
+            )
             for name, kind in made.items()
             if kind.startswith("signal")
         },
@@ -172,7 +175,7 @@ def guess(
     initial = {word for scopes in tasks for scope in scopes for word in _in_initial_values(scope)}
     sizes = {name: size for scopes in tasks for scope in scopes for name, size in _sizes(scope)}
     data = tuple(
-        _declaration(one, stands, initial | sizes.keys(), kept, sizes)
+        _declaration(one, stands, initial | sizes.keys(), kept, dict.fromkeys(divisors, 1) | sizes)
         for one in named
         if _is_plain(one.type)
     )
@@ -240,6 +243,14 @@ def _in_initial_values(module: ModuleScope) -> Iterator[str]:
             for node in walk(declared.initial):
                 if isinstance(node, n.Name):
                     yield node.name.casefold()
+
+
+def _divisors(module: ModuleScope) -> Iterator[str]:
+    """Names of what is divided by."""
+    for node, _ in scoped(module):
+        if isinstance(node, n.Binary) and node.operator in ("/", "DIV", "MOD"):
+            by = node.right.inner if isinstance(node.right, n.Parenthesis) else node.right
+            yield from (one.name.casefold() for one in walk(by) if isinstance(one, n.Name))
 
 
 def _sizes(module: ModuleScope) -> Iterator[tuple[str, int]]:

@@ -87,6 +87,10 @@ ENDS = {
         "  many{3} := few{3};\n  TPWrite ValToStr(Dim(few, 1));\n ENDPROC\n",
         "Statement cannot be executed",
     ),
+    "what is divided by is 1": (
+        " PROC main()\n  TPWrite ValToStr(nRate + 4 / (GOutput(goSpeed) * nRate));\n ENDPROC\n",
+        "ERR_REFUNKDAT",
+    ),
     "what only a persistent may be is one": (
         ' PROC main()\n  WaitTestAndSet gripLock;\n  TPWrite "mine";\n'
         "  gripLock := FALSE;\n ENDPROC\n",
@@ -119,6 +123,7 @@ def test_a_program_ends_in_a_guessed_cell_alone(name, tmp_path):
     path.write_text(f"MODULE ends\n{text}ENDMODULE\n")
     with VirtualController.from_files([path], cell="guess", cycle="once") as controller:
         assert controller.run(max_time=20) == "finished"
+        assert controller.task("T_ROB1").fault is None
         assert controller.signals.get("hand_grip", 1) == 1
     with VirtualController.from_files([path], cycle="once") as controller:
         controller.run(max_time=20)
