@@ -13,6 +13,7 @@ from dataclasses import dataclass, field
 from functools import partial
 from typing import TYPE_CHECKING, Final, Protocol
 
+from rapidgen.controller.framing import Framed, framed, last
 from rapidgen.controller.uses import scoped
 from rapidgen.machine.network.interface import Endpoint, Network, NetworkFault
 from rapidgen.machine.network.sockets import SocketTable
@@ -64,9 +65,13 @@ class Heard:
     sized: tuple[tuple[int, int], ...] = ()
     """Numbers, and how many values behind each: what else its own branch compares with a number."""
     stands: Mapping[str, str] = field(default_factory=dict)
+    framed: Framed = field(default_factory=Framed)
+    """Binary messages."""
 
     def messages(self) -> list[bytes]:
         """What is said, in turn: with counted values once, all else twice."""
+        if self.framed.prefix is not None:
+            return self.framed.messages()[:_MOST] * 2
         marks = self.separators or (" ",)
         tail = "".join(self.separators)
         counted, texts = [], []
@@ -105,6 +110,7 @@ def heard(modules: Iterable[ModuleScope], stands: Mapping[str, str]) -> Heard:
     words, parts = dict[str, None](), dict[str, None]()
     marks, values, numbers = dict[str, None](), dict[str, None](), dict[int, None]()
     sized = dict[tuple[int, int], None]()
+    tested: dict[str, list[float]] = {}
     for module in scopes:
         for node, scope in scoped(module):
             for whom, one in _compared(node, scope):
@@ -114,6 +120,7 @@ def heard(modules: Iterable[ModuleScope], stands: Mapping[str, str]) -> Heard:
                     (words if whole else marks if mark else parts)[one] = None
                 elif isinstance(one, int) and not isinstance(one, bool):
                     numbers[one] = None
+                    tested.setdefault(last(whom), []).append(one)
             sized.update(dict.fromkeys(_sized(node, scope)))
             if isinstance(node, n.FunctionCall):
                 given = [a.value for a in node.arguments if a.value is not None]
@@ -125,7 +132,8 @@ def heard(modules: Iterable[ModuleScope], stands: Mapping[str, str]) -> Heard:
                     if kind in known:
                         values[known[kind]] = None
     heard_of = tuple(words), tuple(parts), tuple(numbers), tuple(marks), tuple(values)
-    return Heard(*heard_of, tuple(sized), stands)
+    binary = framed((found for module in scopes for found in scoped(module)), tested)
+    return Heard(*heard_of, tuple(sized), stands, binary)
 
 
 def _received(module: ModuleScope) -> Iterator[str]:
@@ -193,6 +201,7 @@ class Partner:
         self._scheduler = controller.scheduler
         self._said = said
         self._left = what.messages()
+        self._is_cut = what.framed.prefix is None
         self._ends: dict[Endpoint, None] = {}
         self._asked: set[Endpoint] = set()
         controller.sockets.on_awaited = self._awaited
@@ -236,7 +245,7 @@ class Partner:
         if mine is None or not mine.connected or mine.fault is not None:
             return
         message = self._left.pop(0)
-        if count:
+        if count and self._is_cut:
             message = message.ljust(count, b"0" if message[-1:].isdigit() else b"\0")[:count]
         self._network.receive(mine, 1 << 16)
         self._network.send(mine, message)

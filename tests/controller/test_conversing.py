@@ -135,6 +135,63 @@ def test_a_server_that_counts_values_hears_as_many_of_where_the_robot_stands(tmp
     assert {"moved", "on", "off"} <= set(shown)
 
 
+BINARY = """MODULE binary
+ RECORD letter
+  num kind;
+  rawbytes rest;
+ ENDRECORD
+ VAR socketdev s;
+ VAR socketdev c;
+ VAR letter one;
+ VAR num phase;
+ VAR num angle;
+ PROC main()
+  SocketCreate s;
+  SocketBind s, "192.168.125.1", 5000;
+  SocketListen s;
+  SocketAccept s, c;
+  WHILE TRUE DO
+   take one;
+   IF one.kind = 300 THEN
+    IF RawBytesLen(one.rest) < 10 Stop;
+    UnpackRawBytes one.rest, 1, phase, \\IntX:=INT;
+    UnpackRawBytes one.rest, 5, angle, \\Float4;
+    TEST phase
+    CASE -1:
+     TPWrite "begin";
+    CASE 7:
+     TPWrite "end " + ValToStr(angle);
+    DEFAULT:
+     TPWrite "between";
+    ENDTEST
+   ELSE
+    TPWrite "unknown";
+   ENDIF
+  ENDWHILE
+ ENDPROC
+ PROC take(VAR letter got)
+  VAR rawbytes buffer;
+  VAR num length;
+  SocketReceive c \\RawData:=buffer \\ReadNoOfBytes:=2 \\Time:=WAIT_MAX;
+  UnpackRawBytes buffer \\Network, 1, length, \\IntX:=UINT;
+  SocketReceive c \\RawData:=buffer \\ReadNoOfBytes:=length \\Time:=WAIT_MAX;
+  UnpackRawBytes buffer \\Network, 1, got.kind, \\IntX:=UDINT;
+  ClearRawBytes got.rest;
+  CopyRawBytes buffer, 5, got.rest, 1;
+ ENDPROC
+ENDMODULE
+"""
+
+
+def test_a_server_of_binary_messages_hears_their_length_and_the_numbers_it_tests(tmp_path):
+    """Length first, in the order of bytes that the program unpacks [S4 UnpackRawBytes]."""
+    ended, shown, where, controller = run(tmp_path, BINARY, cell="guess")
+    assert shown[:4] == ["begin", "between", "end 0", "unknown"]
+    assert (ended, "waits for bytes" in where[0]) == ("deadlock", True)
+    said = [text for what, text in controller.guessed.answered if what == "SocketReceive"]
+    assert said[0] == "00 0e 00 00 01 2c ff ff 00 00 00 00 00 00 00 00"
+
+
 def test_of_two_clients_at_a_port_the_one_speaks_that_is_waited_for(tmp_path):
     two = (
         "MODULE two\n VAR socketdev s;\n VAR socketdev c;\n VAR socketdev d;\n VAR string said;\n"
