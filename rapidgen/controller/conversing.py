@@ -8,7 +8,7 @@ answers any more, and the program waits as before. What it sends is taken and no
 """
 
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import partial
 from typing import TYPE_CHECKING, Final, Protocol
@@ -107,6 +107,7 @@ def heard(modules: Iterable[ModuleScope], stands: Mapping[str, str]) -> Heard:
     known = {**_VALUES, **stands}
     scopes = list(modules)
     received = {name for scope in scopes for name in _received(scope)}
+    received |= {name for scope in scopes for name in _copied(scope, received)}
     words, parts = dict[str, None](), dict[str, None]()
     marks, values, numbers = dict[str, None](), dict[str, None](), dict[int, None]()
     sized = dict[tuple[int, int], None]()
@@ -145,13 +146,23 @@ def _received(module: ModuleScope) -> Iterator[str]:
                     yield argument.value.name.casefold()
 
 
+def _copied(module: ModuleScope, received: Collection[str]) -> Iterator[str]:
+    """What a module copies received texts to."""
+    for node, _ in scoped(module):
+        if isinstance(node, n.Assignment) and last(node.value) in received:
+            yield last(node.target)
+
+
 def _compared(node: n.Node, scope: Scope) -> Iterator[tuple[n.Expression, object]]:
     """What text or number is compared, and with which constant."""
     if isinstance(node, n.Binary) and node.operator in _COMPARING:
         for one, other in ((node.left, node.right), (node.right, node.left)):
-            if constant(one, scope) is None and type_of(one, scope) in ("string", "num", "byte"):
+            asks = isinstance(one, n.FunctionCall) and one.name.lower() == "socketgetstatus"
+            if asks or last(one) == "errno" or constant(one, scope) is not None:
+                continue
+            if type_of(one, scope) in ("string", "num", "byte"):
                 yield one, constant(other, scope)
-    elif isinstance(node, n.Test):
+    elif isinstance(node, n.Test) and last(node.subject) != "errno":
         for case in node.cases:
             yield from ((node.subject, constant(value, scope)) for value in case.values)
 

@@ -204,6 +204,16 @@ def test_of_two_clients_at_a_port_the_one_speaks_that_is_waited_for(tmp_path):
     assert shown == ["a"]
 
 
+def test_a_copy_of_what_is_received_is_compared_whole_and_errors_are_not_said(tmp_path):
+    text = SERVER.replace(
+        '   IF StrPart(said, 1, 1) = "G" TPWrite "go";\n',
+        '   also := said;\n   IF also = "gate" AND ERRNO <> ERR_SOCK_TIMEOUT TPWrite "gate";\n',
+    ).replace(" VAR bool ok;", " VAR bool ok;\n VAR string also;")
+    _, shown, _, controller = run(tmp_path, text, cell="guess")
+    assert "gate" in shown
+    assert "1161" not in str(controller.guessed.answered)
+
+
 def test_a_client_finds_somebody_who_answers_and_then_falls_silent(tmp_path):
     ended, shown, where, _ = run(tmp_path, CLIENT, cell="guess")
     assert shown == ["got 12"], "as many bytes as it reads"
