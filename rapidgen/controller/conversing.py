@@ -81,7 +81,8 @@ class Heard:
                 for behind in dict.fromkeys(self._behind(count)):
                     counted.append(mark.join((str(code), *behind)) + mark + end)
         sized = {code for code, _ in self.sized}
-        others = (str(number) for number in self.numbers if number not in sized)
+        others = [str(number) for number in self.numbers if number not in sized]
+        others += [str(max(self.numbers) + 1)] if self.numbers else []
         for first in (*others, *self.beginnings):
             texts += [mark.join((first, *_NUMBERS)) + mark + tail for mark in marks[:_WAYS]]
         whole = (*map(str, self.numbers), *self.words)
