@@ -4,10 +4,11 @@
 looked at in the routines that a loop calls is looked at by the loop.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import product
 from typing import get_args
 
+from rapidgen.controller.uses import scoped
 from rapidgen.machine.io import Relation
 from rapidgen.rapid.binding import ModuleScope, RoutineScope, RoutineSymbol
 from rapidgen.rapid.binding.names import called
@@ -20,13 +21,20 @@ Terms = tuple[Term, ...]
 RELATIONS = frozenset(get_args(Relation))
 NEGATED: Mapping[str, str] = {"=": "<>", "<>": "=", "<": ">=", ">=": "<", ">": "<=", "<=": ">"}
 SWAPPED: Mapping[str, str] = {"<": ">", ">": "<", "<=": ">=", ">=": "<="}
+_ORDERING = frozenset(
+    ("isignaldi", "isignaldo", "isignalgi", "isignalgo", "isignalai", "isignalao", "ipers")
+)
+"""What orders interrupts at a signal or a persistent."""
 _WAYS = 8
 """Of one condition."""
 
 
-def looked_at(module: ModuleScope, entry: str) -> Iterator[tuple[int, int, Terms]]:
+def looked_at(
+    module: ModuleScope, entry: str, task: Sequence[ModuleScope] = ()
+) -> Iterator[tuple[int, int, Terms]]:
     """Lines of each loop of a module, and all that it looks at; what leaves it comes last. The
-    routine that a task starts in is a loop: it is executed in cycles. So is a WaitUntil."""
+    routine that a task starts in is a loop: it is executed in cycles, and the interrupts of all
+    modules of the `task` wait in it. So is a WaitUntil."""
     source = module.tree.source
     for routine in module.tree.routines:
         scope = module.routine(routine)
@@ -36,9 +44,33 @@ def looked_at(module: ModuleScope, entry: str) -> Iterator[tuple[int, int, Terms
                 lines = source.line(loop.first), source.line(loop.last)
                 for terms in _inside(loop, scope, (), {routine.name.lower()}):
                     yield *lines, terms
+                if cycle:
+                    for terms in (one for other in task for one in _interrupts(other)):
+                        yield *lines, terms
                 if isinstance(loop, n.While):
                     for terms in _ways(loop.condition, scope, holds=False):
                         yield *lines, terms
+
+
+def _interrupts(module: ModuleScope) -> Iterator[Terms]:
+    """What the interrupts of a module wait for, and what their traps look at then."""
+    traps: dict[str, str] = {}
+    for node, scope in scoped(module):
+        if isinstance(node, n.Connect) and isinstance(node.target, n.Name):
+            traps[node.target.name.casefold()] = node.trap
+        if not isinstance(node, n.ProcedureCall) or node.name.lower() not in _ORDERING:
+            continue
+        given = [a.value for a in node.arguments if a.kind == "required" and a.value]
+        if given and isinstance(given[-1], n.Name) and isinstance(scope, RoutineScope):
+            term: n.Expression = given[0]
+            if node.name.lower() != "ipers":
+                one = n.NumberLiteral(node.first, node.last, 1, "1")
+                term = n.Binary(node.first, node.last, "=", term, one)
+            first = ((term, True, scope),)
+            yield first
+            trap = called(scope.find(traps.get(given[-1].name.casefold(), "")))
+            if isinstance(trap, RoutineSymbol) and trap.node is not None and trap.module:
+                yield from _inside(trap.node, trap.module.routine(trap.node), first, set())
 
 
 def _is_wait(node: n.Node) -> bool:

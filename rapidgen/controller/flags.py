@@ -73,7 +73,7 @@ def flags(task: TaskSpec, scopes: Sequence[ModuleScope], made: Mapping[str, str]
             written.setdefault(name, set()).add(value)
     found: dict[Flag, None] = {}
     for module in scopes:
-        for first, last, terms in looked_at(module, task.entry):
+        for first, last, terms in looked_at(module, task.entry, scopes):
             wanted = [one for term in terms for one in _wanted(term, made)]
             known = {
                 one.name.casefold(): one for one in (_given(s, written) for s in wanted) if one

@@ -169,7 +169,7 @@ def guess(
         row
         for spec, scopes in zip(system.tasks, tasks, strict=True)
         for scope in scopes
-        for row in polled(scope, spec.entry, given)
+        for row in polled(scope, spec.entry, scopes, given)
     )
     kept = {name for scopes in tasks for scope in scopes for name in _persistent(scope)}
     initial = {word for scopes in tasks for scope in scopes for word in _in_initial_values(scope)}

@@ -3,11 +3,12 @@
 `WHILE TRUE DO IF diStart = 1 ...` waits, though no instruction says so. While a task is inside such
 a loop, one of the inputs in the loop's conditions is pressed like a button for half a second, then
 the next one; inputs that have to hold together are pressed together. So are outputs that programs
-only read: the system or another task sets them.
+only read: the system or another task sets them. What an interrupt waits for is looked for wherever
+the task is.
 """
 
 import sys
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol, cast
 
@@ -40,9 +41,11 @@ class Polled:
     wanted: tuple[Wanted, ...]
 
 
-def polled(scope: ModuleScope, entry: str, given: Collection[str]) -> Iterator[Polled]:
-    """All of a module that are of `given` signals, by lower-case name."""
-    for first, last, terms in looked_at(scope, entry):
+def polled(
+    scope: ModuleScope, entry: str, task: Sequence[ModuleScope], given: Collection[str]
+) -> Iterator[Polled]:
+    """All of a module of a task that are of `given` signals, by lower-case name."""
+    for first, last, terms in looked_at(scope, entry, task):
         found = (one for term in terms for one in _compared(term))
         wanted = tuple(dict.fromkeys(one for one in found if one[0] in given))
         if wanted:

@@ -73,6 +73,7 @@ TOGETHER = {
     "what leaves a loop": "WHILE NOT bAuto DO\n WaitTime 0.1;\nENDWHILE\nEXIT;\n",
     "inputs together": "IF diDoor = 1 AND diPart = 1 EXIT;\n",
     "inputs that a routine reads": "IF DInput(diDoor) = 1 press;\n",
+    "what an interrupt waits for": "IDelete i;\nCONNECT i WITH t;\nISignalDI diLid, 1, i;\n",
     "an output that the system sets": "IF DOutput(doMotorOn) = 1 EXIT;\n",
 }
 
@@ -82,7 +83,8 @@ def test_what_has_to_hold_together_does(name, tmp_path):
     text = (
         "MODULE flag\n PERS bool bAuto := FALSE;\n PERS num nPart := 0;\n VAR num nCopy;\n"
         " VAR intnum i;\n PROC main()\n  WHILE TRUE DO\n"
-        f"{TOGETHER[name]}   WaitTime 0.1;\n  ENDWHILE\n ENDPROC\n TRAP t\n ENDTRAP\n"
+        f"{TOGETHER[name]}   WaitTime 0.1;\n  ENDWHILE\n ENDPROC\n"
+        " TRAP t\n  IF diPart = 1 EXIT;\n ENDTRAP\n"
         " PROC look()\n  IF bAuto EXIT;\n ENDPROC\n PROC press()\n  IF diPart = 1 EXIT;\n"
         " ENDPROC\n FUNC bool asked()\n  RETURN nPart = 4 AND NOT (NOT bAuto);\n ENDFUNC\n"
         "ENDMODULE\n"
