@@ -5,6 +5,7 @@ looked at in the routines that a loop calls is looked at by the loop.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from itertools import product
 from typing import get_args
 
@@ -18,6 +19,18 @@ from rapidgen.rapid.syntax.walk import children, walk
 Term = tuple[n.Expression, bool, RoutineScope]
 """A comparison or a name, whether it has to hold, and where it stands."""
 Terms = tuple[Term, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Look:
+    """What has to hold together in a loop, by the lines of its module."""
+
+    module: str
+    first: int
+    last: int
+    terms: Terms
+
+
 RELATIONS = frozenset(get_args(Relation))
 NEGATED: Mapping[str, str] = {"=": "<>", "<>": "=", "<": ">=", ">=": "<", ">": "<=", "<=": ">"}
 SWAPPED: Mapping[str, str] = {"<": ">", ">": "<", "<=": ">=", ">=": "<="}
@@ -29,12 +42,18 @@ _WAYS = 8
 """Of one condition."""
 
 
-def looked_at(
-    module: ModuleScope, entry: str, task: Sequence[ModuleScope] = ()
+def looked_at(task: Sequence[ModuleScope], entry: str) -> Iterator[Look]:
+    """What each loop in the modules of a task looks at; what leaves it comes last. The routine that
+    a task starts in is a loop: it is executed in cycles, and interrupts wait in it. So is a
+    WaitUntil."""
+    for module in task:
+        for first, last, terms in _loops(module, entry, task):
+            yield Look(module.tree.name.lower(), first, last, terms)
+
+
+def _loops(
+    module: ModuleScope, entry: str, task: Sequence[ModuleScope]
 ) -> Iterator[tuple[int, int, Terms]]:
-    """Lines of each loop of a module, and all that it looks at; what leaves it comes last. The
-    routine that a task starts in is a loop: it is executed in cycles, and the interrupts of all
-    modules of the `task` wait in it. So is a WaitUntil."""
     source = module.tree.source
     for routine in module.tree.routines:
         scope = module.routine(routine)

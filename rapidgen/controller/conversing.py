@@ -8,7 +8,7 @@ answers any more, and the program waits as before. What it sends is taken and no
 """
 
 import re
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import partial
 from typing import TYPE_CHECKING, Final, Protocol
@@ -106,52 +106,47 @@ class Heard:
 def heard(modules: Iterable[ModuleScope], stands: Mapping[str, str]) -> Heard:
     """What the modules of all tasks listen for; `stands` are values of targets."""
     known = {**_VALUES, **stands}
-    scopes = list(modules)
-    received = {name for scope in scopes for name in _received(scope)}
-    received |= {name for scope in scopes for name in _copied(scope, received)}
+    nodes = [found for module in modules for found in scoped(module)]
+    received = {name for node, _ in nodes for name in _received(node)}
+    received |= {
+        last(node.target)
+        for node, _ in nodes
+        if isinstance(node, n.Assignment) and last(node.value) in received
+    }
     words, parts = dict[str, None](), dict[str, None]()
     marks, values, numbers = dict[str, None](), dict[str, None](), dict[int, None]()
     sized = dict[tuple[int, int], None]()
     tested: dict[str, list[float]] = {}
-    for module in scopes:
-        for node, scope in scoped(module):
-            for whom, one in _compared(node, scope):
-                if isinstance(one, str) and one:
-                    whole = isinstance(whom, n.Name) and whom.name.casefold() in received
-                    mark = len(one) == 1 and not one.isalnum()
-                    (words if whole else marks if mark else parts)[one] = None
-                elif isinstance(one, int) and not isinstance(one, bool):
-                    numbers[one] = None
-                    tested.setdefault(last(whom), []).append(one)
-            sized.update(dict.fromkeys(_sized(node, scope)))
-            if isinstance(node, n.FunctionCall):
-                given = [a.value for a in node.arguments if a.value is not None]
-                found = constant(given[-1], scope) if given else None
-                if node.name.lower() in _SEARCHING and isinstance(found, str):
-                    marks.update(dict.fromkeys(found))
-                elif node.name.lower() == "strtoval" and len(given) > 1:
-                    kind = declared_type(given[1], scope) or ""
-                    if kind in known:
-                        values[known[kind]] = None
+    for node, scope in nodes:
+        for whom, one in _compared(node, scope):
+            if isinstance(one, str) and one:
+                whole = isinstance(whom, n.Name) and whom.name.casefold() in received
+                mark = len(one) == 1 and not one.isalnum()
+                (words if whole else marks if mark else parts)[one] = None
+            elif isinstance(one, int) and not isinstance(one, bool):
+                numbers[one] = None
+                tested.setdefault(last(whom), []).append(one)
+        sized.update(dict.fromkeys(_sized(node, scope)))
+        if isinstance(node, n.FunctionCall):
+            given = [a.value for a in node.arguments if a.value is not None]
+            found = constant(given[-1], scope) if given else None
+            if node.name.lower() in _SEARCHING and isinstance(found, str):
+                marks.update(dict.fromkeys(found))
+            elif node.name.lower() == "strtoval" and len(given) > 1:
+                kind = declared_type(given[1], scope) or ""
+                if kind in known:
+                    values[known[kind]] = None
     heard_of = tuple(words), tuple(parts), tuple(numbers), tuple(marks), tuple(values)
-    binary = framed((found for module in scopes for found in scoped(module)), tested)
+    binary = framed(nodes, tested)
     return Heard(*heard_of, tuple(sized), stands, binary)
 
 
-def _received(module: ModuleScope) -> Iterator[str]:
-    """Texts that a module receives into."""
-    for node, _ in scoped(module):
-        if isinstance(node, n.ProcedureCall) and node.name.lower() == "socketreceive":
-            for argument in node.arguments:
-                if (argument.name or "").lower() == "str" and isinstance(argument.value, n.Name):
-                    yield argument.value.name.casefold()
-
-
-def _copied(module: ModuleScope, received: Collection[str]) -> Iterator[str]:
-    """What a module copies received texts to."""
-    for node, _ in scoped(module):
-        if isinstance(node, n.Assignment) and last(node.value) in received:
-            yield last(node.target)
+def _received(node: n.Node) -> Iterator[str]:
+    """Texts that a node receives into."""
+    if isinstance(node, n.ProcedureCall) and node.name.lower() == "socketreceive":
+        for argument in node.arguments:
+            if (argument.name or "").lower() == "str" and isinstance(argument.value, n.Name):
+                yield argument.value.name.casefold()
 
 
 def _compared(node: n.Node, scope: Scope) -> Iterator[tuple[n.Expression, object]]:

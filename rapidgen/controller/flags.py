@@ -9,11 +9,11 @@ only copied from another datum, that one is set.
 """
 
 import sys
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Final, Protocol
 
-from rapidgen.controller.conditions import NEGATED, RELATIONS, SWAPPED, Term, looked_at
+from rapidgen.controller.conditions import NEGATED, RELATIONS, SWAPPED, Look, Term
 from rapidgen.controller.uses import passed, scoped
 from rapidgen.machine.scheduler import S, Scheduler
 from rapidgen.rapid.binding import DataSymbol, ModuleScope, RoutineSymbol, Scope, constant
@@ -21,7 +21,6 @@ from rapidgen.rapid.binding.names import called
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.task.call_stack import stack_at
 from rapidgen.runtime.task.task import Task
-from rapidgen.system.model import TaskSpec
 
 if TYPE_CHECKING:
     from rapidgen.controller.answering import Said
@@ -64,24 +63,20 @@ class Flag:
     sets: tuple[Set, ...]
 
 
-def flags(task: TaskSpec, scopes: Sequence[ModuleScope], made: Mapping[str, str]) -> Iterator[Flag]:
-    """All of the modules of a task; the routine that it starts in is a loop. `made` are the types
-    of data that are guessed, by lower-case name."""
+def flags(
+    task: str, scopes: Iterable[ModuleScope], looks: Iterable[Look], made: Mapping[str, str]
+) -> Iterator[Flag]:
+    """All that the modules of a task look at. `made` are the types of data that are guessed, by
+    lower-case name."""
     written: dict[str, set[object]] = {}
     for scope in scopes:
         for name, value in _written(scope, made):
             written.setdefault(name, set()).add(value)
-    found: dict[Flag, None] = {}
-    for module in scopes:
-        for first, last, terms in looked_at(module, task.entry, scopes):
-            wanted = [one for term in terms for one in _wanted(term, made)]
-            known = {
-                one.name.casefold(): one for one in (_given(s, written) for s in wanted) if one
-            }
-            if known:
-                sets = tuple(known.values())
-                found[Flag(task.name, module.tree.name.lower(), first, last, sets)] = None
-    return iter(found)
+    for look in looks:
+        wanted = [one for term in look.terms for one in _wanted(term, made)]
+        known = {one.name.casefold(): one for one in (_given(s, written) for s in wanted) if one}
+        if known:
+            yield Flag(task, look.module, look.first, look.last, tuple(known.values()))
 
 
 def _given(one: Set, written: Mapping[str, set[object]]) -> Set | None:

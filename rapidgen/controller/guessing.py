@@ -20,6 +20,7 @@ from rapidgen.config.cell import CameraKeys, CellDescription, CellSignalKeys, Fo
 from rapidgen.config.model import Load, Placement, Tool, WorkObject
 from rapidgen.controller.absent import absent
 from rapidgen.controller.blank import Blank, blanks
+from rapidgen.controller.conditions import looked_at
 from rapidgen.controller.conversing import Heard, heard
 from rapidgen.controller.flags import Flag, flags
 from rapidgen.controller.polling import Polled, handed_on, polled
@@ -165,12 +166,11 @@ def guess(
         for name, keys in cell.signals.items()
         if keys.kind[1] == "I" or name.casefold() not in handed
     }
-    rows = dict.fromkeys(
-        row
+    looks = {
+        spec.name: tuple(looked_at(scopes, spec.entry))
         for spec, scopes in zip(system.tasks, tasks, strict=True)
-        for scope in scopes
-        for row in polled(scope, spec.entry, scopes, given)
-    )
+    }
+    rows = dict.fromkeys(row for spec in system.tasks for row in polled(looks[spec.name], given))
     kept = {name for scopes in tasks for scope in scopes for name in _persistent(scope)}
     initial = {word for scopes in tasks for scope in scopes for word in _in_initial_values(scope)}
     sizes = {name: size for scopes in tasks for scope in scopes for name, size in _sizes(scope)}
@@ -184,10 +184,10 @@ def guess(
     kinds = {name.casefold(): kind for name, kind in made.items()}
     stubs = {one.name.casefold(): one for scopes in tasks for one in absent(scopes, kinds)}
     named += [Named(s.name, s.kind, s.span) for s in stubs.values()]
-    looked = tuple(
+    looked = dict.fromkeys(
         flag
         for spec, scopes in zip(system.tasks, tasks, strict=True)
-        for flag in flags(spec, scopes, kinds)
+        for flag in flags(spec.name, scopes, looks[spec.name], kinds)
     )
     blank = blanks((spec.name, s) for spec, s in zip(system.tasks, tasks, strict=True))
     named += [Named(row.name, kind, span) for row, (kind, span) in blank.items()]
@@ -195,7 +195,7 @@ def guess(
     routines = "".join(s.stub(stands.get(s.type, "")) for s in stubs.values())
     names = tuple(named), tuple(unknown)
     return Guess(
-        cell, *names, tuple(rows), data, made_units, routines, looked, listens, tuple(blank)
+        cell, *names, tuple(rows), data, made_units, routines, tuple(looked), listens, tuple(blank)
     )
 
 

@@ -8,11 +8,11 @@ the task is.
 """
 
 import sys
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol, cast
 
-from rapidgen.controller.conditions import NEGATED, RELATIONS, SWAPPED, Term, looked_at
+from rapidgen.controller.conditions import NEGATED, RELATIONS, SWAPPED, Look, Term
 from rapidgen.controller.uses import scoped
 from rapidgen.machine.io import Awaited, IOSystem, Relation
 from rapidgen.machine.scheduler import S, Scheduler
@@ -41,15 +41,13 @@ class Polled:
     wanted: tuple[Wanted, ...]
 
 
-def polled(
-    scope: ModuleScope, entry: str, task: Sequence[ModuleScope], given: Collection[str]
-) -> Iterator[Polled]:
-    """All of a module of a task that are of `given` signals, by lower-case name."""
-    for first, last, terms in looked_at(scope, entry, task):
-        found = (one for term in terms for one in _compared(term))
+def polled(looks: Iterable[Look], given: Collection[str]) -> Iterator[Polled]:
+    """All that are of `given` signals, by lower-case name."""
+    for look in looks:
+        found = (one for term in look.terms for one in _compared(term))
         wanted = tuple(dict.fromkeys(one for one in found if one[0] in given))
         if wanted:
-            yield Polled(scope.tree.name.lower(), first, last, wanted)
+            yield Polled(look.module, look.first, look.last, wanted)
 
 
 def _compared(term: Term) -> Iterator[Wanted]:
