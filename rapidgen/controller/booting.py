@@ -241,6 +241,7 @@ def _surrounded(found: Bootable, cell: "CellDescription | None", wishes: Wishes)
             guessed.heard if guessed is not None else None,
             cameras_of(cell, is_guess=guessed is not None),
             force_of(cell),
+            frozenset(guessed.divisors if guessed is not None else ()),
             guessed.blank if guessed is not None else (),
             is_guess=guessed is not None,
             is_any_robot=guessed is not None and not wishes.robot and not found.system.robot_types,

@@ -96,6 +96,8 @@ class Guess:
     """What programs listen for at their sockets."""
     blank: tuple[Blank, ...] = ()
     """Tools and work objects whose values another task would have."""
+    divisors: frozenset[str] = frozenset()
+    """Names of what is divided by, lower case."""
 
 
 def guess(
@@ -194,9 +196,8 @@ def guess(
     listens = heard((scope for scopes in tasks for scope in scopes), stands)
     routines = "".join(s.stub(stands.get(s.type, "")) for s in stubs.values())
     names = tuple(named), tuple(unknown)
-    return Guess(
-        cell, *names, tuple(rows), data, made_units, routines, tuple(looked), listens, tuple(blank)
-    )
+    more = routines, tuple(looked), listens, tuple(blank), frozenset(divisors)
+    return Guess(cell, *names, tuple(rows), data, made_units, *more)
 
 
 def _can_be_made(kind: str) -> bool:

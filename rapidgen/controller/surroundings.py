@@ -57,6 +57,8 @@ class Surroundings:
     """What cameras see, by lower-case name."""
     force: Measured = field(default_factory=Measured)
     """What force sensors measure."""
+    divisors: frozenset[str] = frozenset()
+    """What programs divide by, lower case."""
     blank: "tuple[Blank, ...]" = ()
     """Data that a predefined one stands in for."""
     is_guess: bool = False
@@ -239,6 +241,7 @@ def settle(controller: Booted, around: Surroundings) -> Guessed:
         from rapidgen.controller.flags import Flags
 
         Flags(controller, around.flags, answered)
+    controller.io.divisors = around.divisors
     controller.io.any_unit = controller.meetings.any_task = around.is_guess
     if around.is_any_robot:
         controller.motion.on_missed = lambda place, how: guessed.missed.append((place, how))

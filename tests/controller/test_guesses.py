@@ -91,6 +91,11 @@ ENDS = {
         " PROC main()\n  TPWrite ValToStr(nRate + 4 / (GOutput(goSpeed) * nRate));\n ENDPROC\n",
         "ERR_REFUNKDAT",
     ),
+    "what is divided by is 1 behind an alias, too": (
+        ' VAR signalgo speed;\n PROC main()\n  AliasIO "speed" + ArgName(speed), speed;\n'
+        "  TPWrite ValToStr(4 / GOutput(speed));\n ENDPROC\n",
+        "ERR_ALIASIO_DEF",
+    ),
     "what only a persistent may be is one": (
         ' PROC main()\n  WaitTestAndSet gripLock;\n  TPWrite "mine";\n'
         "  gripLock := FALSE;\n ENDPROC\n",
