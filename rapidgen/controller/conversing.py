@@ -13,6 +13,7 @@ from dataclasses import dataclass, field
 from functools import partial
 from typing import TYPE_CHECKING, Final, Protocol
 
+from rapidgen.controller.fields import Field, layouts, texts
 from rapidgen.controller.framing import Framed, framed, last
 from rapidgen.controller.uses import scoped
 from rapidgen.machine.network.interface import Endpoint, Network, NetworkFault
@@ -67,6 +68,8 @@ class Heard:
     stands: Mapping[str, str] = field(default_factory=dict)
     framed: Framed = field(default_factory=Framed)
     """Binary messages."""
+    layouts: tuple[tuple[Field, ...], ...] = ()
+    """Texts that are cut into fields."""
 
     def messages(self) -> list[bytes]:
         """What is said, in turn: with counted values once, all else twice."""
@@ -74,7 +77,7 @@ class Heard:
             return self.framed.messages()[:_MOST] * 2
         marks = self.separators or (" ",)
         tail = "".join(self.separators)
-        counted, texts = [], []
+        counted, with_more = [], []
         for code, count in self.sized:
             for mark in marks[:_WAYS]:
                 end = "".join(one for one in self.separators if one != mark)
@@ -84,10 +87,11 @@ class Heard:
         others = [str(number) for number in self.numbers if number not in sized]
         others += [str(max(self.numbers) + 1)] if self.numbers else []
         for first in (*others, *self.beginnings):
-            texts += [mark.join((first, *_NUMBERS)) + mark + tail for mark in marks[:_WAYS]]
+            with_more += [mark.join((first, *_NUMBERS)) + mark + tail for mark in marks[:_WAYS]]
+        cut = [t for layout in self.layouts for mark in marks[:_WAYS] for t in texts(layout, mark)]
         whole = (*map(str, self.numbers), *self.words)
-        texts += sorted(whole, key=lambda word: _LAST.search(word) is not None)
-        said = [text.encode("latin-1", "replace") for text in (*self.values, *texts)]
+        with_more += sorted(whole, key=lambda word: _LAST.search(word) is not None)
+        said = [text.encode("latin-1", "replace") for text in (*cut, *self.values, *with_more)]
         said += [number.to_bytes(4, "little") + bytes(8) for number in self.numbers if number >= 0]
         return [text.encode("latin-1", "replace") for text in counted] + (
             said[:_MOST] or [b"1"]
@@ -138,7 +142,7 @@ def heard(modules: Iterable[ModuleScope], stands: Mapping[str, str]) -> Heard:
                     values[known[kind]] = None
     heard_of = tuple(words), tuple(parts), tuple(numbers), tuple(marks), tuple(values)
     binary = framed(nodes, tested)
-    return Heard(*heard_of, tuple(sized), stands, binary)
+    return Heard(*heard_of, tuple(sized), stands, binary, tuple(layouts(nodes)))
 
 
 def _received(node: n.Node) -> Iterator[str]:

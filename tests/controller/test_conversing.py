@@ -195,6 +195,58 @@ def test_a_server_of_binary_messages_hears_their_length_and_the_numbers_it_tests
     assert said[0] == "00 0e 00 00 01 2c ff ff 00 00 00 00 00 00 00 00"
 
 
+FIELDS = """MODULE fields
+ VAR socketdev s;
+ VAR string said;
+ VAR num a;
+ VAR num b;
+ VAR num x;
+ VAR string side;
+ VAR string code;
+ VAR num job;
+ VAR bool ok;
+ PROC main()
+  SocketCreate s;
+  SocketConnect s, "10.0.0.7", 4000;
+  WHILE TRUE DO
+   SocketReceive s \\Str:=said \\Time:=WAIT_MAX;
+   IF StrPart(said, 1, 1) = "J" THEN
+    fixed;
+   ELSE
+    cut;
+   ENDIF
+  ENDWHILE
+ ENDPROC
+ PROC cut()
+  a := StrFind(said, 1, ";");
+  b := StrFind(said, a + 1, ";");
+  ok := StrToVal(StrPart(said, 1, a - 1), x);
+  side := StrPart(said, a + 1, b - a - 1);
+  IF NOT ok OR x < 200 OR x > 300 RETURN;
+  IF side = "left" TPWrite "left";
+  IF side = "right" TPWrite "right";
+ ENDPROC
+ PROC fixed()
+  code := StrPart(said, 1, 1);
+  IF NOT StrToVal(StrPart(said, 3, 3), job) RETURN;
+  IF code = "J" AND job = 12 TPWrite "twelve";
+ ENDPROC
+ENDMODULE
+"""
+
+
+def test_a_text_of_fields_has_what_each_is_compared_with(tmp_path):
+    path = tmp_path / "fields.mod"
+    path.write_text(FIELDS)
+    shown: list[str] = []
+    with VirtualController.from_files([path], cell="guess", cycle="once") as controller:
+        controller.operator.subscribe(lambda _task, line: shown.append(line))
+        run_through(controller, max_time=300)
+        said = [text for what, text in controller.guessed.answered if what == "SocketReceive"]
+    assert said[:3] == ["250;left;", "250;right;", "J;012;"]
+    assert shown[:3] == ["left", "right", "twelve"]
+
+
 def test_of_two_clients_at_a_port_the_one_speaks_that_is_waited_for(tmp_path):
     two = (
         "MODULE two\n VAR socketdev s;\n VAR socketdev c;\n VAR socketdev d;\n VAR string said;\n"
