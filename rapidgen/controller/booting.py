@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import rapidgen.system as files
 from rapidgen.axes.starts import usual_start
 from rapidgen.config import from_manifest, load_config
-from rapidgen.config.model import GroupConfig, RobotConfig
+from rapidgen.config.model import ChainLink, GroupConfig, Positioner, RobotConfig
 from rapidgen.config.registry import is_path
 from rapidgen.controller.mechanics import DEFAULT_ROBOT, mechanics
 from rapidgen.controller.starts import in_front, stands, start_of
@@ -217,9 +217,16 @@ def _surrounded(found: Bootable, cell: "CellDescription | None", wishes: Wishes)
 
         units = [u for g in found.groups for u in (g.mechanical_unit, *g.external_units)]
         first, *others = found.groups
-        guessed = guess(found.system, units, in_front(first), stands(first))
+        table = in_front(first)
+        guessed = guess(found.system, units, table, stands(first))
         cell = guessed.cell
-        first = replace(first, external_units=(*first.external_units, *guessed.units))
+        stands_still = (ChainLink("", table, (0.0, 0.0, 0.0)),)
+        carriers = [Positioner(unit, stands_still) for unit in guessed.units]
+        first = replace(
+            first,
+            external_units=(*first.external_units, *guessed.units),
+            positioners=(*first.positioners, *carriers),
+        )
         found = replace(found, groups=(first, *others))
     usual = not found.driver
     if cell is None:

@@ -4,10 +4,10 @@ A public program seldom has its controller's configuration beside it. The type o
 the parameter that it is an argument of; where it is only read, its first letters tell as ABB's
 examples name signals (di, do, gi, go, ai, ao), and what is compared with 0 or 1 is a digital input.
 Tools have the load of tool0 and are the flange; a work object is a table in front of the robot; a
-mechanical unit has no axes, a camera sees one thing in its middle. Data of other types are what
-RAPID makes of a declaration without a value: 0, FALSE, an empty text; but what a program divides by
-is 1, a target is where the robot stands at first, `v25` is a speed of 25 mm/s and `z5` a zone of
-5 mm. What has no type that could be told stays unknown.
+mechanical unit stands there and has no axes, a camera sees one thing in its middle. Data of other
+types are what RAPID makes of a declaration without a value: 0, FALSE, an empty text; but what a
+program divides by is 1, a target is where the robot stands at first, `v25` is a speed of 25 mm/s
+and `z5` a zone of 5 mm. What has no type that could be told stays unknown.
 """
 
 import re

@@ -112,6 +112,12 @@ ENDS = {
         "  MoveL p, v100, fine, grip \\WObj:=table;\n ENDPROC\n",
         "Tool and work object contradict",
     ),
+    "a unit that nobody describes carries its work objects": (
+        ' PERS wobjdata plate := [FALSE,FALSE,"STN1",[[0,0,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];\n'
+        " VAR robtarget p;\n PROC main()\n  ActUnit STN1;\n  p := CRobT(\\WObj:=plate);\n"
+        "  MoveL p, v100, fine, tool0 \\WObj:=plate;\n ENDPROC\n",
+        "ERR_REFUNKDAT",
+    ),
     "a signal may be named by a text": (
         " VAR signaldo grip;\n PROC main()\n"
         '  AliasIO "hand_" + ArgName(grip), grip;\n  SetDO grip, 1;\n ENDPROC\n',
