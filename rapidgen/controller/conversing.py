@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 from functools import partial
 from typing import TYPE_CHECKING, Final, Protocol
 
-from rapidgen.controller.fields import Field, layouts, texts
+from rapidgen.controller.fields import CutOut, layouts, texts
 from rapidgen.controller.framing import Framed, framed, last
 from rapidgen.controller.uses import scoped
 from rapidgen.machine.network.interface import Endpoint, Network, NetworkFault
@@ -68,7 +68,7 @@ class Heard:
     stands: Mapping[str, str] = field(default_factory=dict)
     framed: Framed = field(default_factory=Framed)
     """Binary messages."""
-    layouts: tuple[tuple[Field, ...], ...] = ()
+    layouts: tuple[tuple[CutOut, ...], ...] = ()
     """Texts that are cut into fields."""
 
     def messages(self) -> list[bytes]:

@@ -42,7 +42,7 @@ Plain = bool | float | str
 
 
 @dataclass(frozen=True, slots=True)
-class Set:
+class Adjusted:
     """What a datum becomes, and whether the program writes it otherwise."""
 
     owner: str
@@ -60,7 +60,7 @@ class Flag:
     module: str
     first: int
     last: int
-    sets: tuple[Set, ...]
+    sets: tuple[Adjusted, ...]
 
 
 def flags(
@@ -79,21 +79,21 @@ def flags(
             yield Flag(task, look.module, look.first, look.last, tuple(known.values()))
 
 
-def _given(one: Set, written: Mapping[str, set[object]]) -> Set | None:
+def _given(one: Adjusted, written: Mapping[str, set[object]]) -> Adjusted | None:
     """What nothing in the program gives; of what only copies another datum, that one."""
     values = written.get(one.name.casefold(), set())
-    copied = [value for value in values if isinstance(value, Set)]
+    copied = [value for value in values if isinstance(value, Adjusted)]
     if len(copied) == 1:
         source = copied[0].name.casefold()
         values = values - {copied[0]} | written.get(source, set())
         one = replace(copied[0], value=one.value)
-        values = {None if isinstance(value, Set) else value for value in values}
+        values = {None if isinstance(value, Adjusted) else value for value in values}
     if None in values or one.value in values:
         return None
     return replace(one, written=bool(written.get(one.name.casefold())))
 
 
-def _wanted(term: Term, made: Mapping[str, str]) -> Iterator[Set]:
+def _wanted(term: Term, made: Mapping[str, str]) -> Iterator[Adjusted]:
     """A plain datum in a comparison, and what makes it hold or not."""
     node, holds, scope = term
     if isinstance(node, n.Name):
@@ -121,7 +121,7 @@ def _making(operator: str, value: Plain) -> Plain | None:
     return value - 1 if operator == "<" else value + 1
 
 
-def _set(name: n.Name, scope: Scope, value: Plain, made: Mapping[str, str]) -> Iterator[Set]:
+def _set(name: n.Name, scope: Scope, value: Plain, made: Mapping[str, str]) -> Iterator[Adjusted]:
     """Nothing where the name is no variable or persistent of a plain type."""
     symbol = scope.find(name.name)
     if symbol is None:
@@ -133,12 +133,12 @@ def _set(name: n.Name, scope: Scope, value: Plain, made: Mapping[str, str]) -> I
     else:
         return
     if kind in (_KINDS.get(type(value)) or ("num", "dnum")):
-        yield Set(owner, name.name, value)
+        yield Adjusted(owner, name.name, value)
 
 
 def _written(module: ModuleScope, made: Mapping[str, str]) -> Iterator[tuple[str, object]]:
-    """Names that a module writes, and the constants that it writes, what is copied to them (a Set),
-    or None: something else."""
+    """Names that a module writes, and what: a constant, a copied datum (Adjusted), or something
+    else (None)."""
     for node, scope in scoped(module):
         match node:
             case n.Assignment() if isinstance(node.target, n.Name):

@@ -21,7 +21,7 @@ _LONGEST: Final = 1024
 
 
 @dataclass(frozen=True, slots=True)
-class Part:
+class Packed:
     """A number in a message: where it begins (from 0), its format, and what it is tested for."""
 
     place: int
@@ -43,9 +43,9 @@ class Part:
 class Framed:
     """How messages are made up; `prefix` is the length before them, None: there is none."""
 
-    prefix: Part | None = None
+    prefix: Packed | None = None
     length: int = 0
-    parts: tuple[Part, ...] = ()
+    parts: tuple[Packed, ...] = ()
     """Those that the program tests."""
 
     def messages(self) -> list[bytes]:
@@ -102,12 +102,12 @@ def framed(nodes: Iterable[tuple[n.Node, Scope]], tested: Mapping[str, Iterable[
                         lengths.add(last(count) if count is not None else "")
         sizes += _sizes(node, scope)
     copied = {to: by for of, to, by in copies if of in received and to not in received}
-    prefixes = [Part(at, form) for _, whose, at, form in unpacked if whose and whose in lengths]
-    parts: dict[str, Part] = {}
+    prefixes = [Packed(at, form) for _, whose, at, form in unpacked if whose and whose in lengths]
+    parts: dict[str, Packed] = {}
     for raw, whose, at, form in unpacked:
         if whose not in lengths:
             values = tuple(dict.fromkeys(tested.get(whose, ())))
-            parts.setdefault(whose, Part(at + copied.get(raw, 0), form, values))
+            parts.setdefault(whose, Packed(at + copied.get(raw, 0), form, values))
     ends = [part.end for part in parts.values()]
     ends += [size + copied.get(raw, 0) for raw, size in sizes]
     ordered = sorted((part for part in parts.values() if part.values), key=lambda p: p.place)
