@@ -232,7 +232,6 @@ def _surrounded(found: Bootable, cell: "CellDescription | None", wishes: Wishes)
     if cell is None:
         starts = dict(_starts(found.groups, {}, wishes.start, usual=usual))
         return replace(found, surroundings=Surroundings(starts))
-    inputs = [name.casefold() for name, keys in cell.signals.items() if keys.kind.endswith("I")]
     return replace(
         found,
         cell=cell,
@@ -242,7 +241,7 @@ def _surrounded(found: Bootable, cell: "CellDescription | None", wishes: Wishes)
         surroundings=Surroundings(
             dict(_starts(found.groups, cell.robots, wishes.start, usual=usual)),
             tuple(reaction for rows in cell.devices.values() for reaction in rows),
-            frozenset(inputs if guessed is not None else ()),
+            guessed.driven if guessed is not None else frozenset(),
             guessed.polled if guessed is not None else (),
             guessed.flags if guessed is not None else (),
             guessed.heard if guessed is not None else None,

@@ -96,6 +96,8 @@ class Guess:
     """What programs listen for at their sockets."""
     blank: tuple[Blank, ...] = ()
     """Tools and work objects whose values another task would have."""
+    driven: frozenset[str] = frozenset()
+    """Signals that nobody else sets, lower case: inputs, and outputs that are only read."""
     divisors: frozenset[str] = frozenset()
     """Names of what is divided by, lower case."""
 
@@ -196,7 +198,8 @@ def guess(
     listens = heard((scope for scopes in tasks for scope in scopes), stands)
     routines = "".join(s.stub(stands.get(s.type, "")) for s in stubs.values())
     names = tuple(named), tuple(unknown)
-    more = routines, tuple(looked), listens, tuple(blank), frozenset(divisors)
+    driven = frozenset(given)
+    more = routines, tuple(looked), listens, tuple(blank), driven, frozenset(divisors)
     return Guess(cell, *names, tuple(rows), data, made_units, *more)
 
 

@@ -73,9 +73,9 @@ def _signal(node: n.Node) -> str:
 def handed_on(module: ModuleScope) -> Iterator[str]:
     """Lower-case names that a module gives to instructions: of outputs, those that it sets."""
     for node, _ in scoped(module):
-        if isinstance(node, n.ProcedureCall | n.LateCall) or (
-            isinstance(node, n.FunctionCall) and node.name.lower() not in _READING
-        ):
+        name = node.name.lower() if isinstance(node, n.ProcedureCall | n.FunctionCall) else ""
+        reads = name in _READING or name.startswith(("wait", "isignal"))
+        if isinstance(node, n.LateCall) or (name and not reads):
             yield from (_signal(a.value) for a in node.arguments if isinstance(a.value, n.Name))
 
 

@@ -46,7 +46,7 @@ class Surroundings:
     """Where the robots stand, by motion group; others stand at 0."""
     reactions: "Sequence[ReactionKeys]" = ()
     guessed: frozenset[str] = frozenset()
-    """Inputs that nobody drives, lower case: they become what somebody waits for."""
+    """Signals that nobody drives, lower case: they become what somebody waits for."""
     polled: "tuple[Polled, ...]" = ()
     """Where programs look for them in loops."""
     flags: "tuple[Flag, ...]" = ()

@@ -74,6 +74,7 @@ TOGETHER = {
     "inputs together": "IF diDoor = 1 AND diPart = 1 EXIT;\n",
     "inputs that a routine reads": "IF DInput(diDoor) = 1 press;\n",
     "what an interrupt waits for": "IDelete i;\nCONNECT i WITH t;\nISignalDI diLid, 1, i;\n",
+    "an output that is waited for": "WaitDO doMotorOn, 1;\nEXIT;\n",
     "an output that the system sets": "IF DOutput(doMotorOn) = 1 EXIT;\n",
 }
 
