@@ -147,3 +147,10 @@ def test_how_much_is_said(words, levels, capsys):
         getattr(log, level)("this is %s", level)
     told = [line.rpartition(" ")[2] for line in capsys.readouterr().err.splitlines()]
     assert [word for word in told if word in ("debug", "info", "warning", "error")] == levels
+
+
+def test_the_package_is_the_command_too():
+    command = [sys.executable, "-m", "rapidgen", "explain", "RG0"]
+    done = subprocess.run(command, capture_output=True, text=True)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr.startswith("error[RG902]")
