@@ -104,7 +104,7 @@ def cycles(program: Program, robot: str, cycle: Cycle) -> Outcome:
             notes.append(
                 "in no module: " + ", ".join(f"{u.type} {u.name}" for u in guessed.unknown[:5])
             )
-        # Sockets, and dialogs and stops with their texts and places; data and signals are no partner.
+        # Sockets, and dialogs and stops with texts or places; data and signals are no partner.
         asked = any(w == "SocketReceive" or " " in w for w, _ in controller.guessed.answered)
         end = _end(ended, faults, waits, asked=asked)
         if controller.guessed.missed:
