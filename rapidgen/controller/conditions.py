@@ -121,8 +121,8 @@ def _inside(node: n.Node, scope: RoutineScope, around: Terms, known: set[str]) -
         return
     yield from _called(node, scope, around, known)
     inner = scope.loop(node) if isinstance(node, n.For) else scope
-    for child in children(node):
-        yield from _inside(child, inner, around, known)
+    for part in children(node):
+        yield from _inside(part, inner, around, known)
 
 
 def _condition(node: n.Node) -> tuple[n.Expression | None, list[n.Statement]]:

@@ -96,9 +96,9 @@ def framed(nodes: Iterable[tuple[n.Node, Scope]], tested: Mapping[str, Iterable[
                 case "socketreceive":
                     options = {(a.name or "").lower(): a.value for a in node.arguments}
                     count = options.get("readnoofbytes")
-                    raw = options.get("rawdata")
-                    if raw is not None:
-                        received.add(last(raw))
+                    taken = options.get("rawdata")
+                    if taken is not None:
+                        received.add(last(taken))
                         lengths.add(last(count) if count is not None else "")
         sizes += _sizes(node, scope)
     copied = {to: by for of, to, by in copies if of in received and to not in received}

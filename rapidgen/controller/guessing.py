@@ -197,10 +197,20 @@ def guess(
     named += [Named(row.name, kind, span) for row, (kind, span) in blank.items()]
     listens = heard((scope for scopes in tasks for scope in scopes), stands)
     routines = "".join(s.stub(stands.get(s.type, "")) for s in stubs.values())
-    names = tuple(named), tuple(unknown)
-    driven = frozenset(given)
-    more = routines, tuple(looked), listens, tuple(blank), driven, frozenset(divisors)
-    return Guess(cell, *names, tuple(rows), data, made_units, *more)
+    return Guess(
+        cell,
+        tuple(named),
+        tuple(unknown),
+        tuple(rows),
+        data,
+        made_units,
+        routines,
+        tuple(looked),
+        listens,
+        tuple(blank),
+        frozenset(given),
+        frozenset(divisors),
+    )
 
 
 def _can_be_made(kind: str) -> bool:

@@ -30,8 +30,8 @@ def run_through(
         ended = controller.run(max_time=left, max_statements=max_statements)
         stands = [t for t in controller.rapid_tasks.values() if t.state == "stopped"]
         if ended == "finished" and guessed.is_guess and stands and controller.now < until:
-            for at in (task.stack()[-1] for task in stands if task.stack()):
-                place = f"{Path(at.span.path).name}:{at.span.line}"
+            for top in (task.stack()[-1] for task in stands if task.stack()):
+                place = f"{Path(top.span.path).name}:{top.span.line}"
                 guessed.answered.append((f"Stop at {place}", "start"))
             if not controller.start_program():
                 break

@@ -73,9 +73,11 @@ def _signal(node: n.Node) -> str:
 def handed_on(module: ModuleScope) -> Iterator[str]:
     """Lower-case names that a module gives to instructions: of outputs, those that it sets."""
     for node, _ in scoped(module):
-        name = node.name.lower() if isinstance(node, n.ProcedureCall | n.FunctionCall) else ""
-        reads = name in _READING or name.startswith(("wait", "isignal"))
-        if isinstance(node, n.LateCall) or (name and not reads):
+        if isinstance(node, n.LateCall) or (
+            isinstance(node, n.ProcedureCall | n.FunctionCall)
+            and node.name.lower() not in _READING
+            and not node.name.lower().startswith(("wait", "isignal"))
+        ):
             yield from (_signal(a.value) for a in node.arguments if isinstance(a.value, n.Name))
 
 
