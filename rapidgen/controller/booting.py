@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import rapidgen.system as files
 from rapidgen.axes.starts import usual_start
 from rapidgen.config import from_manifest, load_config
-from rapidgen.config.model import GroupConfig, RobotConfig
+from rapidgen.config.model import ChainLink, GroupConfig, Positioner, RobotConfig
 from rapidgen.config.registry import is_path
 from rapidgen.controller.mechanics import DEFAULT_ROBOT, mechanics
 from rapidgen.controller.starts import in_front, stands, start_of
@@ -217,15 +217,21 @@ def _surrounded(found: Bootable, cell: "CellDescription | None", wishes: Wishes)
 
         units = [u for g in found.groups for u in (g.mechanical_unit, *g.external_units)]
         first, *others = found.groups
-        guessed = guess(found.system, units, in_front(first), stands(first))
+        table = in_front(first)
+        guessed = guess(found.system, units, table, stands(first))
         cell = guessed.cell
-        first = replace(first, external_units=(*first.external_units, *guessed.units))
+        stands_still = (ChainLink("", table, (0.0, 0.0, 0.0)),)
+        carriers = [Positioner(unit, stands_still) for unit in guessed.units]
+        first = replace(
+            first,
+            external_units=(*first.external_units, *guessed.units),
+            positioners=(*first.positioners, *carriers),
+        )
         found = replace(found, groups=(first, *others))
     usual = not found.driver
     if cell is None:
         starts = dict(_starts(found.groups, {}, wishes.start, usual=usual))
         return replace(found, surroundings=Surroundings(starts))
-    inputs = [name.casefold() for name, keys in cell.signals.items() if keys.kind.endswith("I")]
     return replace(
         found,
         cell=cell,
@@ -235,12 +241,13 @@ def _surrounded(found: Bootable, cell: "CellDescription | None", wishes: Wishes)
         surroundings=Surroundings(
             dict(_starts(found.groups, cell.robots, wishes.start, usual=usual)),
             tuple(reaction for rows in cell.devices.values() for reaction in rows),
-            frozenset(inputs if guessed is not None else ()),
+            guessed.driven if guessed is not None else frozenset(),
             guessed.polled if guessed is not None else (),
             guessed.flags if guessed is not None else (),
             guessed.heard if guessed is not None else None,
             cameras_of(cell, is_guess=guessed is not None),
             force_of(cell),
+            frozenset(guessed.divisors if guessed is not None else ()),
             guessed.blank if guessed is not None else (),
             is_guess=guessed is not None,
             is_any_robot=guessed is not None and not wishes.robot and not found.system.robot_types,

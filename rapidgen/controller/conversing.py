@@ -13,6 +13,8 @@ from dataclasses import dataclass, field
 from functools import partial
 from typing import TYPE_CHECKING, Final, Protocol
 
+from rapidgen.controller.fields import CutOut, layouts, texts
+from rapidgen.controller.framing import Framed, framed, last
 from rapidgen.controller.uses import scoped
 from rapidgen.machine.network.interface import Endpoint, Network, NetworkFault
 from rapidgen.machine.network.sockets import SocketTable
@@ -64,24 +66,32 @@ class Heard:
     sized: tuple[tuple[int, int], ...] = ()
     """Numbers, and how many values behind each: what else its own branch compares with a number."""
     stands: Mapping[str, str] = field(default_factory=dict)
+    framed: Framed = field(default_factory=Framed)
+    """Binary messages."""
+    layouts: tuple[tuple[CutOut, ...], ...] = ()
+    """Texts that are cut into fields."""
 
     def messages(self) -> list[bytes]:
         """What is said, in turn: with counted values once, all else twice."""
+        if self.framed.prefix is not None:
+            return self.framed.messages()[:_MOST] * 2
         marks = self.separators or (" ",)
         tail = "".join(self.separators)
-        counted, texts = [], []
+        counted, with_more = [], []
         for code, count in self.sized:
             for mark in marks[:_WAYS]:
                 end = "".join(one for one in self.separators if one != mark)
                 for behind in dict.fromkeys(self._behind(count)):
                     counted.append(mark.join((str(code), *behind)) + mark + end)
         sized = {code for code, _ in self.sized}
-        others = (str(number) for number in self.numbers if number not in sized)
+        others = [str(number) for number in self.numbers if number not in sized]
+        others += [str(max(self.numbers) + 1)] if self.numbers else []
         for first in (*others, *self.beginnings):
-            texts += [mark.join((first, *_NUMBERS)) + mark + tail for mark in marks[:_WAYS]]
+            with_more += [mark.join((first, *_NUMBERS)) + mark + tail for mark in marks[:_WAYS]]
+        cut = [t for layout in self.layouts for mark in marks[:_WAYS] for t in texts(layout, mark)]
         whole = (*map(str, self.numbers), *self.words)
-        texts += sorted(whole, key=lambda word: _LAST.search(word) is not None)
-        said = [text.encode("latin-1", "replace") for text in (*self.values, *texts)]
+        with_more += sorted(whole, key=lambda word: _LAST.search(word) is not None)
+        said = [text.encode("latin-1", "replace") for text in (*cut, *self.values, *with_more)]
         said += [number.to_bytes(4, "little") + bytes(8) for number in self.numbers if number >= 0]
         return [text.encode("latin-1", "replace") for text in counted] + (
             said[:_MOST] or [b"1"]
@@ -100,50 +110,59 @@ class Heard:
 def heard(modules: Iterable[ModuleScope], stands: Mapping[str, str]) -> Heard:
     """What the modules of all tasks listen for; `stands` are values of targets."""
     known = {**_VALUES, **stands}
-    scopes = list(modules)
-    received = {name for scope in scopes for name in _received(scope)}
+    nodes = [found for module in modules for found in scoped(module)]
+    received = {name for node, _ in nodes for name in _received(node)}
+    received |= {
+        last(node.target)
+        for node, _ in nodes
+        if isinstance(node, n.Assignment) and last(node.value) in received
+    }
     words, parts = dict[str, None](), dict[str, None]()
     marks, values, numbers = dict[str, None](), dict[str, None](), dict[int, None]()
     sized = dict[tuple[int, int], None]()
-    for module in scopes:
-        for node, scope in scoped(module):
-            for whom, one in _compared(node, scope):
-                if isinstance(one, str) and one:
-                    whole = isinstance(whom, n.Name) and whom.name.casefold() in received
-                    mark = len(one) == 1 and not one.isalnum()
-                    (words if whole else marks if mark else parts)[one] = None
-                elif isinstance(one, int) and not isinstance(one, bool):
-                    numbers[one] = None
-            sized.update(dict.fromkeys(_sized(node, scope)))
-            if isinstance(node, n.FunctionCall):
-                given = [a.value for a in node.arguments if a.value is not None]
-                found = constant(given[-1], scope) if given else None
-                if node.name.lower() in _SEARCHING and isinstance(found, str):
-                    marks.update(dict.fromkeys(found))
-                elif node.name.lower() == "strtoval" and len(given) > 1:
-                    kind = declared_type(given[1], scope) or ""
-                    if kind in known:
-                        values[known[kind]] = None
+    tested: dict[str, list[float]] = {}
+    for node, scope in nodes:
+        for whom, one in _compared(node, scope):
+            if isinstance(one, str) and one:
+                whole = isinstance(whom, n.Name) and whom.name.casefold() in received
+                mark = len(one) == 1 and not one.isalnum()
+                (words if whole else marks if mark else parts)[one] = None
+            elif isinstance(one, int) and not isinstance(one, bool):
+                numbers[one] = None
+                tested.setdefault(last(whom), []).append(one)
+        sized.update(dict.fromkeys(_sized(node, scope)))
+        if isinstance(node, n.FunctionCall):
+            given = [a.value for a in node.arguments if a.value is not None]
+            found = constant(given[-1], scope) if given else None
+            if node.name.lower() in _SEARCHING and isinstance(found, str):
+                marks.update(dict.fromkeys(found))
+            elif node.name.lower() == "strtoval" and len(given) > 1:
+                kind = declared_type(given[1], scope) or ""
+                if kind in known:
+                    values[known[kind]] = None
     heard_of = tuple(words), tuple(parts), tuple(numbers), tuple(marks), tuple(values)
-    return Heard(*heard_of, tuple(sized), stands)
+    binary = framed(nodes, tested)
+    return Heard(*heard_of, tuple(sized), stands, binary, tuple(layouts(nodes)))
 
 
-def _received(module: ModuleScope) -> Iterator[str]:
-    """Texts that a module receives into."""
-    for node, _ in scoped(module):
-        if isinstance(node, n.ProcedureCall) and node.name.lower() == "socketreceive":
-            for argument in node.arguments:
-                if (argument.name or "").lower() == "str" and isinstance(argument.value, n.Name):
-                    yield argument.value.name.casefold()
+def _received(node: n.Node) -> Iterator[str]:
+    """Texts that a node receives into."""
+    if isinstance(node, n.ProcedureCall) and node.name.lower() == "socketreceive":
+        for argument in node.arguments:
+            if (argument.name or "").lower() == "str" and isinstance(argument.value, n.Name):
+                yield argument.value.name.casefold()
 
 
 def _compared(node: n.Node, scope: Scope) -> Iterator[tuple[n.Expression, object]]:
     """What text or number is compared, and with which constant."""
     if isinstance(node, n.Binary) and node.operator in _COMPARING:
         for one, other in ((node.left, node.right), (node.right, node.left)):
-            if constant(one, scope) is None and type_of(one, scope) in ("string", "num", "byte"):
+            asks = isinstance(one, n.FunctionCall) and one.name.lower() == "socketgetstatus"
+            if asks or last(one) == "errno" or constant(one, scope) is not None:
+                continue
+            if type_of(one, scope) in ("string", "num", "byte"):
                 yield one, constant(other, scope)
-    elif isinstance(node, n.Test):
+    elif isinstance(node, n.Test) and last(node.subject) != "errno":
         for case in node.cases:
             yield from ((node.subject, constant(value, scope)) for value in case.values)
 
@@ -193,6 +212,7 @@ class Partner:
         self._scheduler = controller.scheduler
         self._said = said
         self._left = what.messages()
+        self._is_cut = what.framed.prefix is None
         self._ends: dict[Endpoint, None] = {}
         self._asked: set[Endpoint] = set()
         controller.sockets.on_awaited = self._awaited
@@ -236,7 +256,7 @@ class Partner:
         if mine is None or not mine.connected or mine.fault is not None:
             return
         message = self._left.pop(0)
-        if count:
+        if count and self._is_cut:
             message = message.ljust(count, b"0" if message[-1:].isdigit() else b"\0")[:count]
         self._network.receive(mine, 1 << 16)
         self._network.send(mine, message)

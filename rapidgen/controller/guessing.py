@@ -4,10 +4,10 @@ A public program seldom has its controller's configuration beside it. The type o
 the parameter that it is an argument of; where it is only read, its first letters tell as ABB's
 examples name signals (di, do, gi, go, ai, ao), and what is compared with 0 or 1 is a digital input.
 Tools have the load of tool0 and are the flange; a work object is a table in front of the robot; a
-mechanical unit has no axes, a camera sees one thing in its middle. Data of other types are what
-RAPID makes of a declaration without a value: 0, FALSE, an empty text; but a target is where the
-robot stands at first, `v25` is a speed of 25 mm/s and `z5` a zone of 5 mm. What has no type that
-could be told stays unknown.
+mechanical unit stands there and has no axes, a camera sees one thing in its middle. Data of other
+types are what RAPID makes of a declaration without a value: 0, FALSE, an empty text; but what a
+program divides by is 1, a target is where the robot stands at first, `v25` is a speed of 25 mm/s
+and `z5` a zone of 5 mm. What has no type that could be told stays unknown.
 """
 
 import re
@@ -20,9 +20,10 @@ from rapidgen.config.cell import CameraKeys, CellDescription, CellSignalKeys, Fo
 from rapidgen.config.model import Load, Placement, Tool, WorkObject
 from rapidgen.controller.absent import absent
 from rapidgen.controller.blank import Blank, blanks
+from rapidgen.controller.conditions import looked_at
 from rapidgen.controller.conversing import Heard, heard
 from rapidgen.controller.flags import Flag, flags
-from rapidgen.controller.polling import Polled, polled
+from rapidgen.controller.polling import Polled, handed_on, polled
 from rapidgen.controller.uses import passed, read, scoped
 from rapidgen.diagnostics import Span
 from rapidgen.rapid import Dialect, parse
@@ -95,6 +96,10 @@ class Guess:
     """What programs listen for at their sockets."""
     blank: tuple[Blank, ...] = ()
     """Tools and work objects whose values another task would have."""
+    driven: frozenset[str] = frozenset()
+    """Signals that nobody else sets, lower case: inputs, and outputs that are only read."""
+    divisors: frozenset[str] = frozenset()
+    """Names of what is divided by, lower case."""
 
 
 def guess(
@@ -110,7 +115,6 @@ def guess(
     """
     found: dict[str, Named] = {}
     assigned: set[str] = set()
-    looked_at: list[Polled] = []
     tasks: list[list[ModuleScope]] = []
     known = [(signal.name, f"signal{signal.type.lower()}") for signal in system.signals]
     known += [(camera, "cameradev") for camera in system.cameras]
@@ -125,7 +129,6 @@ def guess(
         ]
         tasks.append(scopes)
         for scope in scopes:
-            looked_at += polled(scope, spec.entry)
             assigned |= _assigned(scope)
             for one in _undeclared(scope):
                 before = found.setdefault(one.name.casefold(), one)
@@ -137,9 +140,12 @@ def guess(
         if found[key].type.startswith("signal"):
             found[key] = replace(found[key], type="num")
     made = {one.name: one.type for one in found.values()}
+    divisors = {name for scopes in tasks for scope in scopes for name in _divisors(scope)}
     cell = CellDescription(
         signals={
-            name: CellSignalKeys(cast(Kind, kind[6:].upper()))
+            name: CellSignalKeys(
+                cast(Kind, kind[6:].upper()), value=float(name.casefold() in divisors)
+            )
             for name, kind in made.items()
             if kind.startswith("signal")
         },
@@ -158,13 +164,22 @@ def guess(
     )
     named = [one for one in found.values() if _can_be_made(one.type)]
     unknown = [one for one in found.values() if not _can_be_made(one.type)]
-    inputs = {name.casefold() for name, keys in cell.signals.items() if keys.kind[1] == "I"}
-    rows = dict.fromkeys(row for row in looked_at if row.signal in inputs)
+    handed = {name for scopes in tasks for scope in scopes for name in handed_on(scope)}
+    given = {
+        name.casefold()
+        for name, keys in cell.signals.items()
+        if keys.kind[1] == "I" or name.casefold() not in handed
+    }
+    looks = {
+        spec.name: tuple(looked_at(scopes, spec.entry))
+        for spec, scopes in zip(system.tasks, tasks, strict=True)
+    }
+    rows = dict.fromkeys(row for spec in system.tasks for row in polled(looks[spec.name], given))
     kept = {name for scopes in tasks for scope in scopes for name in _persistent(scope)}
     initial = {word for scopes in tasks for scope in scopes for word in _in_initial_values(scope)}
     sizes = {name: size for scopes in tasks for scope in scopes for name, size in _sizes(scope)}
     data = tuple(
-        _declaration(one, stands, initial | sizes.keys(), kept, sizes)
+        _declaration(one, stands, initial | sizes.keys(), kept, dict.fromkeys(divisors, 1) | sizes)
         for one in named
         if _is_plain(one.type)
     )
@@ -173,18 +188,28 @@ def guess(
     kinds = {name.casefold(): kind for name, kind in made.items()}
     stubs = {one.name.casefold(): one for scopes in tasks for one in absent(scopes, kinds)}
     named += [Named(s.name, s.kind, s.span) for s in stubs.values()]
-    looked = tuple(
+    looked = dict.fromkeys(
         flag
         for spec, scopes in zip(system.tasks, tasks, strict=True)
-        for flag in flags(spec, scopes, kinds)
+        for flag in flags(spec.name, scopes, looks[spec.name], kinds)
     )
     blank = blanks((spec.name, s) for spec, s in zip(system.tasks, tasks, strict=True))
     named += [Named(row.name, kind, span) for row, (kind, span) in blank.items()]
     listens = heard((scope for scopes in tasks for scope in scopes), stands)
     routines = "".join(s.stub(stands.get(s.type, "")) for s in stubs.values())
-    names = tuple(named), tuple(unknown)
     return Guess(
-        cell, *names, tuple(rows), data, made_units, routines, looked, listens, tuple(blank)
+        cell,
+        tuple(named),
+        tuple(unknown),
+        tuple(rows),
+        data,
+        made_units,
+        routines,
+        tuple(looked),
+        listens,
+        tuple(blank),
+        frozenset(given),
+        frozenset(divisors),
     )
 
 
@@ -232,6 +257,14 @@ def _in_initial_values(module: ModuleScope) -> Iterator[str]:
             for node in walk(declared.initial):
                 if isinstance(node, n.Name):
                     yield node.name.casefold()
+
+
+def _divisors(module: ModuleScope) -> Iterator[str]:
+    """Names of what is divided by."""
+    for node, _ in scoped(module):
+        if isinstance(node, n.Binary) and node.operator in ("/", "DIV", "MOD"):
+            by = node.right.inner if isinstance(node.right, n.Parenthesis) else node.right
+            yield from (one.name.casefold() for one in walk(by) if isinstance(one, n.Name))
 
 
 def _sizes(module: ModuleScope) -> Iterator[tuple[str, int]]:

@@ -1,5 +1,6 @@
-"""Running a program in a guessed cell through: where it stops behind an answer that was made up, it
-is started from main again, as an operator would, and hears the next one."""
+"""Running a program in a guessed cell through, as an operator would: where it stops behind an
+answer that was made up, it is started from main again, and hears the next one; behind a Stop it
+goes on."""
 
 from pathlib import Path
 from typing import Final, Literal
@@ -15,7 +16,8 @@ def run_through(
     controller: VirtualController, *, max_time: float, max_statements: int | None = None
 ) -> Ended:
     """`controller.run`, again and again while a task stops with an error and something was answered
-    since it was started; where that was is kept in `controller.guessed.stopped`.
+    since it was started; where that was is kept in `controller.guessed.stopped`. In a guessed cell
+    what stands at a Stop is started again, too.
 
     `max_time` (s) is for all of it, `max_statements` for each start. The faults of the last start
     are the tasks' own, as ever.
@@ -26,6 +28,14 @@ def run_through(
         answers = len(guessed.answered)
         left = until - controller.now
         ended = controller.run(max_time=left, max_statements=max_statements)
+        stands = [t for t in controller.rapid_tasks.values() if t.state == "stopped"]
+        if ended == "finished" and guessed.is_guess and stands and controller.now < until:
+            for top in (task.stack()[-1] for task in stands if task.stack()):
+                place = f"{Path(top.span.path).name}:{top.span.line}"
+                guessed.answered.append((f"Stop at {place}", "start"))
+            if not controller.start_program():
+                break
+            continue
         faults = [task.fault for task in controller.tasks.values() if task.fault is not None]
         if not faults or len(guessed.answered) == answers or controller.now >= until:
             break

@@ -2,19 +2,22 @@
 
 `WHILE TRUE DO IF diStart = 1 ...` waits, though no instruction says so. While a task is inside such
 a loop, one of the inputs in the loop's conditions is pressed like a button for half a second, then
-the next one.
+the next one; inputs that have to hold together are pressed together. So are outputs that programs
+only read: the system or another task sets them. What an interrupt waits for is looked for wherever
+the task is.
 """
 
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Protocol, cast, get_args
+from typing import TYPE_CHECKING, Protocol, cast
 
+from rapidgen.controller.conditions import NEGATED, RELATIONS, SWAPPED, Look, Term
+from rapidgen.controller.uses import scoped
 from rapidgen.machine.io import Awaited, IOSystem, Relation
 from rapidgen.machine.scheduler import S, Scheduler
-from rapidgen.rapid.binding import ModuleScope, RoutineScope, constant
+from rapidgen.rapid.binding import ModuleScope, constant
 from rapidgen.rapid.syntax import nodes as n
-from rapidgen.rapid.syntax.walk import walk
 from rapidgen.runtime.task.call_stack import stack_at
 from rapidgen.runtime.task.task import Task
 
@@ -23,60 +26,59 @@ if TYPE_CHECKING:
 
 _HELD = 0.5
 """Seconds that an input is pressed."""
-_READING = frozenset(("dinput", "ginput", "ainput", "testdi"))
-_SWAPPED: Mapping[str, str] = {"<": ">", ">": "<", "<=": ">=", ">=": "<="}
+_READING = frozenset(("dinput", "ginput", "ainput", "testdi", "doutput", "goutput", "aoutput"))
+Wanted = tuple[str, Relation, float]
+"""Lower-case name of a signal, relation and value."""
 
 
 @dataclass(frozen=True, slots=True)
 class Polled:
-    """A comparison of a signal in a condition inside a loop (lines of its module)."""
+    """Comparisons of signals in a loop (lines of its module) that hold together."""
 
     module: str
     first: int
     last: int
-    signal: str
-    relation: Relation
-    value: float
+    wanted: tuple[Wanted, ...]
 
 
-def polled(scope: ModuleScope, entry: str) -> Iterator[Polled]:
-    """All of a module. The routine that a task starts in is a loop: it is executed in cycles."""
-    source = scope.tree.source
-    for routine in scope.tree.routines:
-        inside = scope.routine(routine)
-        for loop in walk(routine):
-            cycle = loop is routine and routine.name.lower() == entry.lower()
-            if not cycle and not isinstance(loop, n.While):
-                continue
-            lines = source.line(loop.first), source.line(loop.last)
-            for node in walk(loop):
-                for signal, relation, value in _compared(node, inside):
-                    yield Polled(scope.tree.name.lower(), *lines, signal, relation, value)
+def polled(looks: Iterable[Look], given: Collection[str]) -> Iterator[Polled]:
+    """All that are of `given` signals, by lower-case name."""
+    for look in looks:
+        found = (one for term in look.terms for one in _compared(term))
+        wanted = tuple(dict.fromkeys(one for one in found if one[0] in given))
+        if wanted:
+            yield Polled(look.module, look.first, look.last, wanted)
 
 
-def _compared(node: n.Node, scope: RoutineScope) -> Iterator[tuple[str, Relation, float]]:
-    match node:
-        case n.Binary() if node.operator in get_args(Relation):
-            for one, other, relation in (
-                (node.left, node.right, node.operator),
-                (node.right, node.left, _SWAPPED.get(node.operator, node.operator)),
-            ):
-                name, value = _signal(one), constant(other, scope)
-                if name and isinstance(value, int | float):
-                    yield name, cast(Relation, relation), value
-        case n.Test():
-            for case in node.cases:
-                for value in (constant(v, scope) for v in case.values):
-                    if _signal(node.subject) and isinstance(value, int | float):
-                        yield _signal(node.subject), "=", value
-        case n.FunctionCall() if node.name.lower() == "testdi":
-            yield _signal(node), "=", 1
+def _compared(term: Term) -> Iterator[Wanted]:
+    node, holds, scope = term
+    if isinstance(node, n.FunctionCall) and node.name.lower() == "testdi":
+        yield _signal(node), "=", float(holds)
+    elif isinstance(node, n.Binary) and node.operator in RELATIONS:
+        for one, other, relation in (
+            (node.left, node.right, node.operator),
+            (node.right, node.left, SWAPPED.get(node.operator, node.operator)),
+        ):
+            name, value = _signal(one), constant(other, scope)
+            if name and isinstance(value, int | float):
+                yield name, cast(Relation, relation if holds else NEGATED[relation]), value
 
 
 def _signal(node: n.Node) -> str:
     if isinstance(node, n.FunctionCall) and node.name.lower() in _READING and node.arguments:
         node = node.arguments[0].value or node
     return node.name.casefold() if isinstance(node, n.Name) else ""
+
+
+def handed_on(module: ModuleScope) -> Iterator[str]:
+    """Lower-case names that a module gives to instructions: of outputs, those that it sets."""
+    for node, _ in scoped(module):
+        if isinstance(node, n.LateCall) or (
+            isinstance(node, n.ProcedureCall | n.FunctionCall)
+            and node.name.lower() not in _READING
+            and not node.name.lower().startswith(("wait", "isignal"))
+        ):
+            yield from (_signal(a.value) for a in node.arguments if isinstance(a.value, n.Name))
 
 
 class Polling(Protocol):
@@ -95,7 +97,7 @@ class Buttons:
         self._rows = rows
         self._said = said
         self._turn = 0
-        self._pressed: tuple[str, float] | None = None
+        self._pressed: list[tuple[str, float]] = []
         self._next()
 
     def _next(self) -> None:
@@ -103,20 +105,21 @@ class Buttons:
 
     def _press(self) -> None:
         io, scheduler = self._controller.io, self._controller.scheduler
-        if self._pressed is not None:
-            name, before = self._pressed
-            io.set(io[name], before)
-            self._pressed = None
+        for pressed, before in self._pressed:
+            io.set(io[pressed], before)
+        self._pressed = []
         rows = [row for task in self._running() for row in self._of(task)]
         for _ in rows:
             row = rows[self._turn % len(rows)]
             self._turn += 1
-            awaited = Awaited(io[row.signal], row.relation, row.value)
-            value = awaited.fulfilling()
-            if value is not None and not awaited.holds():
-                self._pressed = (row.signal, awaited.signal.value)
-                self._said.append((awaited.signal.name, value))
-                io.set(awaited.signal, value)
+            for name, relation, wanted in row.wanted:
+                awaited = Awaited(io[name], relation, wanted)
+                value = awaited.fulfilling()
+                if value is not None and not awaited.holds():
+                    self._pressed.append((awaited.signal.name, awaited.signal.value))
+                    self._said.append((awaited.signal.name, value))
+                    io.set(awaited.signal, value)
+            if self._pressed:
                 break
         # Where every task waits and nothing is ahead, the program waits for ever.
         waits = all(task.waits_for is not None for task in self._running())

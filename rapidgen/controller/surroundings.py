@@ -46,7 +46,7 @@ class Surroundings:
     """Where the robots stand, by motion group; others stand at 0."""
     reactions: "Sequence[ReactionKeys]" = ()
     guessed: frozenset[str] = frozenset()
-    """Inputs that nobody drives, lower case: they become what somebody waits for."""
+    """Signals that nobody drives, lower case: they become what somebody waits for."""
     polled: "tuple[Polled, ...]" = ()
     """Where programs look for them in loops."""
     flags: "tuple[Flag, ...]" = ()
@@ -57,6 +57,8 @@ class Surroundings:
     """What cameras see, by lower-case name."""
     force: Measured = field(default_factory=Measured)
     """What force sensors measure."""
+    divisors: frozenset[str] = frozenset()
+    """What programs divide by, lower case."""
     blank: "tuple[Blank, ...]" = ()
     """Data that a predefined one stands in for."""
     is_guess: bool = False
@@ -67,8 +69,9 @@ class Surroundings:
 
 @dataclass(frozen=True, slots=True)
 class Guessed:
-    """What happened because a cell is a guess; both grow while programs run."""
+    """What happened because a cell is a guess; all grow while programs run."""
 
+    is_guess: bool = False
     answered: "list[Said]" = field(default_factory=list)
     """Signals and dialogs, and what they became because a program waited for it."""
     missed: "list[Said]" = field(default_factory=list)
@@ -207,7 +210,7 @@ def _nameless(system: System, cell: "CellDescription") -> Iterator[Diagnostic]:
 def settle(controller: Booted, around: Surroundings) -> Guessed:
     """Put the robots where they start, let devices watch their signals, and guessed inputs become
     what a program waits for."""
-    guessed = Guessed()
+    guessed = Guessed(around.is_guess)
     answered = guessed.answered
     for name, posture in around.starts.items():
         controller.motion.group(name).jump(posture)
@@ -238,6 +241,7 @@ def settle(controller: Booted, around: Surroundings) -> Guessed:
         from rapidgen.controller.flags import Flags
 
         Flags(controller, around.flags, answered)
+    controller.io.divisors = around.divisors
     controller.io.any_unit = controller.meetings.any_task = around.is_guess
     if around.is_any_robot:
         controller.motion.on_missed = lambda place, how: guessed.missed.append((place, how))

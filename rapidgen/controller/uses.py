@@ -47,6 +47,9 @@ def read(node: n.Node, scope: Scope) -> Iterator[tuple[n.Expression, str]]:
             yield from ((end, "num") for end in (node.start, node.end))
         case n.DataDeclaration():
             yield from ((size, "num") for size in node.dimensions)
+            if node.initial is not None:
+                name = n.Name(node.name_token, node.name_token, node.name)
+                yield node.initial, declared_type(name, scope) or ""
         case n.Index():
             yield from ((index, "num") for index in node.indices)
 

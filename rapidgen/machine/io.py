@@ -183,6 +183,8 @@ class IOSystem:
         """Units that programs have switched off, folded."""
         self.any_unit = False
         """Whether every unit that a program names is there: in a guessed cell."""
+        self.divisors: frozenset[str] = frozenset()
+        """What programs divide by, lower case: made-up signals that begin so are 1 at first."""
         self._states: dict[str, dict[str, float]] = {}
         self._outputs = [*self._system_outputs(system)]
         self._actions: dict[int, list[tuple[str, str]]] = {}
@@ -213,6 +215,8 @@ class IOSystem:
         if not self.any_unit or not name:
             return None
         made = Signal(SignalSpec(name, kind, size=_GROUP_BITS if kind[0] == "G" else 1))
+        if name.casefold().startswith(tuple(self.divisors)):
+            self._store(made, 1)
         return self.signals.setdefault(name.lower(), made)
 
     def __getitem__(self, name: str) -> Signal:

@@ -25,6 +25,8 @@ SERVER = """MODULE server
     TEST code
     CASE 7:
      TPWrite "seven";
+    DEFAULT:
+     TPWrite "unknown";
     ENDTEST
    ENDIF
    SocketSend c \\Str:="ok";
@@ -64,7 +66,8 @@ def run(tmp_path, text, **options):
 def test_a_server_hears_its_words_and_numbers_and_the_end_last(tmp_path):
     ended, shown, _, controller = run(tmp_path, SERVER, cell="guess")
     assert ended == "finished"
-    assert shown == ["seven", "go", "seven"], "with more behind it, and alone"
+    assert shown[:4] == ["unknown", "seven", "unknown", "go"], "with more behind it"
+    assert "seven" in shown[4:], "alone"
     said = [text for what, text in controller.guessed.answered if what == "SocketReceive"]
     assert any(text.startswith("7 ") for text in said), "a number with more behind it"
     assert said[-1] == "quit"
@@ -135,6 +138,115 @@ def test_a_server_that_counts_values_hears_as_many_of_where_the_robot_stands(tmp
     assert {"moved", "on", "off"} <= set(shown)
 
 
+BINARY = """MODULE binary
+ RECORD letter
+  num kind;
+  rawbytes rest;
+ ENDRECORD
+ VAR socketdev s;
+ VAR socketdev c;
+ VAR letter one;
+ VAR num phase;
+ VAR num angle;
+ PROC main()
+  SocketCreate s;
+  SocketBind s, "192.168.125.1", 5000;
+  SocketListen s;
+  SocketAccept s, c;
+  WHILE TRUE DO
+   take one;
+   IF one.kind = 300 THEN
+    IF RawBytesLen(one.rest) < 10 Stop;
+    UnpackRawBytes one.rest, 1, phase, \\IntX:=INT;
+    UnpackRawBytes one.rest, 5, angle, \\Float4;
+    TEST phase
+    CASE -1:
+     TPWrite "begin";
+    CASE 7:
+     TPWrite "end " + ValToStr(angle);
+    DEFAULT:
+     TPWrite "between";
+    ENDTEST
+   ELSE
+    TPWrite "unknown";
+   ENDIF
+  ENDWHILE
+ ENDPROC
+ PROC take(VAR letter got)
+  VAR rawbytes buffer;
+  VAR num length;
+  SocketReceive c \\RawData:=buffer \\ReadNoOfBytes:=2 \\Time:=WAIT_MAX;
+  UnpackRawBytes buffer \\Network, 1, length, \\IntX:=UINT;
+  SocketReceive c \\RawData:=buffer \\ReadNoOfBytes:=length \\Time:=WAIT_MAX;
+  UnpackRawBytes buffer \\Network, 1, got.kind, \\IntX:=UDINT;
+  ClearRawBytes got.rest;
+  CopyRawBytes buffer, 5, got.rest, 1;
+ ENDPROC
+ENDMODULE
+"""
+
+
+def test_a_server_of_binary_messages_hears_their_length_and_the_numbers_it_tests(tmp_path):
+    """Length first, in the order of bytes that the program unpacks [S4 UnpackRawBytes]."""
+    ended, shown, where, controller = run(tmp_path, BINARY, cell="guess")
+    assert shown[:4] == ["begin", "between", "end 0", "unknown"]
+    assert (ended, "waits for bytes" in where[0]) == ("deadlock", True)
+    said = [text for what, text in controller.guessed.answered if what == "SocketReceive"]
+    assert said[0] == "00 0e 00 00 01 2c ff ff 00 00 00 00 00 00 00 00"
+
+
+FIELDS = """MODULE fields
+ VAR socketdev s;
+ VAR string said;
+ VAR num a;
+ VAR num b;
+ VAR num x;
+ VAR string side;
+ VAR string code;
+ VAR num job;
+ VAR bool ok;
+ PROC main()
+  SocketCreate s;
+  SocketConnect s, "10.0.0.7", 4000;
+  WHILE TRUE DO
+   SocketReceive s \\Str:=said \\Time:=WAIT_MAX;
+   IF StrPart(said, 1, 1) = "J" THEN
+    fixed;
+   ELSE
+    cut;
+   ENDIF
+  ENDWHILE
+ ENDPROC
+ PROC cut()
+  a := StrFind(said, 1, ";");
+  b := StrFind(said, a + 1, ";");
+  ok := StrToVal(StrPart(said, 1, a - 1), x);
+  side := StrPart(said, a + 1, b - a - 1);
+  IF NOT ok OR x < 200 OR x > 300 RETURN;
+  IF side = "left" TPWrite "left";
+  IF side = "right" TPWrite "right";
+ ENDPROC
+ PROC fixed()
+  code := StrPart(said, 1, 1);
+  IF NOT StrToVal(StrPart(said, 3, 3), job) RETURN;
+  IF code = "J" AND job = 12 TPWrite "twelve";
+ ENDPROC
+ENDMODULE
+"""
+
+
+def test_a_text_of_fields_has_what_each_is_compared_with(tmp_path):
+    path = tmp_path / "fields.mod"
+    path.write_text(FIELDS)
+    shown: list[str] = []
+    with VirtualController.from_files([path], cell="guess", cycle="once") as controller:
+        controller.operator.subscribe(lambda _task, line: shown.append(line))
+        run_through(controller, max_time=300)
+        said = [text for what, text in controller.guessed.answered if what == "SocketReceive"]
+    assert said[:3] == ["250;left;", "250;right;", "J;012;"]
+    assert shown[:3] == ["left", "right", "twelve"]
+
+
 def test_of_two_clients_at_a_port_the_one_speaks_that_is_waited_for(tmp_path):
     two = (
         "MODULE two\n VAR socketdev s;\n VAR socketdev c;\n VAR socketdev d;\n VAR string said;\n"
@@ -145,6 +257,16 @@ def test_of_two_clients_at_a_port_the_one_speaks_that_is_waited_for(tmp_path):
     ended, shown, _, _ = run(tmp_path, two, cell="guess")
     assert ended == "finished"
     assert shown == ["a"]
+
+
+def test_a_copy_of_what_is_received_is_compared_whole_and_errors_are_not_said(tmp_path):
+    text = SERVER.replace(
+        '   IF StrPart(said, 1, 1) = "G" TPWrite "go";\n',
+        '   also := said;\n   IF also = "gate" AND ERRNO <> ERR_SOCK_TIMEOUT TPWrite "gate";\n',
+    ).replace(" VAR bool ok;", " VAR bool ok;\n VAR string also;")
+    _, shown, _, controller = run(tmp_path, text, cell="guess")
+    assert "gate" in shown
+    assert "1161" not in str(controller.guessed.answered)
 
 
 def test_a_client_finds_somebody_who_answers_and_then_falls_silent(tmp_path):
@@ -166,7 +288,7 @@ def test_what_stops_behind_such_an_answer_starts_from_main_and_hears_the_next(tm
         controller.operator.subscribe(lambda _task, line: shown.append(line))
         ended = run_through(controller, max_time=120)
         assert ended == "finished"
-        assert ("server.mod:22", "ERR_OUTOFBND") in controller.guessed.stopped
+        assert ("server.mod:24", "ERR_OUTOFBND") in controller.guessed.stopped
         assert "shortt" in shown, "the one behind that which stopped it"
 
 

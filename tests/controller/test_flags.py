@@ -1,6 +1,9 @@
 """Data that a program waits for and nothing in it sets: in a guessed cell they are set in turn."""
 
+import pytest
+
 from rapidgen.controller import VirtualController
+from rapidgen.controller.passes import run_through
 
 PROGRAM = """MODULE flag
  PERS bool bStart := FALSE;
@@ -43,7 +46,8 @@ def test_each_becomes_what_it_is_looked_at_for_and_is_told(tmp_path):
     ended, shown, answered = run(tmp_path, PROGRAM, "guess")
     assert ended == "finished"
     assert shown == ["started", "three", "new"]
-    assert answered == [("bStart", "TRUE"), ("nOrder", "3"), ("bNew", "TRUE")]
+    given = [("bStart", "TRUE"), ("nOrder", "3"), ("nOrder", "0"), ("bNew", "TRUE")]
+    assert answered == given
 
 
 def test_what_the_program_sets_itself_is_left_alone(tmp_path):
@@ -56,3 +60,57 @@ def test_what_the_program_sets_itself_is_left_alone(tmp_path):
 def test_without_a_guess_nobody_sets_it(tmp_path):
     ended, shown, answered = run(tmp_path, PROGRAM, "")
     assert (ended, shown, answered) == ("time", [], [])
+
+
+TOGETHER = {
+    "two at once": 'IF bAuto AND nPart = 3 THEN\n TPWrite "both";\n EXIT;\nENDIF\n',
+    "one inside the other": "IF bAuto THEN\n IF 3 = nPart THEN\n  EXIT;\n ENDIF\nENDIF\n",
+    "in parentheses": "IF (bAuto) EXIT;\n",
+    "in a routine that the loop calls": "look;\n",
+    "in a function that the loop asks": "IF asked() EXIT;\n",
+    "a copy": "nCopy := 0;\nnCopy := nPart;\nIF nCopy > 5 EXIT;\n",
+    "what an interrupt watches": "IDelete i;\nCONNECT i WITH t;\nIPers bAuto, i;\nIF bAuto EXIT;\n",
+    "what leaves a loop": "WHILE NOT bAuto DO\n WaitTime 0.1;\nENDWHILE\nEXIT;\n",
+    "inputs together": "IF diDoor = 1 AND diPart = 1 EXIT;\n",
+    "inputs that a routine reads": "IF DInput(diDoor) = 1 press;\n",
+    "what an interrupt waits for": "IDelete i;\nCONNECT i WITH t;\nISignalDI diLid, 1, i;\n",
+    "an output that is waited for": "WaitDO doMotorOn, 1;\nEXIT;\n",
+    "an output that the system sets": "IF DOutput(doMotorOn) = 1 EXIT;\n",
+}
+
+
+@pytest.mark.parametrize("name", TOGETHER)
+def test_what_has_to_hold_together_does(name, tmp_path):
+    text = (
+        "MODULE flag\n PERS bool bAuto := FALSE;\n PERS num nPart := 0;\n VAR num nCopy;\n"
+        " VAR intnum i;\n PROC main()\n  WHILE TRUE DO\n"
+        f"{TOGETHER[name]}   WaitTime 0.1;\n  ENDWHILE\n ENDPROC\n"
+        " TRAP t\n  IF diPart = 1 EXIT;\n ENDTRAP\n"
+        " PROC look()\n  IF bAuto EXIT;\n ENDPROC\n PROC press()\n  IF diPart = 1 EXIT;\n"
+        " ENDPROC\n FUNC bool asked()\n  RETURN nPart = 4 AND NOT (NOT bAuto);\n ENDFUNC\n"
+        "ENDMODULE\n"
+    )
+    ended, _, answered = run(tmp_path, text, "guess")
+    assert ended == "finished"
+    assert answered
+
+
+STOPS = """MODULE stops
+ VAR num n;
+ PROC main()
+  n := n + 1;
+  Stop;
+  TPWrite "on";
+  IF n < 60 main;
+ ENDPROC
+ENDMODULE
+"""
+
+
+@pytest.mark.parametrize(("cell", "starts"), [("guess", 50), ("", 0)])
+def test_behind_a_stop_somebody_presses_start(cell, starts, tmp_path):
+    path = tmp_path / "stops.mod"
+    path.write_text(STOPS)
+    with VirtualController.from_files([path], cell=cell, cycle="once") as controller:
+        run_through(controller, max_time=60)
+        assert controller.guessed.answered == [("Stop at stops.mod:5", "start")] * starts

@@ -87,6 +87,15 @@ ENDS = {
         "  many{3} := few{3};\n  TPWrite ValToStr(Dim(few, 1));\n ENDPROC\n",
         "Statement cannot be executed",
     ),
+    "what is divided by is 1": (
+        " PROC main()\n  TPWrite ValToStr(nRate + 4 / (GOutput(goSpeed) * nRate));\n ENDPROC\n",
+        "ERR_REFUNKDAT",
+    ),
+    "what is divided by is 1 behind an alias, too": (
+        ' VAR signalgo speed;\n PROC main()\n  AliasIO "speed" + ArgName(speed), speed;\n'
+        "  TPWrite ValToStr(4 / GOutput(speed));\n ENDPROC\n",
+        "ERR_ALIASIO_DEF",
+    ),
     "what only a persistent may be is one": (
         ' PROC main()\n  WaitTestAndSet gripLock;\n  TPWrite "mine";\n'
         "  gripLock := FALSE;\n ENDPROC\n",
@@ -102,6 +111,12 @@ ENDS = {
         "  p := CRobT(\\Tool:=grip \\WObj:=table);\n"
         "  MoveL p, v100, fine, grip \\WObj:=table;\n ENDPROC\n",
         "Tool and work object contradict",
+    ),
+    "a unit that nobody describes carries its work objects": (
+        ' PERS wobjdata plate := [FALSE,FALSE,"STN1",[[0,0,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];\n'
+        " VAR robtarget p;\n PROC main()\n  ActUnit STN1;\n  p := CRobT(\\WObj:=plate);\n"
+        "  MoveL p, v100, fine, tool0 \\WObj:=plate;\n ENDPROC\n",
+        "ERR_REFUNKDAT",
     ),
     "a signal may be named by a text": (
         " VAR signaldo grip;\n PROC main()\n"
@@ -119,6 +134,7 @@ def test_a_program_ends_in_a_guessed_cell_alone(name, tmp_path):
     path.write_text(f"MODULE ends\n{text}ENDMODULE\n")
     with VirtualController.from_files([path], cell="guess", cycle="once") as controller:
         assert controller.run(max_time=20) == "finished"
+        assert controller.task("T_ROB1").fault is None
         assert controller.signals.get("hand_grip", 1) == 1
     with VirtualController.from_files([path], cycle="once") as controller:
         controller.run(max_time=20)

@@ -104,7 +104,8 @@ def cycles(program: Program, robot: str, cycle: Cycle) -> Outcome:
             notes.append(
                 "in no module: " + ", ".join(f"{u.type} {u.name}" for u in guessed.unknown[:5])
             )
-        asked = any(isinstance(answer, str) for _, answer in controller.guessed.answered)
+        # Sockets, and dialogs and stops with texts or places; data and signals are no partner.
+        asked = any(w == "SocketReceive" or " " in w for w, _ in controller.guessed.answered)
         end = _end(ended, faults, waits, asked=asked)
         if controller.guessed.missed:
             notes.append(f"the guessed robot missed {len(set(controller.guessed.missed))} places")
