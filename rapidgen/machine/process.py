@@ -15,7 +15,7 @@ class Process:
     after every wait and is where a task serves traps and stops.
     """
 
-    __slots__ = ("_blocked", "b", "body", "name", "scheduler", "slice_end")
+    __slots__ = ("_blocked", "_kicked", "b", "body", "name", "scheduler", "slice_end")
 
     def __init__(self, scheduler: Scheduler, name: str) -> None:
         self.scheduler = scheduler
@@ -23,6 +23,7 @@ class Process:
         self.b = 0
         self.slice_end = 0
         self._blocked = False
+        self._kicked = False
         self.body: greenlet.greenlet | None = None
 
     # -- for the scheduler and its owner -----------------------------------------------------------
@@ -85,6 +86,7 @@ class Process:
     def switch(self) -> None:
         """Go to the end of the queue when others are ready, in the middle of a statement."""
         scheduler = self.scheduler
+        self._kicked = False
         if scheduler.catch_up(self):
             scheduler.suspend(self)
         elif scheduler.ready:
@@ -92,6 +94,8 @@ class Process:
             scheduler.suspend(self)
         else:
             scheduler.grant(self)
+        if self._kicked:  # nothing has attended to what came meanwhile
+            self.kick()
 
     def charge(self, cost: int) -> None:
         """Spend `cost` nanoseconds of CPU."""
@@ -100,10 +104,16 @@ class Process:
             self.poll(self.b)
 
     def kick(self) -> None:
-        """Let `attend()` be called before the next statement."""
+        """Let `attend()` be called before the next statement, or in the wait."""
         scheduler = self.scheduler
+        self._kicked = True
         if scheduler.running is self:
             scheduler.deadline -= self.b + 1
             self.b = -1
         else:
             self.wake()
+
+    def attend_if_kicked(self) -> None:
+        """Before a wait that begins in the middle of a statement: nobody would kick again."""
+        if self.b < 0:
+            self.poll(self.b)

@@ -77,26 +77,35 @@ def like_rapid(bench: Bench, count: int, chance: random.Random) -> None:
         one_like_rapid(client, bench, orders(bench, 8, chance))
 
 
-def one_like_rapid(
-    client: Programmer, bench: Bench, program: list[RawOrder], other: Bench | None = None
-) -> None:
-    """A program beside the same one in RAPID. Raises Broken, as an expectation of `bench` does.
+class Unlike(Broken):
+    """A program moved otherwise than the same one in RAPID."""
 
-    `other`: a controller that is `called`, of which nothing has run yet."""
+
+def one_like_rapid(
+    client: Programmer,
+    bench: Bench,
+    program: list[RawOrder],
+    other: Bench | None = None,
+    hand: list[RawOrder] | None = None,
+) -> None:
+    """A program beside the same one in RAPID. Raises Unlike, and Broken as an expectation does.
+
+    `other`: a controller that is `called`, of which nothing has run yet. `hand`: what is written in
+    RAPID, if that is not literally the program."""
     home, since = bench.position, bench.now
     client.takes("a program", program)
     mine = _moved(bench, program, since)
     with other or bench.beside(called(bench.config, bench.group.task)) as other:
-        by_hand(other, program)
+        by_hand(other, hand or program)
         other.motion_group.jump(home)
         theirs = _moved(other, program, 0.5)
     if abs(mine[0] - theirs[0]) > _LATER * theirs[0]:
-        raise Broken(f"a program took {mine[0]:.3f} s, {theirs[0]:.3f} s when written in RAPID")
+        raise Unlike(f"a program took {mine[0]:.3f} s, {theirs[0]:.3f} s when written in RAPID")
     ways = points(bench, mine[1]), points(bench, theirs[1])
     for one, way in (ways, ways[::-1]):
         far = farthest(one, way)
         if far > _SAME:
-            raise Broken(f"a program is {far * 1000:.3f} mm off the way of the same in RAPID")
+            raise Unlike(f"a program is {far * 1000:.3f} mm off the way of the same in RAPID")
 
 
 def _moved(bench: Bench, program: list[RawOrder], since: float) -> tuple[float, list[Position]]:

@@ -321,12 +321,14 @@ class Task(Process):
         try:
             if predicate():
                 return True
+            self.attend_if_kicked()
             delay = None if timeout is None else round(timeout * _NS)
             timer = None if delay is None else scheduler.after(delay, expire)
             holds = self._holds
             if why is not None:
                 self.waits_for = why
             while True:
+                self.attend_if_kicked()
                 if not changed:
                     self.block()
                 changed = False
