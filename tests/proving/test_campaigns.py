@@ -18,6 +18,7 @@ from rapidgen.proving.programs import in_rapid
 from rapidgen.proving.report import as_json
 from rapidgen.proving.results import Results
 from rapidgen.proving.run import prove
+from rapidgen.proving.track import changed
 from rapidgen.proving.workers import Call, Known, Local, WorkersLost, each, in_a_fork, in_order
 
 SIX_AXES = load_config("irb120")
@@ -171,21 +172,30 @@ def test_the_first_failure_ends_it(tmp_path, monkeypatch, capsys):
     assert found["left"] == 2
 
 
-def test_a_program_that_moves_otherwise_is_found_and_replayed(monkeypatch, capsys):
-    monkeypatch.setattr("rapidgen.proving.programs.in_rapid", _slower)
-    words = ["test", "irb120", "--case", "hello", "--quick", "--seeds", "0", "--programs", "1"]
-    assert main([*words, "--jobs", "1"]) == 1
-    told = capsys.readouterr().out
-    assert "s when written in RAPID" in told
-    assert "rapidgen test irb120 --replay program/0 --record story.mcap" in told
-    assert main(["test", "irb120", "--replay", "program/0"]) == 1
-    assert "program/0: a program took" in capsys.readouterr().out
-    monkeypatch.undo()
-    assert main(["test", "irb120", "--replay", "program/0"]) == 0
-
-
 def _slower(bench, program):
     return in_rapid(bench, [replace(order, speed=order.speed / 2) for order in program])
+
+
+def _elsewhere(bench, program):
+    first, *rest = program
+    return in_rapid(bench, [replace(first, joints=changed(first.joints, 1, 0.3149)), *rest])
+
+
+@pytest.mark.parametrize(
+    ("otherwise", "told"),
+    [(_slower, "s when written in RAPID"), (_elsewhere, "mm off the way of the same in RAPID")],
+)
+def test_a_program_that_moves_otherwise_is_found_and_replayed(monkeypatch, capsys, otherwise, told):
+    monkeypatch.setattr("rapidgen.proving.programs.in_rapid", otherwise)
+    words = ["test", "irb120", "--case", "hello", "--quick", "--seeds", "0", "--programs", "1"]
+    assert main([*words, "--jobs", "1"]) == 1
+    printed = capsys.readouterr().out
+    assert told in printed
+    assert "rapidgen test irb120 --replay program/0 --record story.mcap" in printed
+    assert main(["test", "irb120", "--replay", "program/0"]) == 1
+    assert told in capsys.readouterr().out
+    monkeypatch.undo()
+    assert main(["test", "irb120", "--replay", "program/0"]) == 0
 
 
 def test_a_basic_driver_takes_no_programs(capsys):
