@@ -197,7 +197,10 @@ def _refused(bench: Bench) -> None:
             away = replace(order, pose=((x, y, z + far), q))
             turned = replace(order, pose=((x, y, z), (q[1], q[0], q[3], q[2])))
             wrong += [(away, RawReason.POSE_MISMATCH), (turned, RawReason.POSE_MISMATCH)]
-            wrong.append((replace(order, pose=((x, y, z), (0.0,) * 4)), RawReason.BAD_VALUE))
+            for size in (0.0, 0.98, 1.02):
+                a, b, c, d = (size * part for part in q)
+                unlike = replace(order, pose=((x, y, z), (a, b, c, d)))
+                wrong.append((unlike, RawReason.BAD_VALUE))
             circle = replace(away, kind=RawInstruction.MOVE_C, via=order.pose)
             wrong.append((circle, RawReason.POSE_MISMATCH))
             break
