@@ -37,6 +37,17 @@ class JointMap:
         return tuple(joint.name for joint in self.joints)
 
     @cached_property
+    def two_sided(self) -> bool:
+        """Whether confdata may not tell two postures of a pose apart: a SCARA's arm comes to it
+        from either side, and no public source says what its cfx means."""
+        kinds = {joint.axis: joint.kind for joint in self.joints}
+        return [kinds.get(axis) for axis in _ROBOT_AXES[:3]] == [
+            "revolute",
+            "revolute",
+            "prismatic",
+        ]
+
+    @cached_property
     def _coupled(self) -> tuple[int, int] | None:
         """Places of axis 2 and axis 3 when they are coupled."""
         if not self.coupling:

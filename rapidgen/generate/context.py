@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from dataclasses import asdict
 
 from rapidgen import __version__
+from rapidgen.axes.mapping import JointMap
 from rapidgen.config.model import (
     GroupConfig,
     Joint,
@@ -120,6 +121,7 @@ def group_context(config: RobotConfig, group: GroupConfig, build_id: str) -> dic
         "calculates": config.profile == "full" or group.tcp_speed_limit < _DEFAULT_TCP_SPEED,
         # Without its geometry no client can tell the joints of a pose.
         "cartesian": bool(group.chain),
+        "two_sided": JointMap.of(group).two_sided,
         "state_period": config.state_period,
         "belief": max(_BELIEF, _BELIEF_MESSAGES * config.state_period),
         "tcp_speed": group.tcp_speed_limit * _MM,

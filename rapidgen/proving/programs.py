@@ -156,6 +156,13 @@ def computes(bench: Bench) -> bool:
     return known and bench.setting.dialect.calc_in_background
 
 
+def kinds_with_marks(bench: Bench) -> tuple[RawInstruction, ...]:
+    """On the way of which moves signals may be set; a SCARA's joint moves are made to joints."""
+    joint_moves = (RawInstruction.MOVE_J, RawInstruction.MOVE_ABSJ)
+    lines = (RawInstruction.MOVE_L, RawInstruction.MOVE_C)
+    return lines if bench.motion_group.map.two_sided else (*joint_moves, *lines)
+
+
 def bent(bench: Bench) -> Position:
     """A place with every turning axis somewhat off its zero, within its limits."""
     return tuple(
@@ -238,7 +245,8 @@ def _statement(bench: Bench, order: RawOrder) -> str:
     zone = "fine" if order.zone is None else f"[FALSE,{_list(sizes)[1:]}"
     tail = f"{speed},{zone},{bench.group.tool.name}\\WObj:={bench.group.work_object.name};"
     robot, external = bench.motion_group.map.to_rapid(order.joints)
-    if order.pose is None:
+    by_joints = order.kind is RawInstruction.MOVE_J and bench.motion_group.map.two_sided
+    if order.pose is None or by_joints:
         return f"MoveAbsJ [{_list(robot)},{_list(external)}]\\NoEOffs,{tail}"
     target = target_of(bench, order.joints)
     places = [_target(pose, target) for pose in (order.via, order.pose) if pose is not None]

@@ -23,6 +23,7 @@ from rapidgen.client import (
 from rapidgen.client.core.group import Group
 from rapidgen.client.core.program_checks import check_program
 from rapidgen.config import load_config
+from rapidgen.config.model import ExposedSignal
 from rapidgen.system.model import SignalSpec
 from rapidgen.wire.simple_message.spec import Port, Reason, TrajectoryState
 
@@ -95,6 +96,22 @@ def test_a_line_out_of_reach_is_told_as_that(name, to, code, told):
     (fault,) = error.value.diagnostics
     assert fault.code == code
     assert told in fault.message
+
+
+def test_a_scara_sets_no_signals_on_the_way_of_a_joint_move():
+    config = replace(load_config("irb910sc"), signals=(ExposedSignal("valve", "DO", "write"),))
+    group, here = Group.of(config, config.groups[0]), (0.9, -0.3, 0.0, 0.3)
+    there = group.poses.pose(here)
+    on_the_way = [Trigger.before(0.01, "valve")]
+    for program in (
+        Program().move_joints(here, triggers=on_the_way),
+        Program().move_to(there, triggers=on_the_way),
+    ):
+        with pytest.raises(InvalidProgram) as error:
+            check_program(program, group, start=here, most=10)
+        assert [fault.code for fault in error.value.diagnostics] == ["RG670"]
+        assert "on which side of it the arm is" in str(error.value)
+    check_program(Program().move_linear(there, triggers=on_the_way), group, start=here, most=10)
 
 
 def test_single_moves_and_what_lies_where():

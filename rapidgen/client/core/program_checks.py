@@ -96,7 +96,7 @@ def check_program(
         begin = walk.here
         walk.arguments = []
         operands, duration = _MAKERS[step.kind](walk, step)
-        marks = [standing.mark(walk, trigger) for trigger in step.triggers]
+        marks = standing.marks(walk, step)
         seconds.append(duration)
         if last is not None and not last.zone.stops:
             _stopped(walk, last, step, before != walk.chosen)

@@ -19,7 +19,7 @@ from rapidgen.client.program import (
 )
 from rapidgen.config.model import OwnParameter
 from rapidgen.diagnostics import suggest
-from rapidgen.wire.simple_message.spec import FIXED_LIMIT, LONGEST_TEXT
+from rapidgen.wire.simple_message.spec import FIXED_LIMIT, LONGEST_TEXT, Instruction
 
 _FARTHEST = 10.0
 """m or s of a signal's place, at most."""
@@ -54,7 +54,20 @@ def _signal(walk: Walk, name: str, value: float, *, sets: bool) -> int:
     return names.index(name)
 
 
-def mark(walk: Walk, trigger: Trigger) -> tuple[float, ...]:
+def marks(walk: Walk, step: ProgramStep) -> list[tuple[float, ...]]:
+    """The words of the signals on the way."""
+    by_joints = step.kind in (Instruction.MOVE_ABSJ, Instruction.MOVE_J)
+    if step.triggers and by_joints and walk.group.map.two_sided:
+        walk.say(
+            "RG670",
+            "a SCARA sets no signals on the way of a joint move: their instruction takes a pose, "
+            "whose configuration does not tell on which side of it the arm is",
+            "`move_linear`, or `set` behind the move",
+        )
+    return [_mark(walk, trigger) for trigger in step.triggers]
+
+
+def _mark(walk: Walk, trigger: Trigger) -> tuple[float, ...]:
     """The words of a signal on the way."""
     number = _signal(walk, trigger.signal, trigger.value, sets=True)
     if not (isfinite(trigger.place) and 0 <= trigger.place <= _FARTHEST):

@@ -18,6 +18,7 @@ from rapidgen.proving.programs import (
     Programmer,
     RawOrder,
     computes,
+    kinds_with_marks,
     orders,
     reached,
 )
@@ -52,7 +53,10 @@ def _signals(bench: Bench) -> None:
     back = replace(there, joints=first.joints, pose=reached(bench, first.joints))
     middle = [(a + b) / 2 for a, b in zip(first.joints, last.joints, strict=True)]
     (x, y, z), turned = reached(bench, tuple(middle))
-    for kind in (*MOVES, RawInstruction.MOVE_ABSJ, RawInstruction.MOVE_C):
+    # A circle that is not level turns the tool out of a SCARA's reach.
+    level = bench.motion_group.map.two_sided
+    kinds = [k for k in kinds_with_marks(bench) if k is not RawInstruction.MOVE_C or not level]
+    for kind in kinds:
         for number in written:
             for go, from_there in ((there, first), (back, there)):
                 own = replace(
@@ -63,13 +67,20 @@ def _signals(bench: Bench) -> None:
                 )
                 _one_way(bench, client, own, from_there.joints, number)
     way = ((x, y, z + 0.01), turned)
-    for kind in (*MOVES, RawInstruction.MOVE_C):
+    for kind in kinds:
+        if kind is RawInstruction.MOVE_ABSJ:
+            continue
         client.takes("a program", [replace(first, kind=RawInstruction.MOVE_ABSJ, pose=None)])
         bench.wait_until_at(first.joints, 60)
         bench.run(0.5)
         via = way if kind is RawInstruction.MOVE_C else None
         _eight(bench, client, replace(there, kind=kind, via=via), written[0])
     _wrong_marks(bench, client, replace(back, kind=MOVES[0]), written[0])
+    marks = ((float(written[0]), 1.0, START, 0.01),)
+    for order in (replace(there, kind=MOVES[1]), first):
+        if order.kind not in kinds:
+            told = client.send([replace(order, marks=marks)])
+            client.refused(told, RawReason.NO_INSTRUCTION, 0, "signals on the way of a joint move")
 
 
 def _one_way(

@@ -13,7 +13,15 @@ from rapidgen.proving.instructions import Instruction, fails, wrapped
 from rapidgen.proving.link import RawLink
 from rapidgen.proving.messages import PROGRAM, RawInstruction, RawReason, RawTrajectoryState
 from rapidgen.proving.model import Broken
-from rapidgen.proving.programs import ALL, Programmer, RawOrder, computes, orders, reached
+from rapidgen.proving.programs import (
+    ALL,
+    Programmer,
+    RawOrder,
+    computes,
+    kinds_with_marks,
+    orders,
+    reached,
+)
 from rapidgen.proving.suite.own_routines import knows_these, weld_words
 
 case = Theme("programs", needs="stream")
@@ -75,7 +83,7 @@ def _everything(bench: Bench) -> tuple[list[int], int]:
             replace(order, kind=kind, pose=pose, via=via, marks=marks).words
             for kind, via in ((RawInstruction.MOVE_L, None), (RawInstruction.MOVE_C, pose))
         ]
-        if marks:
+        if marks and order.kind in kinds_with_marks(bench):
             parts.append(replace(order, marks=marks).words)
     parts += [[RawInstruction.SET, *millionths([float(n), 1.0])] for n in written[:1]]
     parts += [[RawInstruction.WAIT_SIGNAL, *millionths([float(n), 1, 1])] for n in waited[:1]]
@@ -165,7 +173,7 @@ def _due(bench: Bench, there: RawOrder) -> Iterator[tuple[str, str, RawReason, l
     x, y, z = reached(bench, there.joints)[0]
     pose = reached(bench, there.joints)
     for name, kind in _FAILING.items():
-        if kind is RawInstruction.MOVE_ABSJ:
+        if kind not in kinds_with_marks(bench) or kind is RawInstruction.MOVE_ABSJ:
             continue
         via = ((x, y, z + 0.01), pose[1]) if kind is RawInstruction.MOVE_C else None
         order = replace(moved, kind=kind, pose=pose, via=via)

@@ -138,6 +138,26 @@ def _configurations(bench: Bench) -> None:
             bench.run(0.5)
 
 
+@case("program-arm-side", "a pose is reached on the side of the arm that is asked for", once=True)
+def _arm_side(bench: Bench) -> None:
+    """Also where two postures of the pose have one configuration, and the other one is nearer."""
+    geometry = bench.motion_group.kinematics
+    if geometry is None or not computes(bench):
+        return
+    middle = bent(bench)
+    client, asked = Programmer(bench), (0.9, -middle[1], *middle[2:])
+    alike = geometry.configuration(asked)
+    to_pose = RawOrder(RawInstruction.MOVE_J, asked, reached(bench, asked), zone=None)
+    for other in geometry.solutions(geometry.forward(asked), asked):
+        if distance(other, asked) < 0.1 or geometry.configuration(other) != alike:
+            continue
+        there = tuple(round(value, 6) for value in other)
+        for way in ([RawOrder(MOVE_ABSJ, there, None, zone=None)], [to_pose]):
+            client.takes("another posture of the pose", way)
+            bench.wait_until_at(way[0].joints, 60)
+            bench.run(0.5)
+
+
 @case("program-index-wraps", "more instructions than numbers", once=True)
 def _index_wraps(bench: Bench) -> None:
     """They are counted anew behind the last number that a controller counts exactly."""
