@@ -164,6 +164,7 @@ class RawReason(IntEnum):
     NO_ROUTINE = 35
     IN_ROUTINE = 36
     NO_DATUM = 37
+    NO_CIRCLE = 38
     STOPPED = 40
     SUPERSEDED = 41
     CLIENT_LOST = 42

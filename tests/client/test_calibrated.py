@@ -48,3 +48,15 @@ def test_a_robot_with_another_geometry_is_refused():
             with pytest.raises(TrajectoryRefused) as refused:
                 robot.run(Program(speed=0.2).move_linear(moved(robot.pose, y=0.03)))
             assert refused.value.reason is Reason.POSE_MISMATCH
+
+
+def test_a_circle_begins_at_the_pose_before_it():
+    """237 degrees; from where the robot's geometry has the joints, mm away, more than 240."""
+    for away in (-0.004, 0.004):
+        with calibrated(5, away) as (robot, group):
+            robot.move_to(BENT, speed=1.0)
+            start = robot.pose_of(BENT)
+            via, end = moved(start, y=0.01, z=0.02), moved(start, y=0.0205, z=0.005)
+            program = Program(speed=0.2).move_linear(start, zone="fine")
+            robot.run(program.move_circular(via, end, zone="fine")).result()
+            assert np.allclose(group.kinematics.forward(group.positions())[0], end[0], atol=1e-5)

@@ -140,6 +140,25 @@ def test_a_circle_is_one():
         assert max(y for _, y, _ in poses) - min(y for _, y, _ in poses) > 1.9 * radius
 
 
+@pytest.mark.parametrize(("degrees", "told"), [(239.0, None), (239.8, "longer than 239.5 degrees")])
+def test_a_circle_is_not_too_long(degrees, told):
+    """The driver, which has it in whole micrometres, refuses it from 240 degrees on."""
+    config = load_config("irb120")
+    group = Group.of(config, config.groups[0])
+    start = group.map.to_controller(BENT)
+    pose, turn = group.poses.pose(start), np.radians(degrees)
+    via, end = (
+        moved(pose, y=0.03 * (1 - np.cos(angle)), z=0.03 * np.sin(angle))
+        for angle in (turn / 2, turn)
+    )
+    program = Program().move_circular(via, end)
+    if told is None:
+        check_program(program, group, start=start, most=10)
+        return
+    with pytest.raises(InvalidProgram, match=told):
+        check_program(program, group, start=start, most=10)
+
+
 def test_more_than_the_ring_holds_is_streamed():
     with driven(overrides={"trajectory.ring": 64}) as (robot, controller):
         robot.move_to(BENT, speed=1.0)

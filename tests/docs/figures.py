@@ -172,7 +172,7 @@ FIGURES = [
     # open. 92,067 after the move into rooms, 4 % fewer than before it.
     Figure("lines of package and tests", all_lines, 165_000),
     Figure("ignore_imports", ignored_imports, 0),
-    Figure("lines of rapid_out", goldens, 20_700),
+    Figure("lines of rapid_out", goldens, 20_900),
 ]
 
 if __name__ == "__main__":

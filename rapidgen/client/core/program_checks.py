@@ -40,6 +40,8 @@ _MOVES = frozenset(
     (Instruction.MOVE_ABSJ, Instruction.MOVE_J, Instruction.MOVE_L, Instruction.MOVE_C)
 )
 _Way = Line | Arc
+_LARGEST = LARGEST_ARC - radians(0.5)
+"""rad: the driver, which refuses more than 240 degrees, has the points in whole micrometres."""
 
 
 def require_program(given: object) -> None:
@@ -222,12 +224,12 @@ def _circle(walk: Walk, step: ProgramStep) -> standing.Checked:
     if pose is None or via is None or robot is None:
         return (), 0.0
     way = arc_through(robot.pose(walk.here), via, pose)
-    if way is None or way.sweep > LARGEST_ARC:
+    if way is None or way.sweep > _LARGEST:
         walk.say(
             "RG672",
             "the three points make no circle"
             if way is None
-            else "the circle is longer than 240 degrees",
+            else "the circle is longer than 239.5 degrees: 240 at most, and points are rounded",
             "points at least 0.1 mm apart and not in a line; two circles for a long one",
         )
         return (), 0.0

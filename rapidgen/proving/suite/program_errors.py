@@ -23,6 +23,7 @@ from rapidgen.proving.programs import (
     reached,
 )
 from rapidgen.proving.suite.own_routines import knows_these, weld_words
+from rapidgen.proving.suite.speed import aside
 
 case = Theme("programs", needs="stream")
 
@@ -79,10 +80,11 @@ def _everything(bench: Bench) -> tuple[list[int], int]:
         ]
         pose = reached(bench, here)
         marks = ((float(written[0]), 1.0, 0.0, 0.01),) if written else ()
-        parts += [
-            replace(order, kind=kind, pose=pose, via=via, marks=marks).words
-            for kind, via in ((RawInstruction.MOVE_L, None), (RawInstruction.MOVE_C, pose))
-        ]
+        parts.append(replace(order, kind=RawInstruction.MOVE_L, pose=pose, marks=marks).words)
+        there = orders(bench, 2, random.Random(52))[1].joints
+        circle = replace(order, kind=RawInstruction.MOVE_C, joints=there, marks=marks)
+        end = reached(bench, there)
+        parts.append(replace(circle, pose=end, via=aside(pose, end)).words)
         if marks and order.kind in kinds_with_marks(bench):
             parts.append(replace(order, marks=marks).words)
     parts += [[RawInstruction.SET, *millionths([float(n), 1.0])] for n in written[:1]]

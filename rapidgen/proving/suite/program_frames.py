@@ -128,14 +128,14 @@ def _own(bench: Bench) -> None:
     if not computes(bench):
         return
     before, behind = _tool(0.05, 2.0), _tool(-0.02, 0.25)
-    place = _placement(right[1])
+    place = placement_of(right[1])
     way = [
         replace(
             order,
             kind=MOVES[0],
             zone=0.01,
             frames=(tools, objects),
-            pose=_seen(bench, order.joints, _placement(values), place),
+            pose=_seen(bench, order.joints, placement_of(values), place),
         )
         for order, values in ((first, before), (second, before), (third, behind))
     ]
@@ -223,7 +223,7 @@ _WRONG = (
 """Which operand of TOOL cannot be what: frames too far, quaternions too long, masses, moments."""
 
 
-def _placement(values: Sequence[float]) -> Placement:
+def placement_of(values: Sequence[float]) -> Placement:
     """The frame of operands; of two frames the second in the first."""
     (x, y, z, *turn), second = values[:7], values[7:]
     (a, b, c, d) = turn

@@ -94,6 +94,8 @@ points, with the same rules for BEGIN, END, `first`, checksum, room and order. B
   reach, and refuses a pose more than 1 mm or 0.2 degrees away (POSE_MISMATCH;
   `pose_tolerance` of the configuration may say more). So their limits are
   checked, and the configuration is theirs by the controller's own word.
+- A circle begins where the move before ends. Two of its points closer than 0.1 mm, three in a line
+  and more than 240 degrees are refused (NO_CIRCLE): a controller would end the program there.
 - Without a next instruction the robot stops at the end of the last one that came (STARVED).
 
 {}"""
@@ -237,7 +239,7 @@ def _versions() -> str:
         ),
         (
             "3",
-            f"{_new(3)}, where HELLO tells PROGRAMS; reasons 28 to 37, 50 to 52",
+            f"{_new(3)}, where HELLO tells PROGRAMS; reasons 28 to 38, 50 to 52",
             "values and checksum of POINTS are int32, no number of eight bytes is left; refused as "
             "between 1 and 2",
         ),

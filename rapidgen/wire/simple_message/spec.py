@@ -242,6 +242,7 @@ class Reason(IntEnum):
     NO_ROUTINE = 35, "there is no such routine, or not with these parameters"
     IN_ROUTINE = 36, "a routine is under way: its moves have speeds of their own"
     NO_DATUM = 37, "the robot's program does not have this datum, or not of this type"
+    NO_CIRCLE = 38, "the three points make no circle, or one of more than 240 degrees"
     STOPPED = 40, "stopped on request"
     SUPERSEDED = 41, "a newer trajectory took its place"
     CLIENT_LOST = 42, "the connection to the client was lost"

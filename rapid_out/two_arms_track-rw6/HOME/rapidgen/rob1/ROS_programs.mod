@@ -10,7 +10,7 @@ MODULE ROS_programs
     ! pose. So the limits are those of the joints, the configuration is the one that the controller
     ! gives, and a client whose robot is another one is refused before anything moves.
 
-    CONST string ROS_BUILD_PROGRAMS := "e7227c722b19";
+    CONST string ROS_BUILD_PROGRAMS := "4f1b6679d3a2";
 
     ! mm/s and deg/s of a speed, mm and deg of a zone, at most.
     LOCAL CONST num TCP_SPEED := 5000;
@@ -26,6 +26,9 @@ MODULE ROS_programs
     ! half an angle: 0.2 degrees for each mm.
     LOCAL CONST num NEAR := 1;
     LOCAL CONST num UNTURNED := 0.999998;
+    ! mm between two of the three points of a circle, and the sine of the angle between them, at least.
+    LOCAL CONST num APART := 0.1;
+    LOCAL CONST num ASIDE := 0.001;
     ! mm, kg and kg m2 of a tool or work object whose values the client sends, at most.
     LOCAL CONST num FARTHEST := 100000;
     LOCAL CONST num HEAVIEST := 2000;
@@ -42,6 +45,10 @@ MODULE ROS_programs
     LOCAL VAR bool has_own_wobj := FALSE;
     ! Where the robot has to stand when the program begins.
     LOCAL VAR jointtarget start;
+    ! Where the move before ends: its joints, and its pose if it has one in the frames that are in use.
+    LOCAL VAR jointtarget here;
+    LOCAL VAR robtarget before;
+    LOCAL VAR bool at_pose := FALSE;
     ! Of the batch at hand: the byte that is read next, the one behind its words, its checksum, and the
     ! word that was read last.
     LOCAL VAR num at := 0;
@@ -68,6 +75,8 @@ MODULE ROS_programs
         IF ROS_count = 0 AND at < behind THEN
             take_joints data;
             start := order.joints;
+            here := start;
+            at_pose := FALSE;
             ROS_object ROS_start_fault();
         ENDIF
         WHILE count > 0 AND ROS_fault = ROS_REASON_NONE DO
@@ -182,6 +191,7 @@ MODULE ROS_programs
             take_pose data, order.target;
             take_joints data;
             meet_pose;
+            meet_circle;
             order.via.robconf := order.target.robconf;
             order.via.extax := order.target.extax;
         CASE ROS_DO_WAIT:
@@ -207,6 +217,9 @@ MODULE ROS_programs
         IF order.kind > ROS_DO_MOVE_C RETURN;
         IF NOT has_speed ROS_object ROS_REASON_BAD_SPEED;
         IF NOT has_zone ROS_object ROS_REASON_BAD_ZONE;
+        here := order.joints;
+        at_pose := order.kind > ROS_DO_MOVE_ABSJ;
+        IF at_pose before := order.target;
     ERROR
         RAISE;
     ENDPROC
@@ -254,6 +267,7 @@ MODULE ROS_programs
         IF NOT (0 <= order.tool AND order.tool < 2 AND order.tool = Trunc(order.tool)
             AND 0 <= order.wobj AND order.wobj < 2 AND order.wobj = Trunc(order.wobj))
             ROS_object ROS_REASON_NO_FRAME;
+        at_pose := FALSE;
         IF (order.tool = 1 AND (NOT has_own_tool)) OR (order.wobj = 1 AND (NOT has_own_wobj))
             ROS_object ROS_REASON_NO_FRAME;
     ERROR
@@ -276,6 +290,7 @@ MODULE ROS_programs
         IF ROS_fault <> ROS_REASON_NONE RETURN;
         ROS_own_tool := [TRUE,[order.target.trans,order.target.rot],order.load];
         has_own_tool := TRUE;
+        at_pose := FALSE;
     ERROR
         RAISE;
     ENDPROC
@@ -291,6 +306,7 @@ MODULE ROS_programs
         IF ROS_fault <> ROS_REASON_NONE RETURN;
         ROS_own_wobj := [FALSE,TRUE,"",[order.target.trans,order.target.rot],[order.via.trans,order.via.rot]];
         has_own_wobj := TRUE;
+        at_pose := FALSE;
     ERROR
         RAISE;
     ENDPROC
@@ -433,24 +449,24 @@ MODULE ROS_programs
         RETURN a.q1 * b.q1 + a.q2 * b.q2 + a.q3 * b.q3 + a.q4 * b.q4;
     ENDFUNC
 
-    ! The pose that the joints reach.
-    LOCAL FUNC robtarget pose_with(PERS tooldata tool)
+    LOCAL FUNC robtarget pose_with(PERS tooldata tool, jointtarget joints)
         TEST order.wobj
         CASE 1:
-            RETURN CalcRobT(order.joints, tool \WObj:=ROS_own_wobj);
+            RETURN CalcRobT(joints, tool \WObj:=ROS_own_wobj);
         DEFAULT:
-            RETURN CalcRobT(order.joints, tool \WObj:=wobj0);
+            RETURN CalcRobT(joints, tool \WObj:=wobj0);
         ENDTEST
     ERROR
         RAISE;
     ENDFUNC
 
-    LOCAL FUNC robtarget pose_of_joints()
+    ! The pose that the joints reach.
+    LOCAL FUNC robtarget pose_of(jointtarget joints)
         TEST order.tool
         CASE 1:
-            RETURN pose_with(ROS_own_tool);
+            RETURN pose_with(ROS_own_tool, joints);
         DEFAULT:
-            RETURN pose_with(torch);
+            RETURN pose_with(torch, joints);
         ENDTEST
     ERROR
         RAISE;
@@ -462,7 +478,7 @@ MODULE ROS_programs
         VAR robtarget reached;
 
         IF ROS_fault <> ROS_REASON_NONE RETURN;
-        reached := pose_of_joints();
+        reached := pose_of(order.joints);
         IF NOT (VectMagn(reached.trans - order.target.trans) <= NEAR
             AND Abs(along(reached.rot, order.target.rot)) >= UNTURNED)
             ROS_object ROS_REASON_POSE_MISMATCH;
@@ -474,9 +490,31 @@ MODULE ROS_programs
         RETURN;
     ENDPROC
 
+    ! A circle begins where the move before ends, and turns 240 degrees at most: then its ends are seen
+    ! from its point on the way 60 degrees apart and more.
+    LOCAL PROC meet_circle()
+        VAR pos back;
+        VAR pos on;
+        VAR pos across;
+
+        IF ROS_fault <> ROS_REASON_NONE RETURN;
+        IF NOT at_pose before := pose_of(here);
+        back := before.trans - order.via.trans;
+        on := order.target.trans - order.via.trans;
+        across := order.target.trans - before.trans;
+        IF VectMagn(back) < APART OR VectMagn(on) < APART
+            OR VectMagn(back * across) < ASIDE * VectMagn(back) * VectMagn(across)
+            OR DotProd(back, on) > 0.5 * VectMagn(back) * VectMagn(on)
+            ROS_object ROS_REASON_NO_CIRCLE;
+    ERROR
+        SkipWarn;
+        ROS_object ROS_REASON_NO_GEOMETRY;
+        RETURN;
+    ENDPROC
+
     LOCAL PROC meet_joints()
         IF ROS_fault <> ROS_REASON_NONE RETURN;
-        order.target := pose_of_joints();
+        order.target := pose_of(order.joints);
         order.kind := ROS_DO_MOVE_J;
     ERROR
         SkipWarn;
