@@ -49,8 +49,9 @@ def _like_rapid(bench: Bench) -> None:
 def _turning(bench: Bench) -> list[RawOrder]:
     """Moves that take as long as the tool may turn, or external axes may move."""
     first = orders(bench, 1, random.Random(8))[0]
+    speed = min(0.5, bench.group.tcp_speed_limit)
     slow = RawOrder(
-        MOVE_ABSJ, turned_by(bench, first.joints, 0.4), None, speed=0.5, turn=0.2, linear=0.03
+        MOVE_ABSJ, turned_by(bench, first.joints, 0.4), None, speed=speed, turn=0.2, linear=0.03
     )
     if not computes(bench):
         return [first, slow]
