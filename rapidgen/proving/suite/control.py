@@ -480,4 +480,4 @@ def _stream_over_control(bench: Bench) -> None:
     refusal = stream.refuses(RawReason.STOPPED, "points behind a STOP", way(bench, 3))
     if refusal.trajectory != told.trajectory or refusal.point != told.reached:
         raise Broken(f"STOPPED says {told}, a batch behind it is answered by {refusal}")
-    bench.stays(2, "the stream was stopped")
+    bench.rests(1, 2, "the stream was stopped")
