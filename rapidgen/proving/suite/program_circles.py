@@ -53,8 +53,10 @@ def _circles(bench: Bench) -> None:
 def _in_other_frames(bench: Bench, client: Programmer, start: RawOrder, end: RawOrder) -> None:
     """The pose before a circle is another one in the circle's work object."""
     given = object_of(0.1)
-    frame = placement_of(given[1])
-    origin = frames.invert((frame.position, frame.orientation))
+    frame, first = placement_of(given[1]), bench.group.work_object.user_frame
+    origin = frames.compose(
+        frames.invert((frame.position, frame.orientation)), (first.position, first.orientation)
+    )
     before = replace(start, kind=RawInstruction.MOVE_L, pose=reached(bench, start.joints))
     own = 0, 1 + len(bench.group.work_objects)
     *_, (_, _, short), (_, _, long) = _with_end(bench, start, end)
