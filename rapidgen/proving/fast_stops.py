@@ -119,7 +119,8 @@ def _start_again(bench: Bench, chance: random.Random) -> bool:
     refused = bench.controller.task(bench.group.task).state != "running"
     why = "the program was started, and nobody has asked for motion"
     if not refused:
-        bench.stays(chance.uniform(2, 4), why)
+        # The supervisor says so 2 s behind the start.
+        bench.stays(chance.uniform(2.2, 4), why)
         refused = any("from main" in str(event) for event in bench.controller.log.since(last))
     if refused:
         for action in ("stop", "pp-to-main"):

@@ -3,6 +3,7 @@
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import zip_longest
 
 from rapidgen.machine.log import EventType
 from rapidgen.proving import messages
@@ -64,8 +65,10 @@ def _in_order(
     each = [(step.state, step.planned, step.reached) for step in steps]
     for when, *said in told:
         # Where a task's turn may end at a PERS, a reply may be put together between two steps.
-        both = zip(said, *each[at : at + 2], strict=True)
-        between = all(value in steps_have for value, *steps_have in both)
+        now, then = each[at], each[min(at + 1, len(each) - 1)]
+        between = said[0] in (now[0], then[0]) and all(
+            a <= value <= b for value, a, b in zip(said[1:], now[1:], then[1:], strict=True)
+        )
         if bench.setting.switch_at_pers and between and tuple(said) not in each[at:]:
             continue
         while at < len(steps) and tuple(said) != each[at]:
@@ -105,7 +108,8 @@ def _goes_by(
     told = watched(link, begun + _CLOSE)
     _in_order(bench, begun, [(t, p.state, p.planned, p.reached) for t, p, _ in told], steps)
     over, lag = 0.0, 6 * bench.setting.motion.servo_lag
-    for when, progress, status in told:
+    following = [progress.state for _, progress, _ in told[1:]]
+    for (when, progress, status), then in zip_longest(told, following):
         if (progress.trajectory, progress.received, *progress[5:]) != (trajectory, count, 0, -1, 0):
             raise Broken(f"at {when:.3f} s trajectory {trajectory} is told as {progress}")
         moving = [int(progress.state == RawTrajectoryState.MOVING)]
@@ -113,6 +117,9 @@ def _goes_by(
         if when <= over + lag:
             # The first STATUS behind the end may tell of the motion before it.
             moving.append(1)
+        if bench.setting.switch_at_pers:
+            # STATUS is read behind PROGRESS: it may tell of what is true by then.
+            moving.append(int(then == RawTrajectoryState.MOVING))
         if status not in [messages.RawStatus(1, 0, 0, 0, m, RawMode.AUTO, 1) for m in moving]:
             raise Broken(f"at {when:.3f} s PROGRESS says {progress}, but STATUS {status}")
 
