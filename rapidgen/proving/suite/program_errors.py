@@ -131,7 +131,7 @@ def _instructions_fail(bench: Bench) -> None:
     """With the one before it executed, and nothing behind it; a program behind it is taken."""
     first, second, third = orders(bench, 4, random.Random(42))[1:]
     client, watcher = Programmer(bench), bench.watcher()
-    for name, error, reason, words in _due(bench, second):
+    for name, error, reason, words in _due(bench, first, second):
         end = fails(bench, "ROS_motion", name, error, after=int(name == "MoveAbsJ"))
         place = replace(first, kind=RawInstruction.MOVE_ABSJ, pose=None, zone=None)
         client.number += 1
@@ -155,7 +155,9 @@ def _instructions_fail(bench: Bench) -> None:
     bench.wait_until_at(second.joints, 60)
 
 
-def _due(bench: Bench, there: RawOrder) -> Iterator[tuple[str, str, RawReason, list[int]]]:
+def _due(
+    bench: Bench, here: RawOrder, there: RawOrder
+) -> Iterator[tuple[str, str, RawReason, list[int]]]:
     """Which instruction fails with what, the reason of that, and the words for it."""
     moved = replace(there, zone=None)
     joints = replace(moved, kind=RawInstruction.MOVE_ABSJ, pose=None)
@@ -172,12 +174,12 @@ def _due(bench: Bench, there: RawOrder) -> Iterator[tuple[str, str, RawReason, l
             yield _WAITS[signal.kind], "ERR_WAIT_MAXTIME", RawReason.WAITED, words
     if not computes(bench):
         return
-    x, y, z = reached(bench, there.joints)[0]
     pose = reached(bench, there.joints)
+    way = aside(reached(bench, here.joints), pose)
     for name, kind in _FAILING.items():
         if kind not in kinds_with_marks(bench) or kind is RawInstruction.MOVE_ABSJ:
             continue
-        via = ((x, y, z + 0.01), pose[1]) if kind is RawInstruction.MOVE_C else None
+        via = way if kind is RawInstruction.MOVE_C else None
         order = replace(moved, kind=kind, pose=pose, via=via)
         yield name, "ERR_PATH_STOP", RawReason.MOTION_ERROR, order.words
         for number in written[:1]:

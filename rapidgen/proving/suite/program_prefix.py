@@ -18,6 +18,10 @@ case = Theme("programs", needs="stream")
 SET = RawInstruction.SET
 
 
+_ASIDE = 0.12
+"""rad and m: how far a zone cuts a corner, and a line bends between the joints at its ends."""
+
+
 @case(
     "program-prefix",
     "what ends a program leaves a prefix of it, with index and reason",
@@ -39,7 +43,7 @@ def _prefix(bench: Bench) -> None:
             bench.start_again()
             bench.stays(2, f"{ending} has ended a program")
             if ending != "e-stop":
-                bench.followed([start, *(o.joints for o in program)], since=since, corner=0.1)
+                bench.followed([start, *(o.joints for o in program)], since=since, corner=_ASIDE)
             client.link.close(then=1.5)
 
 
@@ -176,4 +180,4 @@ def _paused(bench: Bench) -> None:
         bench.rests(3, 1, "a program is paused")
         done(control.ask(messages.RawPause(0)), "the end of PAUSE")
     bench.wait_until_at(program[-1].joints, 60)
-    bench.followed([start, *(o.joints for o in program)], since=since, corner=0.1)
+    bench.followed([start, *(o.joints for o in program)], since=since, corner=_ASIDE)
