@@ -63,7 +63,9 @@ def _stops(bench: Bench) -> None:
         told = control.expect(messages.RawStopped, 2, "STOPPED arrives")
         progress = bench.progress(watcher)
         here = (*bench.position, *[0.0] * (messages.MAX_JOINTS - len(bench.position)))
-        if max(abs(a - b) for a, b in zip(told.joints, here, strict=True)) > 1e-4:
+        # Axes that follow late are measured on their last millimetres.
+        near = 5e-3 if bench.setting.motion.servo_lag else 1e-4
+        if max(abs(a - b) for a, b in zip(told.joints, here, strict=True)) > near:
             raise Broken(f"the robot stands at {here}, STOPPED says {told.joints}")
         if (told.trajectory, told.reached, told.reason) != (
             progress.trajectory,
@@ -205,7 +207,8 @@ def _nobody_answers(bench: Bench) -> None:
     bench.controller.perform("start")
     bench.stays(3, "the program was stopped and started")
     bench.moves_through(link, bench.wave(3))
-    bench.sets_off(link, bench.wave(12))
+    # In a long move: short ones get their time for the speed, and need no SpeedRefresh.
+    bench.sets_off(link, bench.wave(12, duration=1.0), 0.3)
     ends = fails(bench, "ROS_motion", "SpeedRefresh", "ERR_SPEED_REFRESH_LIM", 1000)
     not_done(control.ask(messages.RawSpeed(50)), RawReason.INTERNAL, "SPEED that is not set")
     ends()

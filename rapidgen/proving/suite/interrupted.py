@@ -30,7 +30,11 @@ def _ended(bench: Bench, watcher: RawLink, reason: RawReason, what: str) -> mess
     told = bench.progress(watcher)
     stopped = reason is RawReason.STOPPED
     state = RawTrajectoryState.STOPPED if stopped else RawTrajectoryState.FAILED
-    if (told.state, told.reason) != (state, reason):
+    reasons = [reason]
+    if bench.setting.switch_at_pers and reason is RawReason.MOTORS_OFF:
+        # Motors that are off stop the program, too, which may be read first.
+        reasons.append(RawReason.PROGRAM_STOPPED)
+    if told.state != state or told.reason not in reasons:
         raise Broken(f"{what}: {reason.name} is wanted, PROGRESS says {told}")
     return told
 
