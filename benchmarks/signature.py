@@ -1,14 +1,15 @@
 """What the driver is signed for: the suite on every example, and on what may be configured.
 
-    python benchmarks/signature.py [--part N/M] [--jobs N] [--together N] [--output FILE] [--plan]
+    python benchmarks/signature.py [--part N/M] [--of LABEL ...] [--jobs N] [--together N]
+                                   [--output FILE] [--plan]
 
 Every example of robots/examples, and of the IRB 120 the configurations in which any two of profile,
 commissioning, main and control port meet; each under the settings in which any two assumptions
 about controllers meet. What differs most from the IRB 120 comes first. One table at the end.
 Reports go to FILE (JSON lines) as they come, results of each case into a folder beside it: what
 has been run on the same tree is not run again, so that a run may be broken off anywhere and go on
-later, or be done in parts (`--part 1/3`) of which the last one prints the whole table. `--plan`
-only counts, and loads each configuration.
+later, or be done in parts (`--part 1/3`, or some by name) of which the last one prints the whole
+table. `--plan` only names them, and loads each configuration.
 """
 
 import argparse
@@ -113,10 +114,13 @@ def main():
     number, parts = (int(n) for n in GIVEN.part.split("/"))
     reports = done(of)
     left = [run for run in every[number - 1 :: parts] if run[0] not in reports]
+    if GIVEN.of:
+        left = [run for run in left if run[0] in GIVEN.of]
     print(f"{len(every)} configurations, {len(left)} of part {GIVEN.part} to be run", flush=True)
     if GIVEN.plan:
-        for _, path, overrides in every:
+        for label, path, overrides in every:
             load_config(str(path), overrides=overrides)
+            print(label)
         return False
     GIVEN.output.parent.mkdir(parents=True, exist_ok=True)
     for label, path, overrides in left:
@@ -136,6 +140,7 @@ def main():
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--part", default="1/1")
+    parser.add_argument("--of", nargs="*", choices=[label for label, _, _ in runs()])
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--together", type=int, default=2, choices=range(4))
     parser.add_argument("--output", type=Path, default=ROOT / "build" / "signature.jsonl")
