@@ -3,13 +3,14 @@
 from dataclasses import dataclass
 from enum import Enum
 from itertools import pairwise
-from math import atan2, pi
+from math import atan2, pi, radians, sin
 
 from rapidgen.axes import frames
 from rapidgen.axes.frames import ORIGIN, Pose, Quaternion, Vector
 
-LARGEST_ARC = 240 * pi / 180
-"""rad of one MoveC (3HAC16581-1)."""
+LARGEST_ARC = radians(240)
+SMALLEST_ANGLE = radians(1)
+"""rad: of one MoveC, and between its other two points as the first one sees them (3HAC16581-1)."""
 
 
 class CircleMode(Enum):
@@ -107,7 +108,9 @@ def arc_through(
 ) -> Arc | None:
     """The circle through three points; None: they do not make one.
 
-    Points closer than 0.1 mm, or in one line, are no circle. The orientation at `via` only
+    Points closer than 0.1 mm are no circle, nor are two that the first one sees less than 1 degree
+    apart (ABB's limits of MoveC, as RobotComponents' path generator names them). The orientation
+    at `via` only
     decides between the short and the long way of the tool's own turn (S4 datasys 2-MoveC-3),
     unless the mode asks for it.
     """
@@ -117,7 +120,8 @@ def arc_through(
         return None
     normal = frames.cross(to_via, to_end)
     area = frames.dot(normal, normal)
-    if area < 1e-6 * frames.dot(to_via, to_via) * frames.dot(to_end, to_end):
+    seen = frames.dot(to_via, to_via) * frames.dot(to_end, to_end)
+    if area < sin(SMALLEST_ANGLE) ** 2 * seen:
         return None
     # Circumcentre from a.
     first = frames.scale(frames.cross(normal, to_via), frames.dot(to_end, to_end))

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from rapidgen.axes import frames
+from rapidgen.axes.shapes import arc_through
 from rapidgen.machine.scheduler import S
 from rapidgen.motion.faults import MotionFault, Refusal
 from rapidgen.motion.moves import Carrier, CartesianMove, MoveSpeed, Singularities
@@ -143,6 +144,16 @@ def test_three_points_that_make_no_circle(robot, linear, via, end):
         assert fault.value.refusal is Refusal.NO_CIRCLE
 
     robot.run(program)
+
+
+@pytest.mark.parametrize(("degrees", "makes_one"), [(0.98, False), (1.02, True)])
+def test_two_points_are_a_degree_apart_as_the_first_sees_them(degrees, makes_one):
+    """A limit of MoveC in ABB's reference, as RobotComponents' path generator names it."""
+    height = 0.05 * math.tan(math.radians(degrees))
+    start, via, end = (
+        ((0.0, y, z), frames.UNIT) for y, z in ((0.0, 0.0), (0.05, height), (0.1, 0.0))
+    )
+    assert (arc_through(start, via, end) is not None) == makes_one
 
 
 def test_more_than_240_degrees_are_two_instructions(robot, linear):

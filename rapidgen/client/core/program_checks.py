@@ -230,7 +230,8 @@ def _circle(walk: Walk, step: ProgramStep) -> standing.Checked:
             "the three points make no circle"
             if way is None
             else "the circle is longer than 239.5 degrees: 240 at most, and points are rounded",
-            "points at least 0.1 mm apart and not in a line; two circles for a long one",
+            "points 0.1 mm apart and more, the others 1 degree as seen from the first; two circles "
+            "for a long one",
         )
         return (), 0.0
     seconds = _along(walk, step, robot, way, near)

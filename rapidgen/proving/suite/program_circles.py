@@ -88,11 +88,12 @@ def _with_end(bench: Bench, start: RawOrder, end: RawOrder) -> Iterator[tuple[bo
     yield True, "half a circle", at(0.5, chord / 2)
     for far in (0.09e-3, 0.11e-3):
         yield far > 1e-4, f"a point {far} m from the beginning", at(0.0, far)
-    # Far from the beginning such a point is nearly in a line, too.
-    for far in (0.09e-3, max(0.11e-3, 0.0012 * chord)):
+    # So close to the end a point is nearly in a line, too.
+    for far in (0.09e-3, 0.018 * chord):
         yield far > 1e-4, f"a point {far} m from the end", at(1.0, far)
-    for sine in (0.0008, 0.0012):
-        yield sine > 0.001, f"three points nearly in a line: {sine}", at(0.5, sine * chord / 2)
+    for angle in (0.98, 1.02):
+        height = chord / 2 * math.tan(math.radians(angle))
+        yield angle > 1, f"two points seen {angle} degrees apart", at(0.5, height)
     yield False, "a point of the line, beyond its end", at(1.5, 0.0)
     yield (
         False,

@@ -94,8 +94,9 @@ points, with the same rules for BEGIN, END, `first`, checksum, room and order. B
   reach, and refuses a pose more than 1 mm or 0.2 degrees away (POSE_MISMATCH;
   `pose_tolerance` of the configuration may say more). So their limits are
   checked, and the configuration is theirs by the controller's own word.
-- A circle begins where the move before ends. Two of its points closer than 0.1 mm, three in a line
-  and more than 240 degrees are refused (NO_CIRCLE): a controller would end the program there.
+- A circle begins where the move before ends. Two of its points closer than 0.1 mm, or seen from
+  the first one less than 1 degree apart, and more than 240 degrees are refused (NO_CIRCLE): a
+  controller would end the program there.
 - Without a next instruction the robot stops at the end of the last one that came (STARVED).
 
 {}"""

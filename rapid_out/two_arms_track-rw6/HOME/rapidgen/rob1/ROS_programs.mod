@@ -10,7 +10,7 @@ MODULE ROS_programs
     ! pose. So the limits are those of the joints, the configuration is the one that the controller
     ! gives, and a client whose robot is another one is refused before anything moves.
 
-    CONST string ROS_BUILD_PROGRAMS := "4f1b6679d3a2";
+    CONST string ROS_BUILD_PROGRAMS := "354ccb1f2d6c";
 
     ! mm/s and deg/s of a speed, mm and deg of a zone, at most.
     LOCAL CONST num TCP_SPEED := 5000;
@@ -26,9 +26,10 @@ MODULE ROS_programs
     ! half an angle: 0.2 degrees for each mm.
     LOCAL CONST num NEAR := 1;
     LOCAL CONST num UNTURNED := 0.999998;
-    ! mm between two of the three points of a circle, and the sine of the angle between them, at least.
+    ! mm between two of the three points of a circle, at least, and the sine of 1 degree, by which the
+    ! first one sees the others apart, at least: limits of MoveC.
     LOCAL CONST num APART := 0.1;
-    LOCAL CONST num ASIDE := 0.001;
+    LOCAL CONST num ASIDE := 0.017452;
     ! mm, kg and kg m2 of a tool or work object whose values the client sends, at most.
     LOCAL CONST num FARTHEST := 100000;
     LOCAL CONST num HEAVIEST := 2000;
