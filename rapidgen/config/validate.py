@@ -120,7 +120,8 @@ def _translate(
     key, value = place_of(root, path)
     if item["type"] == "unexpected_keyword_argument":
         known = _keys_at(kind, path[:-1])
-        meant = suggest(str(path[-1]), known)
+        elsewhere = _belongs(str(path[-1]), path[:-1]) if kind is ConfigurationKeys else ""
+        meant = elsewhere or suggest(str(path[-1]), known)
         where = f" in '{shown(root, path[:-1])}'" if len(path) > 1 else ""
         return error(
             "RG005",
@@ -208,6 +209,17 @@ def _keys_at(kind: type, path: Path) -> tuple[str, ...]:
         hint = _step(hint, part)
     model = _model(hint)
     return tuple(f.name for f in dataclasses.fields(model)) if model else ()
+
+
+def _belongs(name: str, given: Path) -> str:
+    """Where a key stands that was given at another path; empty if nowhere, or at several places."""
+    if given and name in TOP_KEYS:
+        return f"`{name}:` stands at the top of the file"
+    if given and name in GROUP_KEYS:
+        return f"`{name}:` stands in a group, or at the top where there is one group"
+    sections = [at for at in TOP_KEYS if at != "groups" and at not in given]
+    there = [at for at in sections if name in _keys_at(ConfigurationKeys, (at,))]
+    return f"`{name}:` stands in `{there[0]}:`" if len(there) == 1 else ""
 
 
 def _model(hint: Hint) -> type | None:

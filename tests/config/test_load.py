@@ -51,6 +51,23 @@ def test_five_faults_are_five_findings_with_their_places(tmp_path):
     assert all(d.span.path.endswith("cell.yaml") for d in found)
 
 
+@pytest.mark.parametrize(
+    ("text", "mend"),
+    [
+        ("robotware: 6.15", "`robotware:` stands in `controller:`"),
+        ("state: {rate: 10, capacity: 5}", "`capacity:` stands in `trajectory:`"),
+        ("groups: {rob1: {profile: basic}}", "`profile:` stands at the top of the file"),
+        ("controller: {ports: {motion: 1}}", "`ports:` stands in a group, or at the top"),
+        # Of objects and of loads there are several.
+        ("controller: {mass: 3}", "known here: type, robotware"),
+    ],
+)
+def test_a_key_at_a_wrong_place_is_told_where_it_stands(tmp_path, text, mend):
+    (found,) = faults(tmp_path, f"model: irb120\n{text}\n")
+    assert found.code == "RG005"
+    assert mend in found.help
+
+
 def test_a_fault_in_the_schema_does_not_hide_one_in_the_meaning(tmp_path):
     found = faults(tmp_path, "model: irb120\nports: {motion: x, state: 11001}\n")
     assert sorted(d.code for d in found) == ["RG006", "RG012"]
