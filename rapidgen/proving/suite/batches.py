@@ -37,8 +37,9 @@ def _replies(bench: Bench) -> None:
             raise Broken(f"counts of a reply do not fit each other: {told}")
         # Points may be taken out between the two readings, of planned and then of room: the first
         # ones, which are short, as fast as they come, if the tasks' turns fall so.
-        by_lot = bench.setting.seed or bench.setting.random_schedule or bench.setting.slowness > 1
-        between = 4 if by_lot else 0
+        setting = bench.setting
+        otherwise = setting.seed or setting.group or setting.random_schedule
+        between = 4 if otherwise or setting.slowness > 1 else 0
         in_it = task[datum(bench, "ros_head")] - task[datum(bench, "ros_tail")]
         if (
             told.room > ring - 1 - in_it

@@ -153,7 +153,7 @@ def _leave(bench: Bench) -> None:
         if how == "has not beaten":
             bench.wait_until_at(points[-1][0], 5)
         else:
-            bench.rests(0.35, 0.3, f"a client that beats {how}")
+            bench.rests(0.3 + 0.05 * bench.setting.slowness, 0.3, f"a client that beats {how}")
         if not control.lost:
             raise Broken(f"a control client that {how} keeps its connection")
         control = next_one if next_one is not None else bench.control()

@@ -45,7 +45,11 @@ def _loop(bench: Bench) -> None:
     points += [(p, 0.4) for p, _ in out[1:3]]
     since = bench.now
     bench.sets_off(link, points)
-    while bench.progress(watcher).state == RawTrajectoryState.MOVING:
+    # The first move may be under way before anybody could tell.
+    while bench.progress(watcher).state in (
+        RawTrajectoryState.RECEIVING,
+        RawTrajectoryState.MOVING,
+    ):
         if bench.now - since > 20:
             raise Broken("a loop does not end")
     if bench.now - since < sum(d for _, d in points[1:]) - 0.5:

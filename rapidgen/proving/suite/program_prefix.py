@@ -12,6 +12,7 @@ from rapidgen.proving.messages import RawInstruction, RawReason
 from rapidgen.proving.model import Broken
 from rapidgen.proving.programs import ALL, Programmer, computes, orders, reached
 from rapidgen.proving.suite.control import done, stop
+from rapidgen.proving.suite.speed import aside
 
 case = Theme("programs", needs="stream")
 
@@ -95,16 +96,10 @@ def _all_kinds(bench: Bench, chance: random.Random) -> tuple[list[list[int]], in
             [RawInstruction.TOOL, *millionths([*frame, *frame, 1.0, 0.0, 0.0, 0.0])],
             [RawInstruction.WORK_OBJECT, *millionths([*frame, *frame])],
         ]
-        start, end = some[0].joints, some[1].joints
-        (x, y, z), turned = reached(
-            bench, tuple((a + b) / 2 for a, b in zip(start, end, strict=True))
-        )
-        circle = replace(
-            some[1],
-            kind=RawInstruction.MOVE_C,
-            pose=reached(bench, end),
-            via=((x, y, z + 0.01), turned),
-        )
+        before, pose = (reached(bench, order.joints) for order in some[:2])
+        # So flat that it does not tilt the tool out of a SCARA's reach.
+        via = aside(before, pose, 0.05)
+        circle = replace(some[1], kind=RawInstruction.MOVE_C, pose=pose, via=via)
         parts += [replace(some[0], zone=None).words, circle.words]
     if sets >= 0:
         parts += [[SET, *millionths([float(sets), 1.0])]]

@@ -322,11 +322,11 @@ def _circle(bench: Bench) -> None:
             raise Broken(f"a circle that was slowed down is left by {far * 1000:.1f} mm")
 
 
-def aside(one: Pose, other: Pose) -> Pose:
-    """Beside the middle between two places, for an arc of some 80 degrees."""
+def aside(one: Pose, other: Pose, share: float = 0.2) -> Pose:
+    """Beside the middle between two places, by a share of the way: 0.2 for an arc of 80 degrees."""
     way = np.subtract(other[0], one[0])
     side = np.cross(way, np.eye(3)[np.argmin(np.abs(way))])
-    x, y, z = (np.add(one[0], other[0]) / 2 + 0.2 * side).tolist()
+    x, y, z = (np.add(one[0], other[0]) / 2 + share * side).tolist()
     return (x, y, z), slerp(one[1], other[1], 0.5)
 
 
