@@ -352,6 +352,8 @@ def _first_of_all(bench: Bench) -> None:
             raise Broken(f"the first client has come {bench.now - came:.2f} s ago, told is {stamp}")
         link.close(abort=visit == 1, then=2 * period + 0.1)
         bench.moves_through(motion, bench.wave(3, duration=0.2))
+        # Its last hair's breadth belongs to the motion.
+        bench.wait_until_standing(3)
         bench.run(2 * bench.setting.motion.settle)
     _moved_by_others(bench, bench.state())
 
