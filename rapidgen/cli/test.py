@@ -148,6 +148,8 @@ def test(
     except WorkersLost as lost:
         mend = "take fewer --jobs; keep what is found with --results FILE, and --resume"
         raise refusal("RG809", None, str(lost), mend) from lost
+    if case and not report.tried and not report.broken_off and not report.left:
+        raise _nothing(report)
     if junit is not None:
         write_junit(report, junit)
     if html is not None:
@@ -162,6 +164,14 @@ def test(
             return 130
         raise KeyboardInterrupt
     return 0 if report.passed else 1
+
+
+def _nothing(report: "Proof") -> DiagnosticError:
+    """What was asked for is about what this driver does not have."""
+    names = ", ".join(dict.fromkeys(f"'{o.case}'" for o in report.outcomes))
+    whys = ", ".join(dict.fromkeys(o.untried for o in report.outcomes))
+    mend = "ask for another case, or for a driver that has it; `--list` shows the cases"
+    return refusal("RG811", None, f"of {names} there is nothing to prove: {whys}", mend)
 
 
 def _fitted(model: "RobotConfig", backup: Path) -> "RobotConfig":
@@ -270,13 +280,13 @@ def _show(report: "Proof", uncovered: bool, durations: int, command: str) -> Non
     from rich.table import Table
 
     from rapidgen.proving.model import is_program
-    from rapidgen.proving.report import complaint, met, missed, slowest
+    from rapidgen.proving.report import complaint, met, missed, slowest, untried
 
     console = Console(highlight=False)
     table = Table("group", "held", "of", "answers", box=None)
-    groups = dict.fromkeys(o.group for o in report.outcomes)
+    groups = dict.fromkeys(o.group for o in report.tried)
     for group in groups:
-        own = [o for o in report.outcomes if o.group == group]
+        own = [o for o in report.tried if o.group == group]
         answers = sorted({a.strip() for o in own for a in o.answers.split(",") if a})
         table.add_row(group, str(sum(o.passed for o in own)), str(len(own)), " ".join(answers))
     if report.schedules:
@@ -289,6 +299,8 @@ def _show(report: "Proof", uncovered: bool, durations: int, command: str) -> Non
     if of:
         table.add_row("lines of RAPID", str(reached), str(of), f"{reached / of:.1%} covered")
     console.print(table)
+    if why := untried(report):
+        console.print(f"nothing to prove: {why}", markup=False)
     if uncovered:
         for path, lines in missed(report):
             console.print(f"not reached: {path}: {lines}", markup=False, soft_wrap=True)

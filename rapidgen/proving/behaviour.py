@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 from rapidgen.proving.bench import Bench
+from rapidgen.proving.model import NothingToProve
 
 Proving: TypeAlias = Callable[[Bench], None]
 Part: TypeAlias = Literal["control", "stream", "feedback", "events"]
@@ -18,8 +19,6 @@ class Behaviour:
     `answers` names what upstream gets wrong here, if anything.
 
     `once`: it takes too long for every setting, and runs under the default ones alone.
-    `background`: it needs background tasks that go on when the program is stopped, which those of
-    a driver that is being commissioned do not.
     """
 
     name: str
@@ -28,13 +27,13 @@ class Behaviour:
     prove: Proving
     answers: str = ""
     once: bool = False
-    background: bool = False
 
 
 class Theme:
     """The cases of one file, in the order of its text: a decorator that says a case's own facts.
 
-    Where the driver lacks what a case `needs`, or all of them, there is nothing to prove.
+    Where the driver lacks what a case `needs`, or all of them, there is nothing to prove; nor is
+    there, while it is being commissioned, of tasks in the `background` that outlive the program.
     """
 
     def __init__(self, group: str, *, needs: Part | None = None) -> None:
@@ -55,10 +54,10 @@ class Theme:
         """Make a function the case of that name; it stays what it is."""
 
         def made(prove: Proving) -> Proving:
-            own = prove
+            own = _in_the_background(prove) if background else prove
             for part in (needs, self._needs):
                 own = own if part is None else _where_there_is(part, own)
-            self.cases.append(Behaviour(name, title, self._group, own, answers, once, background))
+            self.cases.append(Behaviour(name, title, self._group, own, answers, once))
             return prove
 
         return made
@@ -66,8 +65,20 @@ class Theme:
 
 def _where_there_is(part: Part, prove: Proving) -> Proving:
     def proved(bench: Bench) -> None:
-        full = bench.config.profile == "full"
-        if bench.group.ports.control if part == "control" else full:
-            prove(bench)
+        if part == "control":
+            if not bench.group.ports.control:
+                raise NothingToProve("there is no control port")
+        elif bench.config.profile != "full":
+            raise NothingToProve(f"the profile is {bench.config.profile}")
+        prove(bench)
+
+    return proved
+
+
+def _in_the_background(prove: Proving) -> Proving:
+    def proved(bench: Bench) -> None:
+        if bench.config.commissioning:
+            raise NothingToProve("while commissioning, background tasks stop with the program")
+        prove(bench)
 
     return proved

@@ -18,6 +18,10 @@ class Broken(Exception):
     """A demand that did not hold. The text says what was wanted and what was seen."""
 
 
+class NothingToProve(Exception):
+    """Raised by a case that is about what the driver or the controller does not have; says what."""
+
+
 @dataclass(frozen=True, slots=True)
 class Series:
     """Joint values over time for a plot: seconds, and one row of joints (rad, m) each."""
@@ -40,6 +44,8 @@ class Verdict:
     setting: str = ""
     blamed: tuple[str, ...] = ()
     """The smallest part of what the setting assumes that breaks the case."""
+    untried: str = ""
+    """Why there was nothing to prove, if so; it has passed then."""
     simulated: float = 0.0
     elapsed: float = 0.0
     """s of CPU."""
@@ -87,6 +93,11 @@ class Proof:
     """Pieces of work that were not begun, for a budget or after a failure."""
     lines: dict[str, dict[int, int]] = field(default_factory=dict)
     """Lines of RAPID by file, and how often the cases reached them; empty: not the whole suite."""
+
+    @property
+    def tried(self) -> list[Verdict]:
+        """Outcomes of the cases that had something to prove."""
+        return [outcome for outcome in self.outcomes if not outcome.untried]
 
     @property
     def covered(self) -> tuple[int, int]:

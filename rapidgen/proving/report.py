@@ -2,6 +2,7 @@
 
 import html
 import platform
+from collections import Counter
 from collections.abc import Sequence
 from datetime import datetime, timezone
 from pathlib import Path
@@ -66,6 +67,7 @@ def as_json(report: Proof) -> dict[str, Json]:
                 "group": outcome.group,
                 "setting": outcome.setting,
                 "passed": outcome.passed,
+                "untried": outcome.untried,
                 "detail": outcome.detail,
                 "elapsed": round(outcome.elapsed, 3),
                 "blamed": list(outcome.blamed),
@@ -88,6 +90,7 @@ def write_junit(report: Proof, path: Path) -> None:
         tests=str(len(report.outcomes) + max(1, len(report.findings))),
         failures=str(failures),
         errors="0",
+        skipped=str(len(report.outcomes) - len(report.tried)),
         time=f"{report.elapsed:.3f}",
     )
     for outcome in report.outcomes:
@@ -98,6 +101,8 @@ def write_junit(report: Proof, path: Path) -> None:
             name=_name(outcome),
             time=f"{outcome.elapsed:.3f}",
         )
+        if outcome.untried:
+            ElementTree.SubElement(case, "skipped", message=_xml(outcome.untried))
         if not outcome.passed:
             failure = ElementTree.SubElement(case, "failure", message=_xml(complaint(outcome)))
             failure.text = _xml("\n".join(outcome.log))
@@ -139,7 +144,7 @@ def write_html(report: Proof, path: Path) -> None:
 <html lang="en"><meta charset="utf-8"><title>{html.escape(report.name)}</title>
 <style>{_STYLE}</style>
 <h1>{html.escape(report.name)}: {verdict}</h1>
-<p>BUILD_ID {html.escape(report.build_id)} · {len(report.outcomes)} cases ·
+<p>BUILD_ID {html.escape(report.build_id)} · {len(report.tried)} cases ·
 {report.schedules} schedules explored · {report.programs} programs beside the same in RAPID ·
 on the virtual controller; no real controller was asked.</p>
 <p>{html.escape(_versions())}</p>
@@ -163,12 +168,13 @@ def _versions() -> str:
 
 def _group(name: str, outcomes: Sequence[Verdict]) -> str:
     """Its cases, open where one did not hold."""
-    held = sum(outcome.passed for outcome in outcomes)
-    mark, state = ("ok", "") if held == len(outcomes) else ("bad", " open")
+    tried = [outcome for outcome in outcomes if not outcome.untried]
+    held = sum(outcome.passed for outcome in tried)
+    mark, state = ("ok", "") if held == len(tried) else ("bad", " open")
     simulated = sum(outcome.simulated for outcome in outcomes)
     return (
         f'<details class="group"{state}><summary>{html.escape(name)}: <span class="{mark}">{held} '
-        f"of {len(outcomes)} held</span>, {simulated:.0f} s simulated</summary>\n"
+        f"of {len(tried)} held</span>, {simulated:.0f} s simulated</summary>\n"
         "<table><tr><th>case<th>what must hold<th>answers<th>simulated<th>verdict</tr>\n"
         f"{''.join(map(_row, outcomes))}</table></details>\n"
     )
@@ -181,6 +187,14 @@ def slowest(report: Proof, count: int) -> list[tuple[str, float, int]]:
         taken.setdefault(outcome.case, []).append(outcome.elapsed)
     rows = sorted(((sum(s), case, len(s)) for case, s in taken.items()), reverse=True)
     return [(case, seconds, times) for seconds, case, times in rows[:count]]
+
+
+def untried(report: Proof) -> str:
+    """Of how many cases nothing was proven, and why; an empty text where all had something."""
+    cases = {outcome.case for outcome in report.tried}
+    why = {o.case: o.untried for o in report.outcomes if o.case not in cases}
+    reasons = Counter(why.values()).most_common()
+    return "; ".join(f"{reason} ({count})" for reason, count in reasons)
 
 
 def _coverage(report: Proof) -> str:
@@ -252,6 +266,8 @@ def _xml(text: str) -> str:
 
 def _row(outcome: Verdict) -> str:
     verdict = '<td class="ok">ok' if outcome.passed else '<td class="bad">failed'
+    if outcome.untried:
+        verdict = f"<td>nothing to prove: {html.escape(outcome.untried)}"
     return (
         f"<tr><td>{html.escape(_name(outcome))}<td>{html.escape(outcome.title)}"
         f"<td>{html.escape(outcome.answers)}<td>{outcome.simulated:.2f} s{verdict}</tr>\n"

@@ -21,7 +21,7 @@ from rapidgen.proving.fresh import FreshBenches
 from rapidgen.proving.guide import Guide
 from rapidgen.proving.identity import identity
 from rapidgen.proving.likeness import PROGRAMS, liken, name_of, takes_programs
-from rapidgen.proving.model import Finding, Proof, Verdict, is_program
+from rapidgen.proving.model import Finding, NothingToProve, Proof, Verdict, is_program
 from rapidgen.proving.plan import Ground, drawn, named
 from rapidgen.proving.programs import called
 from rapidgen.proving.report import series
@@ -164,7 +164,6 @@ def _attempts(
         Attempt(number, name, rows.get(name, ()), setting)
         for name, setting in settings(config, rows).items()
         for number, case in enumerate(CASES)
-        if not (config.commissioning and case.background)
         if case.name in only or (not only and (setting.coverage or not case.once))
     ]
 
@@ -303,10 +302,12 @@ class Starter:
 
 def _verdict(case: Behaviour, bench: Bench) -> Verdict:
     started = time.process_time()
-    detail = ""
+    detail = untried = ""
     try:
         case.prove(bench)
         bench.healthy()
+    except NothingToProve as why:
+        untried = str(why)
     except FAILURES as error:
         detail = str(error) or type(error).__name__
     # The case's function may be none that can be sent from process to process.
@@ -317,6 +318,7 @@ def _verdict(case: Behaviour, bench: Bench) -> Verdict:
         answers=case.answers,
         passed=not detail,
         detail=detail,
+        untried=untried,
         simulated=bench.now,
         elapsed=time.process_time() - started,
         log=bench.log() if detail else (),

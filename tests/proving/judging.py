@@ -22,6 +22,7 @@ from rapidgen.diagnostics import DiagnosticError
 from rapidgen.proving.behaviour import Behaviour
 from rapidgen.proving.bench import FAILURES, Bench, with_module
 from rapidgen.proving.campaign import Workload
+from rapidgen.proving.model import NothingToProve
 from rapidgen.proving.run import Starter
 from rapidgen.proving.settings import Setting
 from rapidgen.proving.suite import CASES
@@ -279,6 +280,8 @@ class Judge:
         try:
             case.prove(self._bench)
             self._bench.healthy()
+        except NothingToProve:
+            return ""
         except (*FAILURES, DiagnosticError):
             return case.name
         except _Hung:

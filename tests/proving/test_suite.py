@@ -56,23 +56,45 @@ OF_THE_CONTROLLER = (
 )
 
 
-def broken(config, names, setting=None):
-    """What did not hold, of the named cases."""
+# What the smallest configuration has not.
+NOT_OF_SIX_AXES = (
+    "batch-full-ring",
+    "two-groups",
+    "data-reading-fails",
+    "routine-missing",
+    "routine-results",
+    "routine-alone",
+    "routine-targets",
+    "slowed-down",
+    "strangers",
+    "tcp-too-fast",
+    "tcp-arc",
+    "tcp-turns",
+    "tcp-recorded",
+)
+
+
+def broken(config, names, setting=None, untried=()):
+    """What did not hold, of the named cases, or was not tried and is not known to be so."""
     starter = Starter(config, make_system(config, build(config)), setting or Setting())
     outcomes = [starter.attempt(BY_NAME[name]) for name in names]
     starter.close()
+    assert {o.case for o in outcomes if o.untried} == set(untried)
     return {outcome.case: outcome.detail for outcome in outcomes if not outcome.passed}
 
 
 @pytest.mark.parametrize("group", dict.fromkeys(case.group for case in CASES))
 def test_everything_holds_for_six_axes(group):
     names = [case.name for case in CASES if case.group == group]
-    assert broken(load_config("irb120"), names) == {}
+    untried = [name for name in names if name in NOT_OF_SIX_AXES]
+    assert broken(load_config("irb120"), names, untried=untried) == {}
 
 
 @pytest.mark.parametrize("name", KINDS)
 def test_what_depends_on_the_joints_holds_for_every_kind(name):
-    assert broken(load_config(name), OF_THE_ROBOT) == {}
+    # Its arms have a ceiling that is too low for large corners.
+    untried = ("largest-corner",) if name == "irb14000" else ()
+    assert broken(load_config(name), OF_THE_ROBOT, untried=untried) == {}
 
 
 @pytest.mark.parametrize("texts", [texts for texts in rows().values() if texts])
@@ -237,7 +259,6 @@ def test_every_example_can_be_proven(path, capsys):
         # A TCP too slow to get off its path.
         ("crb15000-rw7", "e-stop-at-speed", ()),
         ("irb120-rw6", "another-program", ("--set", "main=own")),
-        ("irb120-rw6", "program-paused", ("--set", "ports.control=0")),
         ("irb120-rw6", "program-prefix", ("--set", "commissioning=true")),
         ("irb120-rw6", "own-main", ("--set", "commissioning=true")),
     ],
@@ -248,11 +269,32 @@ def test_a_case_holds_on_robots_and_configurations_unlike_others(name, case, wor
     assert main(words) == 0, capsys.readouterr().out
 
 
-def test_what_needs_an_answer_while_stopped_is_left_out_while_commissioning():
-    known = {case.name for case in CASES if case.background}
-    config = load_config("irb120", overrides=["commissioning=true"])
-    assert "not-executing" in known
-    assert prove(config, jobs=1, only=("not-executing",), strength=0).outcomes == []
+@pytest.mark.parametrize(
+    ("override", "case", "why"),
+    [
+        ("commissioning=true", "not-executing", "while commissioning, background tasks stop"),
+        ("ports.control=0", "program-paused", "there is no control port"),
+        ("profile=basic", "stream", "the profile is basic"),
+        ("name=cell", "two-groups", "there is one group"),
+    ],
+)
+def test_a_case_that_has_nothing_to_prove_is_not_said_to_hold(
+    override, case, why, tmp_path, capsys
+):
+    report = tmp_path / "r.xml"
+    words = ["test", "irb120", "--set", override, "--quick", "--jobs", "1", "--case"]
+    assert main([*words, case, "--junit", str(report)]) == 2
+    told = capsys.readouterr()
+    assert "RG811" in told.err
+    assert why in told.err
+    assert "held" not in told.out
+    assert not report.exists()
+    assert main([*words, case, "--case", "ping", "--junit", str(report)]) == 0
+    told = capsys.readouterr().out
+    assert f"nothing to prove: {why}" in told
+    assert re.findall(r"^ (\w+) +(\d+) +(\d+)", told, re.MULTILINE) == [("compatible", "1", "1")]
+    suite = ElementTree.parse(report).getroot()[0]
+    assert (suite.get("skipped"), len(suite.findall("testcase/skipped"))) == ("1", 1)
 
 
 def test_a_fault_of_the_configuration_is_a_diagnostic_in_workers_too(monkeypatch, capsys):

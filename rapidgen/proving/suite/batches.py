@@ -8,7 +8,7 @@ from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.instructions import fails
 from rapidgen.proving.messages import RawReason, RawStreamFlag, RawTrajectoryState
-from rapidgen.proving.model import Broken
+from rapidgen.proving.model import Broken, NothingToProve
 from rapidgen.proving.programs import WHOLE, Programmer, orders
 from rapidgen.proving.stream import BEGIN, END, FLUSH, Streamer
 from rapidgen.proving.suite.motion_task import datum
@@ -143,7 +143,7 @@ def _enough(bench: Bench) -> None:
     preload = bench.config.trajectory.preload
     duration = preload / 4
     if duration < 1.05 * bench.config.trajectory.min_segment:
-        return
+        raise NothingToProve("its segments are longer than a part of `preload`")
     for count, enough in ((5, True), (4, False)):
         stream = Streamer(bench)
         points = [(p, duration) for p, _ in way(bench, 5, duration)][:count]
@@ -250,7 +250,7 @@ def _short_last(bench: Bench) -> None:
     """The last segment may be short: it has no successor."""
     policy = bench.config.trajectory
     if policy.too_fast != "refuse" or policy.min_segment < 0.005:
-        return
+        raise NothingToProve("`min_segment` refuses no segment")
     points = [(p, 1.0) for p, _ in bench.wave(4, size=0.001)]
     points[3] = (points[3][0], policy.min_segment / 2)
     stream = Streamer(bench)
@@ -365,7 +365,7 @@ def _full_ring(bench: Bench) -> None:
     policy = bench.config.trajectory
     count, seconds = policy.ring - 1, max(0.12, 1.05 * policy.min_segment)
     if count * seconds > policy.preload:
-        return
+        raise NothingToProve("a full ring lasts longer than `preload`")
     stream = Streamer(bench)
     points = way(bench, count, seconds)
     stream.takes("almost all that there is room for", points[:-3], BEGIN)

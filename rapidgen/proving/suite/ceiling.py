@@ -7,7 +7,7 @@ from itertools import pairwise
 from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import CEILING, Bench
 from rapidgen.proving.messages import RawPointsAccepted, RawReason
-from rapidgen.proving.model import Broken
+from rapidgen.proving.model import Broken, NothingToProve
 from rapidgen.proving.stream import BEGIN, END, Streamer
 from rapidgen.proving.suite.refusals import refused
 from rapidgen.proving.track import Point, Position, changed
@@ -32,13 +32,13 @@ def _asked(bench: Bench) -> bool:
 def _tcp_too_fast(bench: Bench) -> None:
     """No axis is too fast: the TCP alone is."""
     if not _asked(bench):
-        return
+        raise NothingToProve("the TCP has no ceiling of its own")
     seconds = max(0.2, bench.config.trajectory.min_segment)
     step = 0.5 * seconds * bench.group.joints[0].speed
     here = bench.position
     away = changed(here, 0, here[0] + step)
     if bench.tcp_seconds(here, away) < 1.2 * seconds:
-        return
+        raise NothingToProve("no axis can make the TCP too fast")
     points = [(here, 1.0), (away, seconds), (here, 9.0)]
     refused(bench, bench.download(points), [RawReason.TCP_TOO_FAST], point=1)
     if not bench.streams:
@@ -61,7 +61,7 @@ def _long_turn(bench: Bench) -> None:
     low, high = (changed(here, 0, v) for v in (joint.lower + 0.01, joint.upper - 0.01))
     seconds = 0.5 * bench.tcp_seconds(low, high)
     if not _asked(bench) or seconds < 1.1 * (joint.upper - joint.lower) / joint.speed:
-        return
+        raise NothingToProve("axis 1 can make no TCP too fast")
     bench.moves_through(bench.motion(), [(here, 1.0), (low, bench.seconds_to(low))])
     points = [(low, 1.0), (high, seconds)]
     refused(bench, bench.download(points), [RawReason.TCP_TOO_FAST], point=1)
@@ -132,7 +132,7 @@ def is_taken(bench: Bench, points: list[Point], *, streaming: bool) -> bool:
 def _turns(bench: Bench) -> None:
     """There and back on axis 1, where the robot has to turn round, at once and after a while."""
     if not _asked(bench):
-        return
+        raise NothingToProve("the TCP has no ceiling of its own")
     joint, here, limit = bench.group.joints[0], bench.position, bench.group.tcp_speed_limit
     for seconds in (0.2, 0.3, 0.5):
         wanted = max(seconds, 1.2 * bench.config.trajectory.min_segment)
@@ -154,7 +154,7 @@ def _turns(bench: Bench) -> None:
 def _recorded(bench: Bench) -> None:
     """On random ways, near the ceiling, as a whole and streamed, from rest to rest."""
     if not _asked(bench):
-        return
+        raise NothingToProve("the TCP has no ceiling of its own")
     chance, limit = random.Random(bench.setting.seed), bench.group.tcp_speed_limit
     for number in range(ROUNDS):
         since, points = bench.now, random_way(bench, chance, _MARGIN)

@@ -4,7 +4,7 @@ from rapidgen.proving import messages
 from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import STOP, raw_point
-from rapidgen.proving.model import Broken
+from rapidgen.proving.model import Broken, NothingToProve
 from rapidgen.proving.stream import BEGIN, END, Streamer
 from rapidgen.proving.track import Point, changed, distance
 
@@ -27,7 +27,7 @@ def _quick(bench: Bench) -> list[Point]:
 @case("slowed-down", "what is too fast is slowed down where told so", "R10")
 def _slowed_down(bench: Bench) -> None:
     if bench.config.trajectory.too_fast != "slow_down":
-        return
+        raise NothingToProve("`too_fast` refuses")
     for streaming in (False, True) if bench.streams else (False,):
         points, last, since = _quick(bench), bench.last_event, bench.now
         if streaming:
@@ -45,7 +45,7 @@ def _slowed_down(bench: Bench) -> None:
 def _strangers(bench: Bench) -> None:
     """Nor do they take anybody's place."""
     if not bench.config.allowed_clients:
-        return
+        raise NothingToProve("`allowed_clients` names none")
     ports, known = bench.group.ports, [bench.state() for _ in range(3)]
     bench.run(0.5)
     for port in (ports.motion, ports.state, ports.control):

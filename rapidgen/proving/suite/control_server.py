@@ -7,7 +7,7 @@ from rapidgen.proving.bench import Bench
 from rapidgen.proving.instructions import fails, watched_orders
 from rapidgen.proving.link import STOP, RawLink
 from rapidgen.proving.messages import RawComm, RawReason, RawTrajectoryState
-from rapidgen.proving.model import Broken
+from rapidgen.proving.model import Broken, NothingToProve
 from rapidgen.proving.stream import BEGIN, Streamer
 from rapidgen.proving.suite.control import not_done, stop, stopped
 from rapidgen.proving.suite.streams import way
@@ -165,7 +165,7 @@ def _leave(bench: Bench) -> None:
 def _not_begun(bench: Bench) -> None:
     """A stream that has points but did not begin to move is stopped: no point was reached."""
     if bench.config.trajectory.preload <= 0:
-        return
+        raise NothingToProve("streams begin at once, `preload` is 0")
     control, watcher = bench.control(), bench.watcher()
     stream = Streamer(bench)
     stream.put(way(bench, 1), BEGIN)

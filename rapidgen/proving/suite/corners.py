@@ -16,7 +16,7 @@ from rapidgen.motion.moves import JointMove, Move, Zone
 from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.instructions import fails
-from rapidgen.proving.model import Broken
+from rapidgen.proving.model import Broken, NothingToProve
 from rapidgen.proving.suite.motion_task import begins
 from rapidgen.proving.suite.speed import asks_as_it_begins
 from rapidgen.proving.track import Point, Position
@@ -211,7 +211,7 @@ def _slowed(bench: Bench) -> None:
 def _largest(bench: Bench) -> None:
     """A quick TCP that turns round: no corner is larger than the zone of the configuration."""
     if bench.group.tcp_speed_limit < 5:
-        return
+        raise NothingToProve("the TCP's ceiling is too low for large corners")
     least = max(0.2, bench.config.trajectory.min_segment)
     walk = _Walk(bench)
     joint = bench.group.joints[0]
@@ -241,7 +241,7 @@ def _unknown(bench: Bench) -> None:
     """The TCP's speed cannot be told: the largest corner, and the trajectory goes on."""
     policy = bench.config.trajectory
     if policy.zone == "fine" or policy.corners == "zone" or not bench.group.chain:
-        return
+        raise NothingToProve("the driver computes no sizes of corners")
     zones: list[Zone] = []
     group = bench.motion_group
 

@@ -8,7 +8,7 @@ from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import RawLink, point_frame, raw_point
 from rapidgen.proving.messages import RawComm, RawReason, RawSpecial, RawTrajectoryState, decode
-from rapidgen.proving.model import Broken
+from rapidgen.proving.model import Broken, NothingToProve
 from rapidgen.proving.suite.refusals import refused
 from rapidgen.proving.track import SETTLED, Point, Position, changed, distance, inward, small_unit
 
@@ -60,7 +60,7 @@ def _durations(bench: Bench) -> None:
 def _shortest_segment(bench: Bench) -> None:
     shortest = bench.config.trajectory.min_segment
     if shortest < 0.005 or bench.config.trajectory.too_fast != "refuse":
-        return
+        raise NothingToProve("`min_segment` refuses no segment")
     points = bench.wave(4, size=0.001)
     points[1] = points[2] = (points[1][0], shortest * 1.001)
     _taken(bench, [points[0], (points[1][0], shortest * 1.001), points[3]], "the shortest segment")
@@ -77,7 +77,7 @@ def _shortest_segment(bench: Bench) -> None:
 @case("fastest", "each axis at its speed and above", "R10")
 def _fastest(bench: Bench) -> None:
     if bench.config.trajectory.too_fast != "refuse" or bench.group.tcp_speed_limit < 5:
-        return
+        raise NothingToProve("axes are not refused for their speed alone")
     for axis, joint in enumerate(bench.group.joints):
         seconds = max(0.2, bench.config.trajectory.min_segment)
         room = max(joint.upper - bench.position[axis], bench.position[axis] - joint.lower)

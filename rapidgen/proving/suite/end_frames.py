@@ -7,7 +7,7 @@ from rapidgen.proving import messages
 from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import CEILING, Bench
 from rapidgen.proving.messages import RawReason, RawSpecial, RawTrajectoryState
-from rapidgen.proving.model import Broken
+from rapidgen.proving.model import Broken, NothingToProve
 from rapidgen.proving.suite.points import Table
 from rapidgen.proving.track import SETTLED, Point, Position, changed, distance, inward
 
@@ -240,7 +240,7 @@ def _fed(bench: Bench) -> None:
     """More points than the ring takes are all executed, in time, and the server goes on reading."""
     policy = bench.config.trajectory
     if policy.capacity < policy.ring + 25:
-        return
+        raise NothingToProve("a whole trajectory has room in the ring")
     table, points, since = Table(bench), _long(bench, policy.ring + 25), bench.now
     table.number += 1
     table.link.send(bench.download(points))
@@ -263,7 +263,7 @@ def _ends_while_fed(bench: Bench) -> None:
     """Nothing of what had not found room yet is ever executed."""
     policy = bench.config.trajectory
     if policy.capacity < policy.ring + 60:
-        return
+        raise NothingToProve("a whole trajectory has room in the ring")
     table, points = Table(bench), _long(bench, policy.ring + 60)
     link, data = table.link, bench.download(points)
     for action in ("STOP", "stop", "another"):

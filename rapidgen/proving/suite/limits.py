@@ -12,7 +12,7 @@ from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import HELLO, Bench
 from rapidgen.proving.link import RawLink, raw_point
 from rapidgen.proving.messages import RawComm, RawReason, decode
-from rapidgen.proving.model import Broken
+from rapidgen.proving.model import Broken, NothingToProve
 from rapidgen.proving.track import Position
 
 case = Theme("limits")
@@ -198,7 +198,7 @@ def _counts(bench: Bench, cell: _Cell, told: Sequence[_Told]) -> None:
 def _limits_without_sense(bench: Bench) -> None:
     """Nobody knows where such a joint may be: no point is taken, wherever it is."""
     if not bench.setting.dialect.axis_limits_told:
-        return
+        raise NothingToProve("the controller does not tell limits of axes")
     joints, cell = bench.group.joints, _Cell(bench)
     for number in range(len(_nonsense(joints[0], 0.0, 0.0))):
         axis = number % len(joints)

@@ -11,7 +11,7 @@ from rapidgen.proving.bench import Bench
 from rapidgen.proving.instructions import fails
 from rapidgen.proving.link import RawLink
 from rapidgen.proving.messages import RawComm, RawContent, RawReason
-from rapidgen.proving.model import Broken
+from rapidgen.proving.model import Broken, NothingToProve
 from rapidgen.proving.suite.control import not_done
 from rapidgen.system.model import ModuleFile, System
 
@@ -84,7 +84,7 @@ def _reading_fails(bench: Bench) -> None:
     listed = bench.group.data
     texts = [n for n, d in enumerate(listed) if (d.type, d.access) == ("string", "write")]
     if not texts:
-        return
+        raise NothingToProve("no text of the program may be written")
     with bench.beside(_with(bench, listed)) as other:
         # Three of its head, three of what is asked, and two characters with their end.
         for name, count in (("UnpackRawBytes", 9), ("ByteToStr", 2)):

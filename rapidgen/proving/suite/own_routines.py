@@ -14,7 +14,7 @@ from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import RawLink
 from rapidgen.proving.messages import RawInstruction, RawReason, RawTrajectoryState
-from rapidgen.proving.model import Broken
+from rapidgen.proving.model import Broken, NothingToProve
 from rapidgen.proving.programs import ALL, Programmer, computes, orders, reached
 from rapidgen.proving.suite.control import not_done, stop
 from rapidgen.runtime.builtins.motion.access import data_of
@@ -128,7 +128,7 @@ def _absent(bench: Bench) -> None:
 def _missing(bench: Bench) -> None:
     """With that reason, what was before it is executed, and nothing of another one is called."""
     if not _has_these(bench):
-        return
+        raise NothingToProve("the routines that are tried are not in the configuration")
     system = _with_module(bench, ModuleFile("nocell", "nocell.mod", b"MODULE nocell\nENDMODULE\n"))
     with bench.beside(system) as other:
         client, watcher = Programmer(other), other.watcher()
@@ -161,7 +161,7 @@ def _missing(bench: Bench) -> None:
 def _results(bench: Bench) -> None:
     """Numbers, texts, number and name of an error; the program behind it goes on, or ends."""
     if not _has_these(bench):
-        return
+        raise NothingToProve("the routines that are tried are not in the configuration")
     with bench.beside(_with_module(bench)) as other:
         client, watcher = Programmer(other), other.watcher()
         for seam, dry, good in ((1.5, 0, 0), (2.0**100, 1, 1), (-0.0, 0, 1), (1.5, 1, 0)):
@@ -193,7 +193,7 @@ def _results(bench: Bench) -> None:
 def _alone(bench: Bench) -> None:
     """Not by its own client, nor by another one; STOP and the time-out end it, UNDO runs."""
     if not _has_these(bench):
-        return
+        raise NothingToProve("the routines that are tried are not in the configuration")
     with bench.beside(_with_module(bench)) as other:
         client, watcher = Programmer(other), other.watcher()
         own = other.controller.task(other.group.task)
@@ -237,7 +237,7 @@ def _alone(bench: Bench) -> None:
 def _displaced(bench: Bench) -> None:
     """PDispOn and EOffsOn would take it elsewhere than was checked: it ends before it does."""
     if not computes(bench):
-        return
+        raise NothingToProve("the driver computes no poses")
     _displaced_before(bench)
     if not _has_these(bench):
         return
@@ -297,7 +297,7 @@ def _displaced_before(bench: Bench) -> None:
 def _targets(bench: Bench) -> None:
     """Each with its own number, in m and rad; where there is none, none is told."""
     if not _has_these(bench) or not computes(bench):
-        return
+        raise NothingToProve("the routines that are tried are not there, or no poses are computed")
     with bench.beside(_with_module(bench)) as other:
         client = Programmer(other)
         first, second = (order.joints for order in orders(other, 3, random.Random(29))[1:])

@@ -10,6 +10,7 @@ from rapidgen.axes.frames import Vector
 from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.messages import RawInstruction, RawReason
+from rapidgen.proving.model import NothingToProve
 from rapidgen.proving.programs import BEGIN, END, Programmer, RawOrder, computes, orders, reached
 from rapidgen.proving.suite.program_frames import object_of, placement_of, says
 
@@ -25,7 +26,7 @@ _CHORD_BY_HEIGHT = {
 def _circles(bench: Bench) -> None:
     """From the start, behind a move, behind one of the batch before [REF MoveC, Limitations]."""
     if not computes(bench):
-        return
+        raise NothingToProve("the driver computes no poses")
     client = Programmer(bench)
     found = orders(bench, 3, random.Random(71))
     one, two, three = (replace(o, kind=RawInstruction.MOVE_ABSJ, pose=None) for o in found)

@@ -14,7 +14,7 @@ from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.instructions import at_call
 from rapidgen.proving.messages import RawInstruction, RawReason, RawTrajectoryState
-from rapidgen.proving.model import Broken
+from rapidgen.proving.model import Broken, NothingToProve
 from rapidgen.proving.programs import ALL, Programmer, RawOrder, computes, orders, reached
 from rapidgen.proving.suite.motion_task import patience
 from rapidgen.proving.suite.program_frames import Other, object_of, says, tool_of
@@ -156,7 +156,7 @@ _DISPLACED: tuple[Pose, ...] = (
 def _displaced_late(bench: Bench) -> None:
     """However small: the first pose ends the program, which has not moved; joints are no poses."""
     if not computes(bench):
-        return
+        raise NothingToProve("the driver computes no poses")
     client, watcher, modal = Programmer(bench), bench.watcher(), bench.motion_group.modal
     data = data_of(bench.rapid_task("ROS_motion"), bench.motion_group)
     _, one, *_ = _stand_still(bench, client)

@@ -15,7 +15,7 @@ from rapidgen.proving.messages import (
     RawStreamFlag,
     RawTrajectoryState,
 )
-from rapidgen.proving.model import Broken
+from rapidgen.proving.model import Broken, NothingToProve
 from rapidgen.proving.programs import (
     ALL,
     BEGIN,
@@ -126,7 +126,7 @@ def _moved(bench: Bench, program: list[RawOrder], since: float) -> tuple[float, 
 def _configurations(bench: Bench) -> None:
     """From one configuration to another, whatever instruction was before."""
     if not computes(bench):
-        return
+        raise NothingToProve("the driver computes no poses")
     client, middle = Programmer(bench), bent(bench)
     there = RawOrder(MOVE_ABSJ, middle, None, zone=None)
     client.takes("a program", [there])
@@ -150,7 +150,7 @@ def _arm_side(bench: Bench) -> None:
     """Also where two postures of the pose have one configuration, and the other one is nearer."""
     geometry = bench.motion_group.kinematics
     if geometry is None or not computes(bench):
-        return
+        raise NothingToProve("the driver computes no poses")
     middle = bent(bench)
     client, asked = Programmer(bench), (0.9, -middle[1], *middle[2:])
     alike = geometry.configuration(asked)

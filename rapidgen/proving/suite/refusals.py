@@ -8,7 +8,7 @@ from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import point_frame, raw_point
 from rapidgen.proving.messages import RawComm, RawReason, RawTrajectoryState
-from rapidgen.proving.model import Broken
+from rapidgen.proving.model import Broken, NothingToProve
 from rapidgen.proving.track import Point
 
 case = Theme("refused")
@@ -134,7 +134,7 @@ def _start_too_far(bench: Bench) -> None:
 @case("too-fast", "a duration that an axis cannot meet", "R10")
 def _too_fast(bench: Bench) -> None:
     if bench.config.trajectory.too_fast != "refuse":
-        return
+        raise NothingToProve("`too_fast` slows down")
     for axis, joint in enumerate(bench.group.joints):
         here = bench.position
         seconds = max(0.2, bench.config.trajectory.min_segment)
@@ -154,7 +154,7 @@ def _too_fast(bench: Bench) -> None:
 def _segment_too_short(bench: Bench) -> None:
     shortest = bench.config.trajectory.min_segment
     if bench.config.trajectory.too_fast != "refuse" or shortest < 0.005:
-        return
+        raise NothingToProve("`min_segment` refuses no segment")
     points = bench.wave(5, size=0.001)
     points[2] = (points[2][0], shortest / 2)
     refused(bench, bench.download(points), [RawReason.SEGMENT_TOO_SHORT], point=2)

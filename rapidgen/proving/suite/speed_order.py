@@ -10,7 +10,7 @@ from rapidgen.proving.bench import Bench
 from rapidgen.proving.instructions import Instruction, at_call, fails, wrapped
 from rapidgen.proving.link import RawLink
 from rapidgen.proving.messages import RawComm
-from rapidgen.proving.model import Broken
+from rapidgen.proving.model import Broken, NothingToProve
 from rapidgen.proving.programs import Programmer
 from rapidgen.proving.suite.control import done
 from rapidgen.proving.suite.speed import (
@@ -85,11 +85,11 @@ def _between(bench: Bench) -> None:
 def _of_short(bench: Bench) -> None:
     """No SpeedRefresh slows them down, which would end in a stop."""
     if not bench.setting.corners_in_time:
-        return
+        raise NothingToProve("tasks by lot are not in time for a corner")
     control, link = bench.control(), bench.motion()
     short = max(0.12, 1.05 * bench.config.trajectory.min_segment)
     if short > LONG:
-        return
+        raise NothingToProve("`min_segment` allows no short moves")
     line = straight(bench, 26, short)
     # A long one before them counts no more.
     points = [line[0], (line[6][0], 6 * short), *line[7:]]

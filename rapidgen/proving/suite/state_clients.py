@@ -16,7 +16,7 @@ from rapidgen.proving.bench import Bench
 from rapidgen.proving.instructions import fails
 from rapidgen.proving.link import RawLink
 from rapidgen.proving.messages import RawComm, RawFeature, RawReason
-from rapidgen.proving.model import Broken
+from rapidgen.proving.model import Broken, NothingToProve
 from rapidgen.proving.suite.refusals import refused
 from rapidgen.proving.suite.state_port import PLAIN, on_turn, rounds, subscribe
 from rapidgen.proving.track import Point
@@ -318,7 +318,7 @@ def _events(bench: Bench) -> None:
 def _limits_of_the_controller(bench: Bench) -> None:
     """A joint that the controller lets move less has those limits."""
     if not bench.setting.dialect.axis_limits_told:
-        return
+        raise NothingToProve("the controller does not tell limits of axes")
     group = bench.group
     joint = group.joints[0]
     middle, half = (joint.lower + joint.upper) / 2, (joint.upper - joint.lower) / 2

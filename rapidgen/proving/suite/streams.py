@@ -5,7 +5,7 @@ from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import RawLink
 from rapidgen.proving.messages import RawReason, RawStreamFlag, RawTrajectoryState
-from rapidgen.proving.model import Broken
+from rapidgen.proving.model import Broken, NothingToProve
 from rapidgen.proving.stream import BEGIN, END, FLUSH, Streamer
 from rapidgen.proving.suite.motion_task import patience
 from rapidgen.proving.track import Point, distance
@@ -55,7 +55,7 @@ def _preload(bench: Bench) -> None:
     points = way(bench, 40, 0.2)
     few = max(2, int(0.6 * seconds / points[1][1]))
     if few * points[1][1] >= seconds:
-        return
+        raise NothingToProve("`preload` is shorter than a few points")
     for flags in (END, FLUSH, _NONE):
         stream = Streamer(bench)
         own = [(p, points[1][1]) for p, _ in way(bench, 40, 0.2)]
