@@ -116,7 +116,7 @@ suite: $(STAMP) ## 8 min: every case of `rapidgen test`, any two assumptions abo
 triples: $(STAMP) ## 15 min: the same where any three assumptions about controllers meet
 	$(BIN)/rapidgen test irb120 --together 3 --seeds 0
 
-signature: $(STAMP) ## 2 h: the same on every example, and on any two of profile, commissioning, main, control
+signature: $(STAMP) ## 3 h: the same on every example, and on any two of profile, commissioning, main, control
 	$(BIN)/python benchmarks/signature.py
 
 mutants: $(STAMP) ## 5 min: a defect of the front end that turns it red, for each conformance file
