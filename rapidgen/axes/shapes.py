@@ -110,9 +110,8 @@ def arc_through(
 
     Points closer than 0.1 mm are no circle, nor are two that the first one sees less than 1 degree
     apart (ABB's limits of MoveC, as RobotComponents' path generator names them). The orientation
-    at `via` only
-    decides between the short and the long way of the tool's own turn (S4 datasys 2-MoveC-3),
-    unless the mode asks for it.
+    at `via` only decides between the short and the long way of the tool's own turn (S4 datasys
+    2-MoveC-3), unless the mode asks for it.
     """
     a, b, c = start[0], via[0], end[0]
     to_via, to_end = frames.subtract(b, a), frames.subtract(c, a)

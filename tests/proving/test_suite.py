@@ -59,6 +59,7 @@ OF_THE_CONTROLLER = (
 # What the smallest configuration has not.
 NOT_OF_SIX_AXES = (
     "batch-full-ring",
+    "program-without-signals",
     "two-groups",
     "data-reading-fails",
     "routine-missing",

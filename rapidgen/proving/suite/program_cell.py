@@ -12,7 +12,7 @@ from rapidgen.proving.batches import millionths
 from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.messages import RawInstruction, RawReason, RawTrajectoryState
-from rapidgen.proving.model import Broken
+from rapidgen.proving.model import Broken, NothingToProve
 from rapidgen.proving.programs import (
     ALL,
     Programmer,
@@ -226,6 +226,8 @@ def _sets(bench: Bench) -> None:
 def _without(bench: Bench) -> None:
     """Set, on the way and waited for; the others work."""
     exposed = bench.config.signals
+    if not exposed:
+        raise NothingToProve("no signal is exposed")
     for index, signal in enumerate(exposed):
         there = tuple(s for s in bench.system.signals if s.name != signal.name)
         with bench.beside(replace(bench.system, signals=there)) as other:

@@ -287,7 +287,7 @@ def _circle(bench: Bench) -> None:
     """Its end is ordered anew, and is no circle through where the robot was before."""
     # The tool turns with the circle, which a palletizer's does not.
     if not computes(bench) or len(bench.group.joints) < 6:
-        raise NothingToProve("its tool does not turn with a circle")
+        raise NothingToProve("no poses are computed, or the tool does not turn with a circle")
     control, client = bench.control(), Programmer(bench)
     first, *_, last = orders(bench, 4, random.Random(31))
     client.takes("a program", [first])
