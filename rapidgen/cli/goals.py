@@ -11,7 +11,7 @@ import typer
 from rapidgen.diagnostics import suggest
 
 if TYPE_CHECKING:
-    from rapidgen.axes.frames import Pose
+    from rapidgen.axes.frames import Pose, Quaternion, Vector
     from rapidgen.client.core.group import Group
 
 _TURN = 180 / math.pi
@@ -75,56 +75,77 @@ def pose_text(units: Units, pose: "Pose") -> str:
     )
 
 
-def read_joints(
-    text: str, units: Units, group: "Group", here: Sequence[float], option: str = "--joints"
+@dataclass(frozen=True, slots=True)
+class Figures:
+    """Joints as they were typed, before a robot is asked: values in the order given, in the units
+    of `Units`, with a name each or none at all."""
+
+    values: tuple[float, ...]
+    names: tuple[str, ...] = ()
+
+
+def read_figures(text: str, option: str = "--joints") -> Figures:
+    """Values between commas, or NAME=VALUE. Raises typer.BadParameter."""
+    parts = text.split(",")
+    hits = [hit for part in parts if (hit := _NAMED.fullmatch(part))]
+    if not hits:
+        return Figures(tuple(_number(part, option) for part in parts))
+    for part in parts:
+        if not _NAMED.fullmatch(part):
+            raise typer.BadParameter(f"'{part.strip()}' is not NAME=VALUE", param_hint=option)
+    names = tuple(hit[1] for hit in hits)
+    for name in names:
+        if names.count(name) > 1:
+            raise typer.BadParameter(f"'{name}' is there twice", param_hint=option)
+    return Figures(tuple(_number(hit[2], option) for hit in hits), names)
+
+
+def joints_of(
+    figures: Figures,
+    units: Units,
+    group: "Group",
+    here: Sequence[float],
+    option: str = "--joints",
 ) -> tuple[float, ...]:
-    """All joints in the robot's order, or some by NAME=VALUE, the others where they are; rad, m.
+    """All joints in the robot's order, those without a value where they are (`here`); rad, m.
 
     Raises typer.BadParameter.
     """
-    parts = text.split(",")
-    names = list(group.names)
-    if all(_NAMED.fullmatch(part) for part in parts):
+    if figures.names:
         kinds = {joint.name: joint.kind for joint in group.joints}
-        return read_named(text, units, kinds, here, option)
-    if len(parts) != len(names):
+        return named_of(figures, units, kinds, here, option)
+    if len(figures.values) != len(group.names):
         raise typer.BadParameter(
-            f"{len(parts)} values for {len(names)} joints: give all of them ({','.join(names)}), "
-            "or some as NAME=VALUE",
+            f"{len(figures.values)} values for {len(group.names)} joints: give all of them "
+            f"({','.join(group.names)}), or some as NAME=VALUE",
             param_hint=option,
         )
     return tuple(
-        _number(part, option) / units.joint(joint.kind)[1]
-        for part, joint in zip(parts, group.joints, strict=True)
+        value / units.joint(joint.kind)[1]
+        for value, joint in zip(figures.values, group.joints, strict=True)
     )
 
 
-def read_named(
-    text: str, units: Units, kinds: Mapping[str, str], here: Sequence[float], option: str
+def named_of(
+    figures: Figures, units: Units, kinds: Mapping[str, str], here: Sequence[float], option: str
 ) -> tuple[float, ...]:
-    """NAME=VALUE of some of `kinds`, the others where they are (`here`); rad, m.
+    """All of `kinds`, those without a value where they are (`here`); rad, m.
 
     Raises typer.BadParameter.
     """
     found = dict(zip(kinds, here, strict=True))
-    seen = set()
-    for part in text.split(","):
-        hit = _NAMED.fullmatch(part)
-        if hit is None:
-            raise typer.BadParameter(f"'{part}' is not NAME=VALUE", param_hint=option)
-        name = hit[1]
+    for name, value in zip(figures.names, figures.values, strict=True):
         if name not in kinds:
             mend = suggest(name, list(kinds)) or f"its joints are: {', '.join(kinds)}"
             raise typer.BadParameter(f"there is no joint '{name}': {mend}", param_hint=option)
-        if name in seen:
-            raise typer.BadParameter(f"'{name}' is there twice", param_hint=option)
-        seen.add(name)
-        found[name] = _number(hit[2], option) / units.joint(kinds[name])[1]
+        found[name] = value / units.joint(kinds[name])[1]
     return tuple(found.values())
 
 
-def read_pose(text: str, units: Units, here: "Pose", option: str = "--pose") -> "Pose":
-    """X,Y,Z,Q1,Q2,Q3,Q4, or X,Y,Z: turned as it is; m. Raises typer.BadParameter."""
+def read_pose(
+    text: str, units: Units, option: str = "--pose"
+) -> tuple["Vector", "Quaternion | None"]:
+    """X,Y,Z,Q1,Q2,Q3,Q4, or X,Y,Z without a turn; m. Raises typer.BadParameter."""
     values = [_number(part, option) for part in text.split(",")]
     if len(values) not in (3, 7):
         raise typer.BadParameter(
@@ -133,7 +154,7 @@ def read_pose(text: str, units: Units, here: "Pose", option: str = "--pose") -> 
         )
     x, y, z = (value / units.length[1] for value in values[:3])
     if len(values) == 3:
-        return (x, y, z), here[1]
+        return (x, y, z), None
     length = math.hypot(*values[3:])
     if abs(length - 1) > _UNIT:
         raise typer.BadParameter(

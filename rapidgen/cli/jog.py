@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from rapidgen.cli import options
-from rapidgen.cli.goals import Units, figure, named_text, read_named
+from rapidgen.cli.goals import Figures, Units, figure, named_of, named_text, read_figures
 
 if TYPE_CHECKING:
     from rapidgen.client import Robot
@@ -50,10 +50,11 @@ def jog(
     units = Units(rad)
     if speed < 0 or not math.isfinite(speed):
         raise typer.BadParameter(f"must be above 0, not {speed}", param_hint="--speed")
+    asked = _read(by)
     robot = Robot(config, address=to or None, group=group)
     must_ask = permitted(robot, to, yes=yes, real_robot=move_real_robot)
     with robot:
-        steps = _steps(robot, units, by)
+        steps = _steps(robot, units, asked)
         if must_ask:
             confirm_at(robot)
         with told_of_a_cut(robot, units):
@@ -67,21 +68,23 @@ def jog(
     return 0
 
 
-def _steps(robot: "Robot", units: Units, by: list[str]) -> dict[str, float]:
-    """Steps in rad and m by joint or direction. Raises typer.BadParameter."""
-    from rapidgen.client.flows.program import DIRECTIONS, LONGEST_JOG
-
-    group = robot.group
+def _read(by: list[str]) -> Figures:
     if not all("=" in step for step in by):
         raise typer.BadParameter(
             "write JOINT=STEP, such as joint_1=5, or x=5, y=5, z=5", param_hint=_PLACE
         )
-    kinds = {joint.name: joint.kind for joint in group.joints}
-    names = [step.partition("=")[0].strip() for step in by]
-    if not set(names) & set(kinds) and set(names) <= set(DIRECTIONS):
+    return read_figures(",".join(by), _PLACE)
+
+
+def _steps(robot: "Robot", units: Units, asked: Figures) -> dict[str, float]:
+    """Steps in rad and m by joint or direction. Raises typer.BadParameter."""
+    from rapidgen.client.flows.program import DIRECTIONS, LONGEST_JOG
+
+    kinds = {joint.name: joint.kind for joint in robot.group.joints}
+    if not set(asked.names) & set(kinds) and set(asked.names) <= set(DIRECTIONS):
         kinds = {name: "prismatic" for name in DIRECTIONS}
     nothing = [0.0] * len(kinds)
-    found = read_named(",".join(by), units, kinds, nothing, _PLACE)
+    found = named_of(asked, units, kinds, nothing, _PLACE)
     steps = {}
     for name, step in zip(kinds, found, strict=True):
         most = LONGEST_JOG[kinds[name]]

@@ -7,14 +7,22 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from rapidgen.cli import options
-from rapidgen.cli.goals import Units, figure, named_text, read_joints, read_pose
+from rapidgen.cli.goals import (
+    Figures,
+    Units,
+    figure,
+    joints_of,
+    named_text,
+    read_figures,
+    read_pose,
+)
 from rapidgen.cli.terminal import use_colour
 from rapidgen.diagnostics import render
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from rapidgen.axes.frames import Pose
+    from rapidgen.axes.frames import Pose, Quaternion, Vector
     from rapidgen.client import InvalidTrajectory, Result, Robot, Trajectory
     from rapidgen.client.core.checks import Way
 
@@ -89,17 +97,21 @@ def move(
     for option, value in (("--speed", speed), ("--approach", approach), ("--resample", resample)):
         _positive(option, value)
     files = _writable(record, plot)
-    asked = _from_file(points) if points is not None else None
     units = Units(rad)
+    asked = _from_file(points) if points is not None else None
+    figures = read_figures(joints) if joints else None
+    wanted = read_pose(pose, units) if pose else None
     robot = Robot(config, address=to or None, group=group, watch=dry_run)
     must_ask = not dry_run and permitted(robot, to, yes=yes, real_robot=move_real_robot)
     with robot:
-        if asked is None:
-            used = first_speed(robot.address, None) if speed is None else speed
-            trajectory = _to_goal(robot, units, joints, pose, used)
-        else:
-            used = first_speed(robot.address, asked) if speed is None else speed
+        used = first_speed(robot.address, asked) if speed is None else speed
+        if asked is not None:
             trajectory = asked.scaled(used)
+        elif figures is not None:
+            trajectory = _straight(robot, _joints(robot, units, figures), used)
+        else:
+            assert wanted is not None, "_one_goal has seen to it"
+            trajectory = _straight(robot, _posture(robot, *wanted), used)
         if resample is not None:
             trajectory = _resampled(trajectory, resample)
         if approach is not None:
@@ -162,21 +174,27 @@ def _from_file(points: Path) -> "Trajectory":
     return Trajectory.from_csv(points)
 
 
-def _to_goal(robot: "Robot", units: Units, joints: str, pose: str, speed: float) -> "Trajectory":
+def _joints(robot: "Robot", units: Units, figures: Figures) -> tuple[float, ...]:
+    goal = joints_of(figures, units, robot.group, robot.state.joints)
+    _within_limits(robot, goal, units)
+    return goal
+
+
+def _posture(robot: "Robot", place: "Vector", turn: "Quaternion | None") -> tuple[float, ...]:
+    """The posture nearest to where the robot stands; without a turn it keeps its own."""
+    pose = (place, robot.pose[1] if turn is None else turn)
+    found = robot.joints_for(pose)
+    if not found:
+        raise _unreached(robot, pose)
+    return found[0]
+
+
+def _straight(robot: "Robot", goal: "Sequence[float]", speed: float) -> "Trajectory":
     """From where the robot stands to a goal, all axes together, at a share of their speed."""
     from rapidgen.client import Trajectory
 
-    here = robot.state.joints
-    if joints:
-        goal = read_joints(joints, units, robot.group, here)
-        _within_limits(robot, goal, units)
-    else:
-        wanted = read_pose(pose, units, robot.pose)
-        found = robot.joints_for(wanted)
-        if not found:
-            raise _unreached(robot, wanted)
-        goal = found[0]
-    return Trajectory.from_points([here, goal], seconds=1.0, names=robot.group.names).timed(
+    ends = [robot.state.joints, goal]
+    return Trajectory.from_points(ends, seconds=1.0, names=robot.group.names).timed(
         robot.group, speed
     )
 

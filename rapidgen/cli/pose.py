@@ -5,7 +5,7 @@ from typing import Annotated
 import typer
 
 from rapidgen.cli import options
-from rapidgen.cli.goals import Units, joints_text, pose_text, read_joints
+from rapidgen.cli.goals import Units, joints_of, joints_text, pose_text, read_figures
 
 
 def pose(
@@ -36,7 +36,7 @@ def pose(
 
         _, known = resolve(config, robot.address, group)
         assert known is not None
-        at = read_joints(joints, units, known, [0.0] * len(known.names))
+        at = joints_of(read_figures(joints), units, known, [0.0] * len(known.names))
         where = known.poses.pose(known.map.to_controller(at))
     else:
         with robot:

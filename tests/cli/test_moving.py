@@ -177,6 +177,24 @@ def test_typed_wrong(cell, capsys, words, code, said):
     assert positions(sim) == before
 
 
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["move", "--joints", "1,2,x"], "'x' is no number"),
+        (["move", "--joints", "joint_1=1,2"], "'2' is not NAME=VALUE"),
+        (["move", "--joints", "a=1,a=2"], "'a' is there twice"),
+        (["move", "--pose", "1,2"], "2 values: X,Y,Z,Q1,Q2,Q3,Q4"),
+        (["move", "--pose", "1,2,3,1,1,0,0"], "its length is 1.414"),
+        (["jog", "joint_1"], "write JOINT=STEP"),
+        (["jog", "joint_1=five"], "'five' is no number"),
+    ],
+)
+def test_what_is_typed_wrong_is_told_before_a_robot_is_asked(capsys, words, said):
+    verb, *rest = words
+    shown = told(capsys, verb, "irb120", *rest, "--to", "127.0.0.1:1,1,1", code=2)
+    assert said in " ".join(shown.err.split())
+
+
 def test_ctrl_c_stops_the_robot_and_tells_where_it_stands(cell, capsys):
     path, sim = cell
     at_home(cell, capsys)
