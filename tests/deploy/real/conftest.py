@@ -23,6 +23,7 @@ import pytest
 from rapidgen.deploy import Access, connect, parse_target
 from rapidgen.deploy.transports.registry import Target
 from rapidgen.faces import serve_ftp, serve_sftp
+from tests.ports import free_port
 
 ROOT = Path(__file__).parents[3]
 UNPACKED = ROOT / "build" / "servers" / "root"
@@ -71,14 +72,8 @@ def environment() -> dict[str, str]:
     return {**os.environ, "LD_LIBRARY_PATH": os.pathsep.join(libraries)}
 
 
-def free_port() -> int:
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return probe.getsockname()[1]
-
-
 def start(command: list[str], port: int, folder: Path) -> subprocess.Popen:
-    """Start a server and wait until it answers."""
+    """Start a server and wait until it greets, as servers of FTP and of SSH do."""
     log = (folder / "log").open("wb")
     process = subprocess.Popen(
         command,
@@ -91,15 +86,20 @@ def start(command: list[str], port: int, folder: Path) -> subprocess.Popen:
     end = time.monotonic() + 60
     while True:
         try:
-            with socket.create_connection(("127.0.0.1", port), timeout=1):
-                return process
+            with socket.create_connection(("127.0.0.1", port), timeout=1) as probe:
+                probe.settimeout(max(1, end - time.monotonic()))
+                greeted = bool(probe.recv(1))
         except OSError:
-            if process.poll() is not None or time.monotonic() > end:
-                process.kill()
-                process.wait()
-                text = (folder / "log").read_text(errors="replace")
-                pytest.fail(f"{command[0]} does not start: {text}")
-            select_nothing(0.02)
+            greeted = False
+        ended = process.poll() is not None
+        if greeted and not ended:
+            return process
+        if ended or time.monotonic() > end:
+            process.kill()
+            process.wait()
+            text = (folder / "log").read_text(errors="replace")
+            pytest.fail(f"{command[0]} does not start: {text}")
+        select_nothing(0.02)
 
 
 def select_nothing(seconds: float) -> None:

@@ -72,10 +72,10 @@ def test_plan_and_doctor_on_the_command_line(served, rws, run):
 
 def test_nobody_there_and_somebody_else(served):
     _, service = served
-    with socket.socket() as free:
-        free.bind(("127.0.0.1", 0))
-        port = free.getsockname()[1]
-    found = refusal(connect, parse_target(f"rws://127.0.0.1:{port}"), Access(timeout=2))
+    with socket.socket() as deaf:  # bound, so nobody else's, and without listen()
+        deaf.bind(("127.0.0.1", 0))
+        port = deaf.getsockname()[1]
+        found = refusal(connect, parse_target(f"rws://127.0.0.1:{port}"), Access(timeout=2))
     assert found.diagnostics[0].code == "RG501"
     target = parse_target(f"rwss://127.0.0.1:{service.port}")
     found = refusal(connect, target, Access(fingerprint="00" * 32))

@@ -10,6 +10,7 @@ from rapidgen.machine.network.sockets import SocketDevice, SocketStatus
 from rapidgen.machine.network.system import SystemNetwork
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.rawbytes import RawBytes
+from tests.ports import free_port
 
 
 @pytest.fixture
@@ -84,9 +85,7 @@ def test_binding_is_to_loopback_whatever_the_program_says(real):
 
 
 def test_ports_are_moved_by_an_offset(make_bench):
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        free = probe.getsockname()[1]
+    free = free_port()
     bench = make_bench(clock="real", network=lambda k: SystemNetwork(k, ports=free - 11000))
     endpoint = bench.controller.network.bind("127.0.0.1", 11000)
     bench.controller.network.listen(endpoint)
@@ -179,9 +178,6 @@ def test_connecting_out_reaches_this_machine_only(real):
 
 
 def test_refused(real):
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        port = probe.getsockname()[1]
     client = SocketDevice()
 
     def body(task):
@@ -190,7 +186,10 @@ def test_refused(real):
             real.call(task, "SocketConnect", client, "127.0.0.1", port, Time=10)
         return caught.value.name
 
-    assert real.run(body) == ["ERR_SOCK_TIMEOUT"]
+    with socket.socket() as deaf:  # bound, so nobody else's, and without listen()
+        deaf.bind(("127.0.0.1", 0))
+        port = deaf.getsockname()[1]
+        assert real.run(body) == ["ERR_SOCK_TIMEOUT"]
 
 
 def test_a_thousand_connections_do_not_hurt(real):
