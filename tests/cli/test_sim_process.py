@@ -9,6 +9,7 @@ import sys
 import pytest
 
 from rapidgen.cli.app import main
+from tests.ports import free_port
 
 JOINT, STATUS = 10, 13
 SIM = [sys.executable, "-m", "rapidgen.cli", "sim"]
@@ -259,11 +260,14 @@ def test_a_port_that_is_taken_is_said_at_once():
 
 @pytest.mark.parametrize("role", ["motion", "control", "state"])
 def test_each_port_is_looked_at(role, capsys):
+    # (A simulator of somebody else's may run on the configuration's own ones.)
+    ports = {name: free_port() for name in ("motion", "control", "state")}
     with socket.socket() as other:
         other.bind(("127.0.0.1", 0))
         other.listen()
-        taken = other.getsockname()[1]
-        assert main(["sim", "irb120", "--set", f"ports.{role}={taken}"]) == 1
+        taken = ports[role] = other.getsockname()[1]
+        told = [word for name, port in ports.items() for word in ("--set", f"ports.{name}={port}")]
+        assert main(["sim", "irb120", *told]) == 1
     assert f"error[RG431]: port {taken} of 127.0.0.1 cannot be had" in capsys.readouterr().err
 
 
