@@ -13,6 +13,20 @@ from rapidgen.wire.simple_message import encode, messages
 from tests.view.bench import STATE, until
 
 POINT = encode(messages.JointPosition(7, (0.25,) * 10))
+# A page whose `listen` is kept back (`held`), and that is told things (`told`).
+HELD = """
+window.held = [];
+const Real = WebSocket;
+window.WebSocket = class extends Real {
+  constructor(...given) {
+    super(...given);
+    window.told = (message) => this.onmessage({ data: JSON.stringify([message]) });
+  }
+  send(text) {
+    if (text.includes('"listen"')) held.push(JSON.parse(text)); else super.send(text);
+  }
+};
+"""
 LISTED = "document.querySelector('.said').textContent"
 
 
@@ -113,3 +127,32 @@ def test_what_is_said_is_listed_and_a_connection_is_made_silent(irb120, open_pag
             "[...document.querySelectorAll('.sockets select')].map(s => s.value)",
             lambda values: "silent" not in values,
         )
+
+
+@pytest.mark.browser
+def test_a_box_shows_what_was_asked_until_that_is_answered(irb120, open_page):
+    """What was told before the request arrived does not turn it back; a refusal does."""
+    page = open_page(irb120["view"], before=HELD)
+    until(page, STATE)
+    page.get_by_role("tab", name="Network").click()
+    box = page.get_by_label("Listen")
+
+    def told(**message):
+        page.evaluate("message => told(message)", message)
+
+    def answered(error):
+        (asked,) = page.evaluate("held.splice(0)")
+        told(type="reply", id=asked["id"], error=error, text="")
+        return asked["request"]["on"]
+
+    box.check()
+    told(type="conversation", listening=False, lines=[])
+    assert box.is_checked()
+    assert answered("nobody may listen") is True
+    assert not box.is_checked()
+    box.check()
+    assert answered("") is True
+    told(type="conversation", listening=True, lines=[])
+    assert box.is_checked()
+    told(type="conversation", listening=False, lines=[])  # by another page
+    assert not box.is_checked()

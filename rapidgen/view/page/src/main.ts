@@ -31,7 +31,10 @@ const stage = stageOrNone();
 const notices = h("div", { class: "notices", role: "panel", "aria-live": "polite" });
 const view: View = {
   link, stage,
-  order: (request) => void link.ask(request).catch((why: Error) => view.notice(why.message, "fault")),
+  order: (request) => link.ask(request).then(() => true, (why: Error) => {
+    view.notice(why.message, "fault");
+    return false;
+  }),
   notice: (text, kind = "plain") => {
     const note = h("div", { class: `notice ${kind}` }, text);
     notices.append(note);

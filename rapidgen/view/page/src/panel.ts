@@ -9,8 +9,8 @@ export interface View {
   readonly link: Link;
   /** The robots in space; null without WebGL. */
   readonly stage: Stage | null;
-  /** Ask, and show the reason where it is refused. */
-  order(request: Request): void;
+  /** Ask, and show the reason where it is refused: whether it was done. */
+  order(request: Request): Promise<boolean>;
   /** Show a short message. */
   notice(text: string, kind?: "plain" | "fault"): void;
 }

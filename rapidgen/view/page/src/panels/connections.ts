@@ -1,5 +1,6 @@
 // The network: who is connected, what is said, and what goes wrong at a click.
 
+import { Asked } from "../asked";
 import { h, say, section } from "../dom";
 import type { Act, Afflict, ShownSocket, SpokenLine } from "../messages";
 import type { MakePanel, View } from "../panel";
@@ -55,14 +56,15 @@ class ProtocolLog {
   private readonly about = h("p", { class: "soft", role: "status" });
 
   constructor(view: View) {
-    this.listen = h("input", { type: "checkbox", onchange: () => view.order({ do: "listen", on: this.listen.checked }) });
+    this.listen = h("input", { type: "checkbox", onchange: () => void listens.ask({ do: "listen", on: this.listen.checked }) });
+    const listens = new Asked<boolean>(view, (on) => { this.listen.checked = on; });
     this.element = section("What is said",
       h("div", { class: "row" }, h("label", { class: "row" }, this.listen, "Listen"),
         h("label", { class: "row" }, this.still, "Hold the list"), this.words,
         h("button", { type: "button", onclick: () => this.clear() }, "Clear")),
       this.about, this.list);
     view.link.on("conversation", ({ listening, lines, missed, fresh }) => {
-      this.listen.checked = listening;
+      listens.tell(listening);
       this.lines = [...(fresh ? [] : this.lines), ...lines].slice(-MOST);
       this.missed = fresh ? 0 : this.missed + (missed ?? 0);
       if (!this.still.checked) this.draw();

@@ -1,5 +1,6 @@
 // What a pendant has: key, motors, stop and start, speed, the operator window with its dialogs.
 
+import { Asked } from "../asked";
 import { Choice, h, say, section } from "../dom";
 import type { Act, Dialog, PanelState } from "../messages";
 import type { MakePanel } from "../panel";
@@ -7,7 +8,8 @@ import type { MakePanel } from "../panel";
 const STEPS = [[0.004, "4 ms"], [0.024, "24 ms"], [0.1, "0.1 s"], [1, "1 s"]] as const;
 const PACES = [0.1, 0.25, 0.5, 1, 2, 5, 10, 50, 100];
 
-export const pendantPanel: MakePanel = ({ link, order }) => {
+export const pendantPanel: MakePanel = (view) => {
+  const { link, order } = view;
   let status: PanelState | null = null;
   const act = (action: Act["action"]) => () => order({ do: "act", action });
   const button = (text: string, action: Act["action"], kind = ""): HTMLButtonElement =>
@@ -43,7 +45,10 @@ export const pendantPanel: MakePanel = ({ link, order }) => {
   });
   const pace = h("select", { id: "pace", "aria-label": "Pace of time" },
     ...PACES.map((value) => h("option", { value, selected: value === 1 }, `${value} ×`)));
-  pace.addEventListener("change", () => order({ do: "pace", value: Number(pace.value) }));
+  const paces = new Asked<number>(view, (now) => {
+    pace.value = String(PACES.find((value) => value >= now) ?? 100);
+  });
+  pace.addEventListener("change", () => void paces.ask({ do: "pace", value: Number(pace.value) }));
 
   const tasks = h("tbody", {});
   const rows = h("pre", { class: "screen", "aria-label": "Operator window", tabindex: 0 });
@@ -57,7 +62,7 @@ export const pendantPanel: MakePanel = ({ link, order }) => {
     motors.show(now.motors_on === null ? null : now.motors_on ? "motors-on" : "motors-off");
     if (document.activeElement !== speed) speed.value = String(Math.round((now.override ?? 1) * 100));
     say(speedText, `${speed.value} %`);
-    if (now.pace) pace.value = String(PACES.find((value) => value >= (now.pace ?? 1)) ?? 100);
+    if (now.pace) paces.tell(now.pace);
     tasks.replaceChildren(...Object.entries(now.tasks).map(([name, word]) =>
       h("tr", {}, h("th", { scope: "row" }, name), h("td", { "data-state": word }, word))));
   });

@@ -1,5 +1,6 @@
 // Programs: their sources with pointers and breakpoints, steps, call stack, values.
 
+import { Asked } from "../asked";
 import { h, say, section } from "../dom";
 import type { Debugging, Proceed, Pointers, SeenBreakpoint, SeenPlace, SeenValue } from "../messages";
 import type { MakePanel, View } from "../panel";
@@ -50,13 +51,14 @@ class ProgramPanel {
       onclick: () => this.drive(how) }, { over: "Step over", in: "Step in", out: "Step out" }[how]));
   private readonly cursor = h("button", { type: "button", onclick: () => this.view.order(
     { do: "run-to", task: this.task, module: this.module, line: this.editor.line }) }, "To cursor");
-  private readonly errors = h("select", { "aria-label": "Pause at errors", onchange: () => this.view.order(
+  private readonly errors = h("select", { "aria-label": "Pause at errors", onchange: () => void this.pauses.ask(
     { do: "errors", errors: this.errors.value as Debugging["errors"] }) },
     h("option", { value: "never" }, "Errors do not pause"),
     h("option", { value: "unhandled" }, "Pause at errors that stop a task"),
     h("option", { value: "all" }, "Pause at handled errors, too"));
   private readonly counts = h("input", { type: "checkbox", id: "counts",
     onchange: () => this.view.order({ do: "cover", on: this.counts.checked }) });
+  private readonly pauses: Asked<Debugging["errors"]>;
   private readonly halt = h("p", { class: "halt", role: "status", hidden: true });
   private readonly stack = h("ol", { class: "stack" });
   private readonly variables = h("table", { class: "values" });
@@ -66,6 +68,7 @@ class ProgramPanel {
 
   constructor(private readonly view: View) {
     const { link } = view;
+    this.pauses = new Asked(view, (errors) => { this.errors.value = errors; });
     this.sources = new Sources(link);
     this.origins = new Origins(link, this.sources, {
       module: (name, line) => void this.read(name, line),
@@ -264,7 +267,7 @@ class ProgramPanel {
       say(this.halt, [REASONS[halt.reason], place, halt.text, halt.place?.made].filter(Boolean).join(" · "));
       if (halt.task && halt.task !== this.task && halt !== before?.halt) this.choose(halt.task);
     }
-    this.errors.value = debugging.errors;
+    this.pauses.tell(debugging.errors);
     this.points.replaceChildren(...debugging.breakpoints.map((point) => this.pointRow(point)));
     say(this.output, debugging.output.join("\n"));
     this.point();

@@ -46,7 +46,7 @@ class SignalRow {
   private now = 0;
 
   constructor(signal: ShownSignal, commands: boolean, view: View) {
-    const set = (value: number): void => view.order({ do: "signal", name: signal.name, value });
+    const set = (value: number): void => void view.order({ do: "signal", name: signal.name, value });
     const label = `Set ${signal.name}`;
     this.control = signal.largest === 1
       ? h("button", { type: "button", "aria-label": label, class: "lamp", disabled: !commands, onclick: () => set(this.now ? 0 : 1) })
