@@ -114,15 +114,16 @@ class Proxy:
         self._finish(client)
 
     def _data(self, port):
+        # At once: after a command that it refuses the server lets its port go, and what comes too
+        # late can meet the next who has it.
+        server = socket.create_connection(("127.0.0.1", port))
         listener, outer = self._listen()
-        self._keep(listener)
+        self._keep(server, listener)
 
         def serve():
             with contextlib.suppress(OSError):
                 client, _ = listener.accept()
                 self._keep(client)
-                server = socket.create_connection(("127.0.0.1", port))
-                self._keep(server)
                 left = [self.data_limit]
                 self._spawn(self._copy, client, server, left)
                 self._copy(server, client, left)
