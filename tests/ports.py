@@ -7,17 +7,23 @@ GIVEN_AWAY = 32_768
 """Where Linux begins to give ports away to whoever binds 0 or connects (ip_local_port_range)."""
 
 
-def free_port() -> int:
-    """A port of loopback that nobody has, and that the system gives to nobody.
+def free_port(beside: int = 0) -> int:
+    """A port of loopback that nobody has, and that the system gives to nobody; so are the next
+    `beside` ones.
 
     One that was bound to 0 and let go can be another test's a moment later: its server then
     answers in place of the one that is awaited.
     """
     while True:
-        port = random.randrange(15_000, GIVEN_AWAY)
-        with socket.socket() as probe:
-            try:
-                probe.bind(("127.0.0.1", port))
-            except OSError:
-                continue
+        port = random.randrange(15_000, GIVEN_AWAY - beside)
+        if all(_is_free(each) for each in range(port, port + beside + 1)):
             return port
+
+
+def _is_free(port: int) -> bool:
+    with socket.socket() as probe:
+        try:
+            probe.bind(("127.0.0.1", port))
+        except OSError:
+            return False
+    return True

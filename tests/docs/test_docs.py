@@ -5,7 +5,8 @@ document, where blocks that have a file's name behind their kind lie as files; a
 ` &` is waited for until it says `ready`), `python` (all blocks of a document are one program). `sh`
 blocks set a machine up, `text` blocks are output: not run, and no command of rapidgen is in them.
 A comment `# exit N` behind a command states its exit code. 192.168.125.1 is a controller
-(at_address.py), and what is asked there is answered with yes, as at a terminal.
+(at_address.py), and what is asked there is answered with yes, as at a terminal. The ports of
+`--port-offset N` are free ones in truth.
 """
 
 import json
@@ -25,6 +26,7 @@ import typer
 from rapidgen.cli.app import VERBS, _app
 from rapidgen.controller.faults import read_plan
 from tests.docs import at_address
+from tests.ports import free_port
 
 ROOT = Path(__file__).resolve().parents[2]
 # codes.md is made of the pages of `explain`, which have tests of their own.
@@ -88,9 +90,9 @@ def test_commands(path, tmp_path, environment):
         (tmp_path / name).write_text(text, encoding="utf-8")
     lines = re.sub(r"\\\n", "", "".join(blocks(path, "console"))).splitlines()
     with ExitStack() as stack:
-        stands, own_password = {}, ""
+        stands, own_password = elsewhere(lines), ""
         if any(at_address.WRITTEN in line for line in lines):
-            stands = stack.enter_context(at_address.standing(path.name, tmp_path))
+            stands |= stack.enter_context(at_address.standing(path.name, tmp_path))
         for line in lines:
             if not line.startswith("$ "):
                 continue
@@ -112,6 +114,17 @@ def test_commands(path, tmp_path, environment):
             own = {**environment, "RAPIDGEN_PASSWORD": password}
             code, said = run(words, cwd=tmp_path, env=own)
             assert code == int(wanted or 0), (line, said)
+
+
+def elsewhere(lines):
+    """What ports that a page writes are to be replaced by: this machine may use them otherwise."""
+    found = re.search(r"--port-offset (\d+)", "\n".join(lines))
+    if found is None:
+        return {}
+    written, free = int(found[1]), free_port(beside=2) - 11000
+    return {found[0]: f"--port-offset {free}"} | {
+        str(port + written): str(port + free) for port in (11000, 11001, 11002)
+    }
 
 
 @contextmanager
