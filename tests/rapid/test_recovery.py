@@ -44,6 +44,16 @@ def test_message_says_what_was_met_expected_and_what_is_open():
 
 
 @pytest.mark.parametrize(
+    "body", ["a = 1;", "a{2} = 1;", "a.b == 1;", "IF a = 1 a = 2;", "VAR num b = 2;"]
+)
+def test_an_equals_sign_that_should_assign_is_told(body):
+    (found,) = parse(routine(body)).diagnostics
+    assert (found.span.line, found.code) == (3, "RG201")
+    assert found.message.startswith("met '=', expected ")
+    assert found.help == "write `:=` where a value is given; `=` compares"
+
+
+@pytest.mark.parametrize(
     ("body", "expected"),
     [
         ("a := 1\nb := 2;", [(4, "RG201")]),

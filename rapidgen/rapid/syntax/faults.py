@@ -118,14 +118,16 @@ def unexpected(
         "RG201",
         span,
         f"met {met(source, kinds, at)}, expected {expected}",
-        help or _mend(expected),
+        help or _mend(kinds[at], expected),
         label=f"expected {expected}",
         notes=(note,) if note else (),
         related=related,
     )
 
 
-def _mend(expected: str) -> str:
+def _mend(kind: str, expected: str) -> str:
+    if kind == "=" and "':='" in expected:
+        return "write `:=` where a value is given; `=` compares"
     if "';'" in expected:
         return "a statement or declaration ends with ';': perhaps the one before has none"
     return f"write {expected} here, or take out what stands here"

@@ -148,7 +148,8 @@ class StatementParser:
     def _named_statement(self, i: int) -> Statement:
         kinds = self.kinds
         following = kinds[i + 1]
-        if following == ":=" or following == "{" or following == ".":
+        # `=` as in other languages, too: no argument begins with it.
+        if following in (":=", "{", ".", "="):
             target = self.expressions.reference(i)
             at = target.last + 1
             if kinds[at] != ":=":
