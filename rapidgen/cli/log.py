@@ -6,6 +6,9 @@ import typer
 
 from rapidgen.cli import options
 
+_ALL = 10_000
+"""Entries that --follow takes at once, so that none is left out of a burst."""
+
 
 def log(
     host: options.WebServices,
@@ -29,19 +32,23 @@ def log(
 
     from rapidgen.cli.web_services import controller
     from rapidgen.client.errors import ConnectionFailed, ConnectionLost
+    from rapidgen.client.rws.model import LogEvent
 
     with controller(host, user, secrets, fingerprint) as found:
-        last = 0
+        last: LogEvent | None = None
         events = found.log(domain=domain, count=count)
         while True:
             for event in events:
                 typer.echo(json.dumps(asdict(event)) if as_json else event)
-                last = event.number
+                last = event
             if not follow:
                 return 0
             time.sleep(1.0)
             try:
-                events = found.log(domain=domain, after=last)
+                events = found.log(domain=domain, after=last.number if last else 0, count=_ALL)
             except (ConnectionFailed, ConnectionLost):
                 found.wait_ready()
-                events = found.log(domain=domain)
+                # Numbers may have begun anew: what was shown is known by all that it says.
+                events = found.log(domain=domain, count=_ALL)
+                if last in events:
+                    events = events[events.index(last) + 1 :]

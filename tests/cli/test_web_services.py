@@ -2,6 +2,7 @@
 
 import json
 import sys
+from contextlib import nullcontext
 from pathlib import Path
 
 import pytest
@@ -11,6 +12,8 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "faces" / "rws"))
 from served import make_cabinet
 
 from rapidgen.cli.app import main
+from rapidgen.client.errors import ConnectionLost
+from rapidgen.client.rws.model import LogEvent
 from rapidgen.faces.rws.server import serve_rws
 from rapidgen.machine.operator import Answer
 from rapidgen.system import read_backup
@@ -95,6 +98,44 @@ def test_what_is_not_there_is_told_with_what_there_is(host, capsys, words, code,
     output = capsys.readouterr()
     assert output.out.count("\n") == 0 or words == ["start"]
     assert hint in output.err
+
+
+class Followed:
+    """A controller whose connection is lost once; `back` is its log afterwards."""
+
+    def __init__(self, before, back):
+        self.answers = [before, ConnectionLost([]), back, KeyboardInterrupt()]
+
+    def log(self, *, domain, count=50, after=0):
+        answer = self.answers.pop(0)
+        if isinstance(answer, BaseException):
+            raise answer
+        return tuple(event for event in answer if event.number > after)
+
+    def wait_ready(self):
+        assert len(self.answers) == 2
+
+
+@pytest.mark.parametrize(
+    ("back", "shown"),
+    [
+        (["1 a", "2 b", "3 c"], ["1 a", "2 b", "3 c"]),
+        (["3 c"], ["1 a", "2 b", "3 c"]),
+        (["1 d"], ["1 a", "2 b", "1 d"]),
+        (["1 d", "2 e", "3 f"], ["1 a", "2 b", "1 d", "2 e", "3 f"]),
+    ],
+    ids=["all", "only-newer", "cleared", "numbers-anew"],
+)
+def test_a_followed_log_goes_on_behind_a_lost_connection(back, shown, monkeypatch, capsys):
+    def entries(texts):
+        return [LogEvent(0, int(t[0]), "info", 10125, t[2], t[2], "", ()) for t in texts]
+
+    found = Followed(entries(["1 a", "2 b"]), entries(back))
+    monkeypatch.setattr("rapidgen.cli.web_services.controller", lambda *_: nullcontext(found))
+    monkeypatch.setattr("time.sleep", lambda seconds: None)
+    assert main(["log", "rws://nowhere", "--follow", "--json"]) == 130
+    *told, _ = [json.loads(line) for line in capsys.readouterr().out.splitlines()]
+    assert [f"{event['number']} {event['title']}" for event in told] == shown
 
 
 @pytest.mark.parametrize(("answer", "code"), [("Grant", 0), ("Deny", 1)])
