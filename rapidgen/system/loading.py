@@ -6,7 +6,13 @@ from pathlib import Path
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, Span, error, refusal
 from rapidgen.system.interpret import ModuleEntry
 from rapidgen.system.model import ModuleFile, TaskSpec
-from rapidgen.system.paths import home_file, module_files, read_limited
+from rapidgen.system.paths import (
+    MODULE_SUFFIXES,
+    home_file,
+    inside,
+    module_files,
+    read_limited,
+)
 
 # The head of a module; text before it (a %%% header, comments) is skipped.
 _MODULE = re.compile(rb"^[ \t]*MODULE\s+([A-Za-z\xc0-\xff][\w\xc0-\xff]*)", re.I | re.M)
@@ -38,11 +44,16 @@ def load_module(
 def expand(path: Path) -> list[Path]:
     """Module files that `path` stands for: itself, those of a folder, or those of a program.
 
+    A folder without modules may have them in SYSMOD and PROGMOD, as a backup keeps a task.
+
     Raises RG704 (nothing there) and RG709 (no modules in it).
     """
     if path.is_dir():
         programs = [p for p in sorted(path.glob("*.pgf")) if not p.name.startswith("._")]
         found = list(module_files(path))
+        if not found and not programs:
+            shelves = [inside(path, name) for name in ("SYSMOD", "PROGMOD")]
+            found = [file for one in shelves if any(module_files(one)) for file in expand(one)]
         if len(programs) == 1:
             # Tasks get their system modules from the configuration: a program names none.
             named = expand(programs[0])
@@ -55,7 +66,10 @@ def expand(path: Path) -> list[Path]:
     else:
         return [path]
     if not found:
-        raise refusal("RG709", None, f"no RAPID module in {path}", "modules end in .mod or .sys")
+        mend = f"modules end in {', '.join(MODULE_SUFFIXES)}"
+        if path.is_dir() and (path.parent / "SYSPAR").is_dir():
+            mend = f"a backup is loaded whole: name {path.parent}"
+        raise refusal("RG709", None, f"no RAPID module in {path}", mend)
     return found
 
 

@@ -226,6 +226,17 @@ def test_several_tasks_and_a_program_file(tmp_path):
     assert system.signals == (SignalSpec("di1", "DI"),)
 
 
+def test_a_task_s_folder_of_a_backup(backup):
+    """RAPID/TASK1 has SYSMOD and PROGMOD and nothing else [backups]."""
+    put(backup / "RAPID/TASK1/PROGMOD/Work.pgf", "<Program><Module>Work.mod</Module></Program>")
+    put(backup / "RAPID/TASK1/PROGMOD/left.mod", MODULE % b"Left")
+    (task,) = read_files([backup / "RAPID/TASK1"]).tasks
+    assert [module.name for module in task.modules] == ["user", "Work"]
+    with pytest.raises(DiagnosticError) as caught:
+        read_files([backup / "RAPID"])
+    assert caught.value.diagnostics[0].help == f"a backup is loaded whole: name {backup}"
+
+
 @pytest.mark.parametrize("paths", [[], ["nothing.mod"], ["folder"]])
 def test_nothing_to_load(tmp_path, paths):
     (tmp_path / "folder").mkdir()
