@@ -440,11 +440,11 @@ def test_stop_without_a_connection(fake, client):
             robot.end()
 
 
-def test_recording(connected, tmp_path):
+def test_recording(connected, tmp_path, comes):
     with connected() as (robot, _):
         with robot.recording() as recording:
             robot.execute(PATH).result()
-        assert len(recording) > 5
+            assert comes(lambda: len(recording) > 5)
         recording.to_csv(tmp_path / "r.csv")
     again = Trajectory.from_csv(tmp_path / "r.csv")
     assert again.names == robot.group.names
