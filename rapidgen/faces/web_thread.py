@@ -48,7 +48,14 @@ class WebThread:
 
     async def _close(self, first: Callable[[], Awaitable[None]]) -> None:
         await first()
+        server = self._runner.server
+        open_ones = [c.transport for c in server.connections] if server is not None else []
         await self._runner.cleanup()
+        # A client that does not answer the end of TLS would keep its socket open: the loop goes.
+        for transport in open_ones:
+            if transport is not None:
+                transport.abort()
+        await asyncio.sleep(0)
 
     def soon(self, function: Callable[[], object]) -> None:
         """Run a function on the loop; nobody is there to hear of it once that is closed."""
