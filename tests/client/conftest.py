@@ -15,7 +15,7 @@ from fake_controller import FakeController
 from rapidgen.client import Robot, Timeouts
 
 PATIENT = Timeouts(
-    connect=20, hello=20, state=20, ready=0.1, silence=20, send=20, reply=20, stop=20, heartbeat=20
+    connect=20, hello=20, state=20, ready=0.1, silence=20, send=20, reply=20, stop=20, heartbeat=200
 )
 """However much else this machine has to do; nothing of it is waited for where all goes well."""
 

@@ -57,9 +57,7 @@ def cell(tmp_path):
     )
     signals = (*system.signals, SignalSpec("valve", "DO"), SignalSpec("part", "DI"))
     system = replace(system, tasks=tasks, signals=signals)
-    with VirtualController(
-        system, config.groups, clock="real", speed=10.0, ports="auto"
-    ) as controller:
+    with VirtualController(system, config.groups, clock="real", ports="auto") as controller:
         controller.start()
         yield controller, path
 
