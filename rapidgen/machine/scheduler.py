@@ -284,8 +284,16 @@ class Scheduler:
         """
         self._hub = greenlet.getcurrent()
         self._until, self._stop, self._stopping = until, stop, False
-        if self.clock == "real":
-            return self._advance_real()
+        try:
+            return self._advance_real() if self.clock == "real" else self._advance_virtual()
+        finally:
+            # A thread's own greenlet that is kept longer than the thread is looked for among all
+            # objects when the thread ends; if it is not found because they are just being
+            # collected, greenlet 3.5 gives it away while it is here, and the process crashes.
+            self._hub = None
+
+    def _advance_virtual(self) -> AdvanceEnd:
+        until, stop = self._until, self._stop
         while True:
             if self._posted:
                 self._run_posted()

@@ -1,5 +1,7 @@
 """Clock, events, processes."""
 
+import subprocess
+import sys
 import threading
 import time
 from functools import partial
@@ -238,3 +240,40 @@ def test_time_stands_at_pace_0_and_goes_on_from_there() -> None:
     scheduler.advance(stop=lambda: bool(seen))
     assert seen == [3600 * S]
     scheduler.close()
+
+
+def test_a_thread_may_end_while_its_scheduler_is_collected() -> None:
+    """greenlet 3.5.6 gave the thread's own greenlet away, and the process crashed."""
+    program = """if True:
+        import gc, threading
+        from rapidgen.machine.process import Process
+        from rapidgen.machine.scheduler import Scheduler
+
+        class Garbage:
+            def __init__(self, scheduler):
+                self.scheduler, self.circle = scheduler, self
+                self.ran, self.end = threading.Event(), threading.Event()
+                self.thread = threading.Thread(target=run, args=([scheduler], self.ran, self.end))
+                self.thread.start()
+                self.ran.wait()
+
+            def __del__(self):
+                self.end.set()
+                self.thread.join()
+                [None for _ in range(100)]  # Python sees to what the thread has left
+
+        def run(scheduler, ran, end):
+            scheduler.pop().advance()
+            ran.set()
+            end.wait()
+
+        scheduler = Scheduler()
+        Process(scheduler, "p").launch(lambda: None)
+        scheduler.circle = Garbage(scheduler)
+        del scheduler
+        print(gc.collect() > 0)
+    """
+    done = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, check=False
+    )
+    assert (done.returncode, done.stdout) == (0, "True\n"), done.stderr
