@@ -279,6 +279,31 @@ def test_the_command(verb, tmp_path, capsys):
     assert not (tmp_path / "q").exists()
 
 
+def called(names, tmp_path):
+    """An irb120 whose joints have these names."""
+    joints = "".join(f'  "{name}": {{axis: rax_{n}}}\n' for n, name in enumerate(names, 1))
+    yaml = tmp_path / "called.yaml"
+    yaml.write_text(f"model: irb120\njoints:\n{joints}")
+    return load_config(str(yaml))
+
+
+def test_joints_may_be_called_as_links_and_fixed_joints_are(tmp_path):
+    config = called(["base", "base_link_joint", "tool0", "tool0_joint", "world", "x"], tmp_path)
+    files = ros2_package(config, "called.yaml")
+    drawn = ET.fromstring(files["config/called_rapidgen.urdf"])
+    for tag in ("link", "joint"):
+        names = [element.attrib["name"] for element in drawn.iter(tag)]
+        assert len(names) == len(set(names)), tag
+    robot = yourdfpy.URDF.load(
+        BytesIO(files["config/called_rapidgen.urdf"].encode()), load_meshes=False
+    )
+    joints = {joint.name for joint in config.groups[0].joints}
+    assert joints <= set(robot.actuated_joint_names)
+    chain = ET.fromstring(files["config/called_rapidgen.srdf"]).find("group/chain")
+    assert chain is not None
+    assert chain.attrib == {"base_link": "base_link", "tip_link": "tool0"}
+
+
 def test_a_hostile_name_stays_text(tmp_path):
     yaml = tmp_path / "robot.yaml"
     yaml.write_text('name: "it\'s <b>"\nmodel: irb120\n')

@@ -6,6 +6,7 @@ larger than nothing for planning, but not the robot's shape.
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import count
 from math import acos, atan2, sqrt
 from xml.etree import ElementTree as ET
 
@@ -108,8 +109,8 @@ class _Drawer:
     at: Sequence[float]
 
     def branch(self, base: str, chain: Sequence[ChainLink], tip: str) -> LinkChain:
-        ET.SubElement(self.root, "link", name=base)
-        self._joint(f"{base}_joint", "fixed", ROOT, base, self.at[:3], self.at[3:])
+        base = self._link(base)
+        self._fixed(ROOT, base, self.at[:3], self.at[3:])
         links, joints = [base], []
         for number, step in enumerate(chain, 1):
             end = tip if number == len(chain) and not (step.joint or step.follows) else ""
@@ -117,8 +118,8 @@ class _Drawer:
                 joints.append(self.prefix + step.joint)
             links += self._step(links[-1], step, end or f"{base}_{number}")
         if links[-1] != tip:
-            ET.SubElement(self.root, "link", name=tip)
-            self._joint(f"{tip}_joint", "fixed", links[-1], tip, (0, 0, 0), (0, 0, 0))
+            tip = self._link(tip)
+            self._fixed(links[-1], tip, (0, 0, 0), (0, 0, 0))
             links.append(tip)
         return LinkChain(tuple(links), tuple(joints))
 
@@ -127,23 +128,21 @@ class _Drawer:
         self._bar(parent, step.xyz)
         if step.joint:
             name, joint = self.prefix + step.joint, self.joints[step.joint]
-            child = f"{name}_link"
-            self._link(child)
+            child = self._link(f"{name}_link")
             element = self._joint(name, joint.kind, parent, child, step.xyz, step.rpy, step.axis)
             _limit(element, joint)
             return [child]
         if not step.follows:
-            self._link(child)
-            self._joint(f"{child}_joint", "fixed", parent, child, step.xyz, step.rpy)
+            child = self._link(child)
+            self._fixed(parent, child, step.xyz, step.rpy)
             return [child]
         # A passive joint may follow several: one mimicking joint for each, about one axis.
         made: list[str] = []
         xyz, rpy = step.xyz, step.rpy
         for number, (followed, factor) in enumerate(step.follows, 1):
-            link = f"{child}_{number}"
-            self._link(link)
+            link = self._link(f"{child}_{number}")
             at = made[-1] if made else parent
-            name = f"{link}_joint"
+            name = self._free("joint", f"{link}_joint")
             element = self._joint(name, "continuous", at, link, xyz, rpy, step.axis)
             ET.SubElement(
                 element, "mimic", joint=self.prefix + followed, multiplier=_number(factor)
@@ -152,8 +151,23 @@ class _Drawer:
             xyz = rpy = (0.0, 0.0, 0.0)
         return made
 
-    def _link(self, name: str) -> None:
+    def _link(self, wished: str) -> str:
+        name = self._free("link", wished)
         ET.SubElement(self.root, "link", name=name)
+        return name
+
+    def _fixed(self, parent: str, child: str, xyz: Sequence[float], rpy: Sequence[float]) -> None:
+        self._joint(self._free("joint", f"{child}_joint"), "fixed", parent, child, xyz, rpy)
+
+    def _free(self, tag: str, wished: str) -> str:
+        """A name that no other link or joint has: the robot's own joints are called anything."""
+        taken = {element.get("name") for element in self.root.iter(tag)}
+        if tag == "joint":
+            taken |= {self.prefix + joint for joint in self.joints}
+        name, numbers = wished, count(2)
+        while name in taken:
+            name = f"{wished}_{next(numbers)}"
+        return name
 
     def _joint(
         self,
