@@ -304,6 +304,19 @@ def test_joints_may_be_called_as_links_and_fixed_joints_are(tmp_path):
     assert chain.attrib == {"base_link": "base_link", "tip_link": "tool0"}
 
 
+def test_names_of_joints_stay_texts_in_yaml(tmp_path):
+    """ROS reads YAML 1.1, in which 3, no and y are no texts."""
+    names = ["1", "no", "y", "1e3", "0x1", "a: b"]
+    config, yaml = called(names, tmp_path), YAML(typ="safe")
+    yaml.version = (1, 1)
+    files = ros2_package(config, "called.yaml")
+    assert list(yaml.load(files["config/joint_limits.yaml"])["joint_limits"]) == names
+    told = yaml.load(files["config/moveit_controllers.yaml"])
+    assert told["moveit_simple_controller_manager"]["rob1_controller"]["joints"] == names
+    launch = ET.fromstring(ros1_package(config, "called.yaml")["launch/robot.launch"])
+    assert yaml.load(launch.findtext("group/rosparam")) == names
+
+
 def test_a_hostile_name_stays_text(tmp_path):
     yaml = tmp_path / "robot.yaml"
     yaml.write_text('name: "it\'s <b>"\nmodel: irb120\n')

@@ -3,6 +3,7 @@
 Templates are in `templates/ros2` and `templates/ros1`; all of them see the same names.
 """
 
+import json
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -18,6 +19,8 @@ from rapidgen.ros.package import srdf, urdf
 
 _START_SHARE = 0.8
 """allowed_start_tolerance as a share of the driver's: MoveIt is to complain before it does."""
+_WORDS = frozenset(["y", "n", "yes", "no", "on", "off", "true", "false", "null"])
+"""What YAML 1.1 takes for something else than a text."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -157,11 +160,18 @@ def _rendered(kind: str, name: str, context: Mapping[str, object]) -> dict[str, 
         lstrip_blocks=True,
     )
     environment.filters["quoted"] = repr
+    environment.filters["text"] = _text
     files = {}
     for template in sorted(environment.list_templates(extensions=["j2"])):
         path = template.removesuffix(".j2").replace("NAME", name)
         files[path] = environment.get_template(template).render(context)
     return files
+
+
+def _text(name: str) -> str:
+    """A name in YAML, quoted where it would not stay one: ROS reads `no` and `3` as YAML 1.1."""
+    is_plain = re.fullmatch(r"[A-Za-z_][\w/.-]*", name) and name.lower() not in _WORDS
+    return name if is_plain else json.dumps(name)
 
 
 def _solved(group: GroupConfig, prefix: str, drawn: urdf.Drawn) -> str:
