@@ -221,10 +221,13 @@ class Desk:
             ("Set-Cookie", f"{CONNECTION}={self._connection(got, session)}; path=/; httponly")
         )
         if answer.body is None:
-            data = answer.data or b""
-            if answer.data is not None and not any(k == "Content-Type" for k, _ in headers):
-                headers.append(("Content-Type", "application/octet-stream"))
-            return HttpReply(answer.status, tuple(headers), data)
+            if not any(name == "Content-Type" for name, _ in headers):
+                if answer.data is not None:
+                    headers.append(("Content-Type", "application/octet-stream"))
+                elif self.is_one and answer.status != 204:
+                    # Also of an answer without a body [code: abb_robot_client].
+                    headers.append(("Content-Type", CONTENT_TYPES[syntax]))
+            return HttpReply(answer.status, tuple(headers), answer.data or b"")
         scheme = "http" if self.is_one else "https"
         base = f"{scheme}://{got.headers.get('host', '')}{path.rpartition('/')[0]}/"
         body = replace(answer.body, base=base, here=answer.body.here or path.rpartition("/")[2])

@@ -67,6 +67,10 @@ def test_abb_robot_client(url):
     assert list(robot.get_jointtarget().robax) == [0.0] * 6
     assert robot.get_robtarget().trans[2] > 0
     assert robot.read_event_log()[0].title
+    # It reads the type of every answer that is not 204, also of one without a body.
+    assert robot.try_create_ipc_queue("mine")
+    robot.send_ipc_message("mine", "num;1", "mine")
+    assert [message.data for message in robot.read_ipc_message("mine")] == ["num;1"]
     heard, both = [], threading.Event()
 
     def hear(event):
