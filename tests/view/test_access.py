@@ -121,6 +121,20 @@ def test_nothing_is_cut_off_at_1280_by_720(irb120, open_page):
         assert page.evaluate("document.documentElement.scrollHeight") <= 720
 
 
+def test_a_narrow_window_is_used_over_its_whole_width(irb120, open_page):
+    """The wider panels of some tabs are for where there is room beside the robots."""
+    page = open_page(irb120["view"])
+    page.set_viewport_size({"width": 400, "height": 850})
+    until(page, STATE)
+    for tab in TABS:
+        page.get_by_role("tab", name=tab).click()
+        widths = page.evaluate(
+            "[document.documentElement.scrollWidth,"
+            " document.querySelector('aside').getBoundingClientRect().width]"
+        )
+        assert widths == [400, 400], tab
+
+
 def test_the_emergency_stop_works_by_the_keyboard(irb120, open_page):
     page = open_page(irb120["view"])
     until(page, STATE)
