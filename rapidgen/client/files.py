@@ -15,6 +15,8 @@ from rapidgen.diagnostics import Diagnostic, Span, error
 Array = npt.NDArray[np.float64]
 _SHOWN = 20
 """Findings of one file that are worth reading."""
+_MCAP = b"\x89MCAP"
+"""How the recordings of `rapidgen sim --record` begin."""
 
 
 class Content(NamedTuple):
@@ -47,8 +49,11 @@ def _read(path: Path) -> str:
             exit_code=2,
         ) from raised
     except UnicodeDecodeError as raised:
+        mend = "save it as UTF-8"
+        if raised.object.startswith(_MCAP):
+            mend = f"it is a recording: `rapidgen view {path} --csv FILE.csv` writes its positions"
         raise InvalidTrajectory.because(
-            "RG610", f"{path} is not text in UTF-8", "save it as UTF-8", exit_code=2
+            "RG610", f"{path} is not text in UTF-8", mend, exit_code=2
         ) from raised
 
 

@@ -95,6 +95,17 @@ def test_csv_that_is_none(tmp_path, content):
     assert set(codes(error)) == {"RG610"}
 
 
+def test_a_recording_of_a_simulator_is_told_from_a_text(tmp_path):
+    path = tmp_path / "run.mcap"
+    path.write_bytes(b"\x89MCAP0\r\n\x01")
+    with pytest.raises(InvalidTrajectory) as error:
+        Trajectory.from_csv(path)
+    (found,) = error.value.diagnostics
+    assert found.help == (
+        f"it is a recording: `rapidgen view {path} --csv FILE.csv` writes its positions"
+    )
+
+
 def test_missing_file(tmp_path):
     with pytest.raises(InvalidTrajectory, match="no such file"):
         Trajectory.from_csv(tmp_path / "none.csv")
