@@ -35,12 +35,15 @@ def ros2(
     if len(places) != (len(config) if len(config) > 1 else 0):
         told = "once for each of several robots" if len(config) > 1 else "for several robots only"
         raise typer.BadParameter(f"it is given {told}", param_hint="--at")
-    models = [load_config(one, overrides=overrides or ()) for one in config]
+    over = tuple(overrides or ())
+    models = [load_config(one, overrides=over) for one in config]
     sources = [one if one in shipped_names() else str(Path(one).resolve()) for one in config]
     if len(models) == 1:
-        files = ros2_package(models[0], sources[0])
+        files = ros2_package(models[0], sources[0], over)
     else:
-        members = [CellMember(*one) for one in zip(models, sources, places, strict=True)]
+        members = [
+            CellMember(*one, overrides=over) for one in zip(models, sources, places, strict=True)
+        ]
         files = ros2_cell(members, out.resolve().name.removesuffix("_rapidgen"))
     write(files, out)
     typer.echo(f"{len(files)} files in {out}")

@@ -83,7 +83,7 @@ class RobotNode(LifecycleNode):  # type: ignore[misc]
         """Read the configuration; topics, services and actions are there from now on."""
         try:
             parameters = read({name: self.get_parameter(name).value for name, _, _ in DECLARED})
-            config = load_config(parameters.config)
+            config = load_config(parameters.config, overrides=parameters.overrides)
             check_address(parameters.address, config)
         except DiagnosticError as error:
             self.get_logger().error(str(error))

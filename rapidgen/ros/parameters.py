@@ -14,8 +14,10 @@ from rapidgen.ros.goals import Defaults
 WHOLE = 100.0
 """% of the programmed speed, which each motion begins with."""
 
-DECLARED: tuple[tuple[str, str | bool | float, str], ...] = (
+DECLARED: tuple[tuple[str, str | bool | float | list[str], str], ...] = (
     ("config", "", "robot YAML, or the name of a shipped model"),
+    # A list without an element has no type for rclpy.
+    ("overrides", [""], "KEY=VALUE, each over a key of config: what `rapidgen build --set` had"),
     ("address", "", "HOST, or HOST:MOTION,STATE,CONTROL; empty: a simulator on this machine"),
     ("autostart", True, "configure and activate without being asked"),
     ("tf_prefix", "", "put in front of joint names"),
@@ -38,6 +40,7 @@ class Parameters:
     """What the user said."""
 
     config: str
+    overrides: tuple[str, ...]
     address: str
     tf_prefix: str
     publish_clock: bool
@@ -68,6 +71,7 @@ def read(values: Mapping[str, Any]) -> Parameters:
         raise DiagnosticError(found)
     return Parameters(
         values["config"],
+        tuple(filter(None, values["overrides"])),
         values["address"],
         values["tf_prefix"],
         values["publish_clock"],

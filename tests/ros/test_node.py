@@ -174,6 +174,12 @@ def test_stop_ends_a_goal_that_waits_for_its_moment(up):
     assert "stopped on request before it started" in text
 
 
+def test_a_goal_is_judged_by_the_overridden_configuration(up):
+    node = up(overrides=["joints.joint_1.upper=1"])
+    status, code, text = ended(action(node).send(goal(0.0, 0.1)))
+    assert (status, code, "outside its limits" in text) == ("aborted", -1, True)
+
+
 def test_up_before_the_robot_and_says_why_it_waits(driver_type):
     overrides = {"config": "irb120", "address": "127.0.0.1:1,1"}
     node = driver_type(parameter_overrides=overrides)
@@ -215,6 +221,7 @@ def test_what_ends_a_link_is_said(up):
         ({"config": "irb12o"}, "irb12o"),
         ({"config": "irb120", "address": "not an address"}, "is no address of a robot"),
         ({"config": "irb14000", "address": "127.0.0.1:11000"}, "irb14000 has 2 of them"),
+        ({"config": "irb120", "overrides": ["ports.moton=1"]}, "unknown key 'moton'"),
         # An override is of a motion: the first goal would have gone at full speed.
         ({"config": "irb120", "speed": 20.0}, "nothing moves yet"),
     ],

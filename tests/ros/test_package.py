@@ -5,7 +5,7 @@ import os
 import random
 import xml.etree.ElementTree as ET
 from io import BytesIO
-from itertools import combinations
+from itertools import combinations, pairwise
 
 import numpy as np
 import pytest
@@ -315,6 +315,33 @@ def test_names_of_joints_stay_texts_in_yaml(tmp_path):
     assert told["moveit_simple_controller_manager"]["rob1_controller"]["joints"] == names
     launch = ET.fromstring(ros1_package(config, "called.yaml")["launch/robot.launch"])
     assert yaml.load(launch.findtext("group/rosparam")) == names
+
+
+def commands(launch):
+    """The texts in each command of a launch file."""
+    lists = [k.value for k in ast.walk(ast.parse(launch)) if isinstance(k, ast.keyword)]
+    return [
+        [word.value for word in ast.walk(words) if isinstance(word, ast.Constant)]
+        for words in lists
+        if isinstance(words, ast.List)
+    ]
+
+
+@pytest.mark.parametrize("robots", [["irb120"], ["irb120", "irb2400", "--at=0,0,0", "--at=2,0,0"]])
+def test_node_and_simulator_know_what_was_overridden(robots, tmp_path):
+    """With the ports, ranges and joints of another robot they would drive it otherwise."""
+    sets = ["ports.motion=12000", "network.allowed_clients=[10.0.0.1, 10.0.0.2]"]
+    words = [word for one in sets for word in ("--set", one)]
+    assert main(["ros2", *robots, "-o", str(tmp_path / "p"), *words]) == 0
+    told = commands((tmp_path / "p/launch/driver.launch.py").read_text())
+    simulators = [one for one in told if one[:2] == ["rapidgen", "sim"]]
+    nodes = [one for one in told if "rapidgen.ros" in one]
+    assert len(simulators) == len(nodes) == sum("irb" in one for one in robots)
+    for one in simulators:
+        assert [value for key, value in pairwise(one) if key == "--set"] == sets
+    for one in nodes:
+        (given,) = [word for word in one if word.startswith("overrides:=")]
+        assert YAML(typ="safe").load(given.removeprefix("overrides:=")) == sets
 
 
 def test_a_hostile_name_stays_text(tmp_path):

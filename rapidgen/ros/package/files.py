@@ -32,11 +32,14 @@ class CellMember:
     """The configuration as the node is to read it: a file, or a shipped name."""
     at: tuple[float, ...] = (0.0,) * 6
     """Its base in the world: x, y, z in m; roll, pitch, yaw in rad."""
+    overrides: tuple[str, ...] = ()
+    """KEY=VALUE that `config` was loaded with: node and simulator load `source` with them, too."""
 
 
-def ros2_package(config: RobotConfig, source: str) -> dict[str, str]:
+def ros2_package(config: RobotConfig, source: str, overrides: Sequence[str] = ()) -> dict[str, str]:
     """Files by path of a ROS 2 package that starts the node, rviz and MoveIt for this robot."""
-    return _ros2([CellMember(config, source)], config.name, [""])
+    member = CellMember(config, source, overrides=tuple(overrides))
+    return _ros2([member], config.name, [""])
 
 
 def ros2_cell(members: Sequence[CellMember], name: str) -> dict[str, str]:
@@ -70,6 +73,8 @@ def _ros2(members: Sequence[CellMember], called: str, names: Sequence[str]) -> d
         {
             "name": one,
             "source": member.source,
+            "set": [word for one in member.overrides for word in ("--set", one)],
+            "overrides": json.dumps(member.overrides),
             "prefix": robot.prefix,
             "host": f"127.0.0.{number}",
             "groups": [
