@@ -153,6 +153,17 @@ def test_10_a_continuous_external_axis_is_an_independent_one(check):
     assert axes(config)["table"] == "eax_a"
 
 
+@pytest.mark.parametrize(
+    ("given", "wanted"), [("lower: -90", (-90, None)), ("upper: 45", (None, 45))]
+)
+def test_10_one_end_of_a_range_leaves_the_other_without_end(check, given, wanted):
+    text = robot(BASE, arm(), joint("table", "base_link", "top", "continuous"), links("top"))
+    config, _ = check(text, f"{SIX}\n  table: {{axis: eax_a, {given}}}")
+    table = config.groups[0].joints[-1]
+    ends = (math.degrees(table.lower), math.degrees(table.upper))
+    assert ends == pytest.approx((wanted[0] or -18000, wanted[1] or 18000))
+
+
 SCARA = "joints:\n" + "\n".join(
     f"  joint_{n}: {{axis: rax_{n}{', unit: mm' if n == 3 else ''}}}" for n in range(1, 5)
 )
@@ -433,6 +444,21 @@ def test_24_other_limits_are_rounded_inwards(check):
     third = config.groups[0].joints[2]
     assert math.degrees(third.lower) == pytest.approx(-85.0, abs=1e-9)  # -85.11
     assert math.degrees(third.upper) == pytest.approx(169.99, abs=1e-9)  # 169.9966
+
+
+@pytest.mark.parametrize(
+    ("given", "wanted"), [("lower: -30.1", (-30.1, 80)), ("upper: 20.9", (-80, 20.9))]
+)
+def test_24_one_limit_of_ones_own_stays_and_the_urdf_completes_the_other(check, given, wanted):
+    text = six(lower=-80 * DEGREE, upper=80 * DEGREE)
+    config, _ = check(text, f"joints:\n  joint_3: {{{given}, source: fence}}")
+    third = config.groups[0].joints[2]
+    assert (math.degrees(third.lower), math.degrees(third.upper)) == pytest.approx(wanted)
+
+
+def test_24_one_limit_of_ones_own_is_judged_with_that_of_the_urdf(check):
+    _, found = check(six(lower=-1.4, upper=1.4), "joints:\n  joint_3: {lower: 85}")
+    assert errors(found) == ["RG014"]
 
 
 def test_25_no_mesh_is_opened(check, tmp_path, monkeypatch):

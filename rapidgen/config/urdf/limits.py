@@ -68,7 +68,9 @@ def _open(draft: JointDraft, joint: UrdfJoint, *, of_range: bool = True) -> str:
 def _continuous(draft: JointDraft, joint: UrdfJoint, span: Span | None) -> Diagnostic:
     name, axis = draft.name, draft.axis
     if axis.startswith("eax"):
+        own = draft.lower, draft.upper
         draft.lower, draft.upper = -INDEPENDENT, INDEPENDENT
+        _keep(draft, *own)
         draft.unsure = (*draft.unsure, "lower", "upper")
         return error(
             "RG040",
@@ -123,13 +125,21 @@ def _range(draft: JointDraft, joint: UrdfJoint, span: Span | None) -> Iterator[D
             yield error("RG041", span, message, severity=Severity.WARNING)
         factor = 1000.0 if linear else 180 / math.pi
         ends = sorted(draft.sign * end * factor + draft.offset for end in (lower, upper))
+        own = draft.lower, draft.upper
         draft.lower, draft.upper = ends
         yield from _rounded(draft, span)
+        _keep(draft, *own)
 
 
 def quoted(name: str) -> str:
     """A joint's name as a key of YAML."""
     return name if name.isidentifier() and name.isascii() else json.dumps(name)
+
+
+def _keep(draft: JointDraft, lower: float | None, upper: float | None) -> None:
+    """An end that the configuration has stays: the URDF completes the other one."""
+    draft.lower = draft.lower if lower is None else lower
+    draft.upper = draft.upper if upper is None else upper
 
 
 def _rounded(draft: JointDraft, span: Span | None) -> Iterator[Diagnostic]:
