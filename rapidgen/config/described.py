@@ -20,7 +20,7 @@ from rapidgen.config.urdf import limits
 from rapidgen.config.urdf.arms import Arm, Cell, no_robot, read_cell, says_abb
 from rapidgen.config.urdf.crosscheck import COUPLED, SERIAL
 from rapidgen.config.urdf.expand import expand
-from rapidgen.config.urdf.graph import build_graph
+from rapidgen.config.urdf.graph import aimless, build_graph
 from rapidgen.config.urdf.group import request
 from rapidgen.config.urdf.robot import UrdfJoint, read_robot
 from rapidgen.config.urdf.source import macros, read_xml
@@ -97,6 +97,13 @@ def describe(
     claimed = bool(said or answers.tips) or says_abb(*names, *around, description.text)
     cell = replace(read_cell(graph, names, said), around=around, is_claimed=claimed)
     faults = [d for d in found if d.severity is Severity.ERROR]
+    # What moves behind an arm is a gripper, and left out.
+    left = {*answers.ignore, *(joint.name for arm in cell.arms for joint in arm.behind)}
+    faults += [
+        aimless(joint, None)
+        for joint in robot.joints
+        if joint.is_actuated and joint.is_aimless and joint.name not in left
+    ]
     refused = list(no_robot(cell, None))
     if refused and refused[0].message.startswith("a delta"):
         faults = refused

@@ -112,6 +112,13 @@ def test_arguments_of_a_macro(tmp_path):
     assert codes(path, urdf=tmp_path / "r.xacro", macro_arg=["side"]) == (["RG020"], 2)
 
 
+def test_an_axis_of_length_0_is_a_finding(tmp_path):
+    text = chain().replace('xyz="0 0 1"', 'xyz="0 0 0"', 1)
+    (tmp_path / "irb120.urdf").write_text(f'<robot name="irb120">{text}</robot>')
+    assert codes(tmp_path / "cell.yaml", urdf=tmp_path / "irb120.urdf") == (["RG053"], 2)
+    assert not (tmp_path / "cell.yaml").exists()
+
+
 def test_what_cannot_be_known_is_open_in_the_file(tmp_path):
     (tmp_path / "r.urdf").write_text(
         f'<robot name="irb">{chain(names=(1, 2, 7, 3, 4, 5, 6))}</robot>'

@@ -425,6 +425,25 @@ def test_23_joints_that_cannot_be(check, changes):
     assert "joint_3" in fault.message
 
 
+@pytest.mark.parametrize("kind", ["revolute", "continuous", "prismatic"])
+def test_23_an_axis_without_a_direction(check, kind):
+    text = six(kind=kind)
+    at = text.index('<joint name="joint_3"')
+    text = text[:at] + text[at:].replace('<axis xyz="0 0 1"/>', '<axis xyz="0 0 0"/>', 1)
+    fault = only("RG053", check(text))
+    assert "joint_3" in fault.message
+    assert fault.help
+
+
+@pytest.mark.parametrize("ignored", [False, True])
+def test_23_a_joint_that_no_axis_is_needs_no_direction(check, ignored):
+    kind = "revolute" if ignored else "fixed"
+    more = joint("more", "link_6", "tool0", kind).replace("0 0 1", "0 0 0")
+    urdf = "  ignore_joints: [more]" if ignored else ""
+    _, found = check(robot(BASE, arm(), more, links("tool0")), urdf=urdf)
+    assert not found
+
+
 @pytest.mark.parametrize("old", [' name="joint_3"', '<parent link="link_2"/>', ' type="revolute"'])
 def test_23_missing_parts(check, old):
     text = six()

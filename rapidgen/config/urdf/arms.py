@@ -117,7 +117,7 @@ def _behind(graph: Graph, arm: Arm, moving: Sequence[UrdfJoint]) -> tuple[UrdfJo
 def _arm(
     graph: Graph, chain: Sequence[UrdfJoint], names: tuple[str, ...], said: Mapping[str, str]
 ) -> Arm | None:
-    sound = [j for j in chain if j.kind not in ("floating", "planar")]
+    sound = [j for j in chain if j.kind not in ("floating", "planar") and not j.is_aimless]
     for count in (7, 6, 4, 3):
         for begin in range(len(sound) - count + 1):
             window = tuple(sound[begin : begin + count])

@@ -120,3 +120,14 @@ def _loops(robot: UrdfRobot, above: dict[str, UrdfJoint]) -> Iterator[Diagnostic
                 return
             seen.add(link)
             link = above[link].parent
+
+
+def aimless(joint: UrdfJoint, place: Span | None) -> Diagnostic:
+    """RG053 for a joint that is to drive an axis, with an axis of length 0."""
+    return error(
+        "RG053",
+        joint.span or place,
+        f"joint '{joint.name}' has an axis of length 0",
+        "write the direction that it turns about or slides along, such as "
+        '<axis xyz="0 0 1"/>; if no axis of the controller drives it, ignore it',
+    )

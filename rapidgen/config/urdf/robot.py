@@ -62,6 +62,11 @@ class UrdfJoint:
         return self.kind != "fixed" and not self.mimic
 
     @property
+    def is_aimless(self) -> bool:
+        """An axis of length 0: nothing can turn about it, or slide along it."""
+        return self.axis == (0.0, 0.0, 0.0)
+
+    @property
     def is_stuck(self) -> bool:
         """Moves by itself, in a range of nothing: a joint kept for its place, or no range yet."""
         return self.is_actuated and self.lower is not None and self.lower == self.upper
