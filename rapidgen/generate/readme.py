@@ -3,7 +3,7 @@
 import math
 
 from rapidgen import __version__
-from rapidgen.config.model import RobotConfig
+from rapidgen.config.model import GroupConfig, RobotConfig
 from rapidgen.generate import layout
 from rapidgen.generate.context import to_rapid
 from rapidgen.generate.numbers import inward, literal
@@ -25,8 +25,8 @@ def readme_context(config: RobotConfig, system: System, build_id: str) -> dict[s
         "major": major,
         "omnicore": major >= 7,
         "collision_parameter": config.robotware >= (6, 4),
-        "address": _address(config),
-        "yumi": all(group.model.startswith("irb140") for group in config.groups),
+        "address": _address(config.groups[0]),
+        "yumi": all(group.model == "irb14000" for group in config.groups),
         "multi": len(config.groups) > 1,
         "commissioning": config.commissioning,
         "full": config.profile == "full",
@@ -66,16 +66,28 @@ def readme_context(config: RobotConfig, system: System, build_id: str) -> dict[s
         "opened": [f"{name}_open.cfg" for name in _open_files(config)],
         "events": [{"event": e.event, "routine": e.routine, "task": e.task} for e in system.events],
         "groups": [_group(config, n) for n in range(len(config.groups))],
+        "folder": layout.FOLDER,
         "folders": sorted(
             {m.target.rpartition("/")[0] for task in system.tasks for m in task.modules}
         ),
     }
 
 
-def _address(config: RobotConfig) -> str:
-    """How the first group is named on the command line."""
-    ports = config.groups[0].ports
-    return f"ROBOT:{ports.motion},{ports.state}"
+def _address(group: GroupConfig) -> str:
+    """How a group is named on the command line."""
+    return f"ROBOT:{group.ports.motion},{group.ports.state}"
+
+
+def _elsewhere(group: GroupConfig) -> list[dict[str, str]]:
+    """What the modules name and the customer's own have to declare in the motion task."""
+    found = [(t.name, "PERS tooldata") for t in (group.tool, *group.tools) if t.elsewhere]
+    found += [
+        (w.name, "PERS wobjdata") for w in (group.work_object, *group.work_objects) if w.elsewhere
+    ]
+    if group.payload.name != "load0":
+        found.append((group.payload.name, "PERS loaddata"))
+    found += [(r.call, f"FUNC {r.returns}") for r in group.routines if r.returns]
+    return [{"name": name, "what": what} for name, what in dict.fromkeys(found)]
 
 
 def _open_files(config: RobotConfig) -> tuple[str, ...]:
@@ -95,8 +107,10 @@ def _group(config: RobotConfig, n: int) -> dict[str, object]:
         "ports": group.ports,
         "coupling": literal(group.coupling),
         "coupled": group.coupling != 0,
+        "address": _address(group),
+        "elsewhere": _elsewhere(group),
         "tool": group.tool.name,
-        "light_tool": group.tool.load.mass <= 0.001,
+        "light_tool": group.tool.load.mass <= 0.001 and not group.tool.elsewhere,
         "x": layout.suffix(config, group),
         "joints": [
             {

@@ -1,5 +1,8 @@
 """What the README of a build tells an integrator, by generation and by what the driver serves."""
 
+import re
+from pathlib import PurePosixPath
+
 import pytest
 
 from rapidgen.config import load_config
@@ -18,7 +21,7 @@ def readme(name, *overrides):
         (
             "irb120",
             (),
-            ("X6, WAN", "616-1", "no firewall", "network: {bind: service}"),
+            ("X6, WAN", "616-1", "no firewall", "network: {bind: service}", '"alike" in'),
             ("SIO.cfg",),
         ),
         ("irb120", ("controller.robotware=6.03",), ("X6, WAN",), ("CollisionErrorHandling",)),
@@ -30,6 +33,7 @@ def readme(name, *overrides):
         ),
         ("irb120", ("network.bind=service",), ("**service port**, 192.168.125.1",), ("X6",)),
         ("irb120", ("network.bind=10.0.0.7",), ("serves 10.0.0.7 and nothing else",), ("X6",)),
+        ("irb140_6_81", (), ("X6, WAN",), ("XP23",)),
         ("irb14000", (), ("XP23 is the service port", "604-1"), ("X6",)),
         ("crb15000", (), ("into **WAN**", "3114-1", "`EnableOnPublicNet`", "SIO.cfg"), ("616-1",)),
         ("crb15000", ("network.bind=service",), ("`EnableOnPrivateNet`",), ("PublicNet",)),
@@ -60,3 +64,59 @@ def test_what_comes_first_and_the_way_back(robot):
     assert "\n## The robot stands and nothing says why\n" in text
     assert "\n\n\n" not in text
     assert "{" not in text.replace("{bind: service}", "")
+
+
+TWO = """
+controller: {robotware: 6.13}
+groups:
+  left: {model: irb120, task: T_ROB1, mechanical_unit: ROB_1}
+  right:
+    model: irb120
+    task: T_ROB2
+    mechanical_unit: ROB_2
+    tool: {name: tSpindle, declared: elsewhere}
+"""
+
+
+@pytest.fixture
+def two_groups(tmp_path):
+    (tmp_path / "two.yaml").write_text(TWO)
+    return tmp_path / "two.yaml"
+
+
+def test_what_is_copied_as_told_lies_where_the_cfg_looks_for_it(two_groups):
+    for config in map(load_config, ("irb120", two_groups)):
+        files = {f.path: f.data.decode("ascii") for f in build(config).files}
+        text = files["README.md"]
+        (copied,) = re.findall(
+            r"^2\. Copy `(HOME/[^`]+)` with all that is in it", text, re.MULTILINE
+        )
+        kept = PurePosixPath(copied)
+        there = {
+            "HOME:/" + str(PurePosixPath(path).relative_to(kept.parent))
+            for path in files
+            if PurePosixPath(path).is_relative_to(kept)
+        }
+        assert set(re.findall(r'-File "([^"]+)"', files["SYS.cfg"])) == there
+        assert f"delete `HOME:/{kept.name}`" in text
+
+
+def test_each_group_is_tried_at_its_own_ports(two_groups):
+    assert "left is `ROBOT:11000,11002`, right is `ROBOT:11010,11012`." in readme(two_groups)
+
+
+def test_data_that_a_module_of_the_customers_declares_are_named(two_groups):
+    text = readme(two_groups)
+    assert (
+        "   T_ROB2 has to have, global and in a module of yours: `tSpindle` (PERS tooldata)."
+        in text
+    )
+    assert "T_ROB1 has to have" not in text
+    assert "the tool `tool0` weighs nothing" in text
+    assert "the tool `tSpindle`" not in text  # its load is what that module says
+
+
+@pytest.mark.parametrize(("profile", "streams"), [("full", True), ("basic", False)])
+def test_a_stream_is_told_of_where_there_is_one(profile, streams):
+    text = readme("irb120", f"profile={profile}")
+    assert ("\n- A stream has any number of points" in text) is streams
