@@ -1,6 +1,7 @@
 """The validated file becomes the frozen model: units, defaults, and what the schema cannot see."""
 
 import math
+from ipaddress import IPv4Address
 from pathlib import Path
 
 from rapidgen.config import model, schema
@@ -156,11 +157,13 @@ def _check_network(configuration: schema.ConfigurationKeys, report: DraftFinding
     if configuration.network.bind not in ("lan", "service"):
         addresses.append((("network", "bind"), configuration.network.bind))
     for path, address in addresses:
-        parts = address.split(".")
-        if len(parts) != 4 or not all(
-            p.isascii() and p.isdigit() and len(p) <= 3 and int(p) <= 255 for p in parts
-        ):
-            report.error("RG006", f"'{address}' is not an IPv4 address", path)
+        if _is_address(address):
+            continue
+        if path[-1] == "bind":
+            help = "the controller's own address, `lan` or `service`: none stands for all of them"
+        else:
+            help = "the address of one machine, such as 192.168.1.10, as the controller writes it"
+        report.error("RG006", f"'{address}' is not the IPv4 address of a machine", path, help=help)
     for name, signal in configuration.signals.items():
         if signal.access == "write" and signal.kind.endswith("I"):
             report.error(
@@ -170,6 +173,15 @@ def _check_network(configuration: schema.ConfigurationKeys, report: DraftFinding
                 "",
                 "RAPID sets outputs only: DO, GO, AO",
             )
+
+
+def _is_address(text: str) -> bool:
+    """Whether it is an address that one machine can have, as a controller writes it."""
+    try:
+        address = IPv4Address(text)
+    except ValueError:
+        return False
+    return not (address.is_unspecified or address.is_multicast or address.is_reserved)
 
 
 def _group(

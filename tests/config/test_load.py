@@ -216,6 +216,32 @@ def test_groups_do_not_share_ports_or_tasks(tmp_path):
     assert [d.code for d in faults(tmp_path, text)] == ["RG012", "RG012"]
 
 
+@pytest.mark.parametrize(
+    ("network", "told"),
+    [
+        # A controller binds to an address of its own, to no wildcard (a real one of 7.21).
+        ("{bind: 0.0.0.0}", "`lan`"),
+        ("{bind: 255.255.255.255}", "`lan`"),
+        ("{bind: 224.0.0.1}", "`lan`"),
+        ("{bind: 192.168.1.300}", "`lan`"),
+        # The peer's address is compared as text.
+        ("{allowed_clients: [192.168.010.5]}", "192.168.1.10"),
+        ("{allowed_clients: [192.168.1.0/24]}", "192.168.1.10"),
+        ("{allowed_clients: [0.0.0.0]}", "192.168.1.10"),
+    ],
+)
+def test_an_address_that_no_machine_has_is_refused(tmp_path, network, told):
+    (fault,) = faults(tmp_path, f"model: irb120\nnetwork: {network}\n")
+    assert (fault.code, fault.span.line) == ("RG006", 2)
+    assert told in fault.help
+
+
+@pytest.mark.parametrize("address", ["10.0.0.7", "192.168.125.1", "127.0.0.1", "203.0.113.9"])
+def test_an_address_that_a_machine_has_is_taken(tmp_path, address):
+    text = f"model: irb120\nnetwork: {{bind: {address}, allowed_clients: [{address}]}}\n"
+    assert load(tmp_path, text).bind == address
+
+
 def test_limits_are_rounded_inwards_to_a_hundredth(tmp_path):
     text = "model: irb120\njoints: {joint_1: {lower: -90.004, upper: 90.009}}"
     joint = load(tmp_path, text).groups[0].joints[0]
