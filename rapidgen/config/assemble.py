@@ -48,9 +48,10 @@ def assemble(path_or_name: str | Path, overrides: Overrides) -> Assembly:
     made = Assembly(path, MappingNode({}, Span(text, 1, 1)))
     user = _read(path, made) if not shipped else _model(text, made)
     over, over_inputs = override_tree(overrides)
-    base_name = _text(over, "model") or _text(user, "model")
+    chosen = over if _text(over, "model") else user
+    base_name = _text(chosen, "model")
     if base_name:
-        made.root = _shipped(base_name, made)
+        made.root = _shipped(base_name, made, chosen.entries["model"][1].span)
         _rest_on(made, base_name, made.root)
     elif shipped or path.parent == data_folder("robots"):
         _rest_on(made, text if shipped else path.stem, canonical(user, ()).root)

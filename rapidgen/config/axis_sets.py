@@ -36,7 +36,12 @@ def kept_axes(
                 help="take it out of one of the two",
             )
         elif axis not in ROBOT_AXES:
-            report.error("RG021", f"{axis} cannot be kept: only axes of the robot", (*path, "keep"))
+            report.error(
+                "RG021",
+                f"{axis} cannot be kept: only axes of the robot",
+                (*path, "keep"),
+                help="take it out: without a joint an external axis is not moved",
+            )
     missing = [axis for axis in ROBOT_AXES if axis not in driven]
     unkept = [axis for axis in _needed(draft, driven) if axis not in driven and axis not in keep]
     if draft.coupling and {"rax_2", "rax_3"} & set(missing):
@@ -81,7 +86,12 @@ def kept_axes(
                 key=True,
             )
         for first, second, why in _disorder(draft):
-            report.error("RG046", f"{second} cannot come behind {first} in the chain: {why}", where)
+            report.error(
+                "RG046",
+                f"{second} cannot come behind {first} in the chain: {why}",
+                where,
+                help="give each joint the `axis:` that it drives on the robot",
+            )
     return tuple(
         model.KeptAxis(
             axis,

@@ -12,7 +12,7 @@ from rapidgen.config.joints import joints_of
 from rapidgen.config.registry import find_shipped
 from rapidgen.config.tooling import data_of, routine_of, tool_of, work_object_of
 from rapidgen.config.variant_model import label
-from rapidgen.diagnostics import Severity
+from rapidgen.diagnostics import Severity, suggest
 
 GENERATIONS = {
     "irc5": (5, 6),
@@ -208,9 +208,20 @@ def _group(
             del draft.positioners[unit]  # the model's, and this cell has none
             continue
         if unit not in keys.external_units:
-            report.error("RG014", f"'{unit}' is not in `external_units`", where, key=True)
+            report.error(
+                "RG014",
+                f"'{unit}' is not in `external_units`",
+                where,
+                help="name it there, or leave its chain out",
+                key=True,
+            )
         if not moved:
-            report.error("RG014", f"no joint moves '{unit}'", where)
+            report.error(
+                "RG014",
+                f"no joint moves '{unit}'",
+                where,
+                help="name the joint of an external axis in one of its steps: `joint: NAME`",
+            )
         _chain(chain, where, external, "the external axes of `joints`", report)
     ports = keys.ports
     return model.GroupConfig(
@@ -282,13 +293,20 @@ def _chain(
     for number, step in enumerate(chain):
         if step.axis == (0.0, 0.0, 0.0):
             where = (*path, number, "axis")
-            report.error("RG014", f"chain step {number + 1} has an axis of length 0", where)
+            report.error(
+                "RG014",
+                f"chain step {number + 1} has an axis of length 0",
+                where,
+                help="write the direction that it turns about or slides along, such as [0, 0, 1]",
+            )
         for name in (step.joint, *(joint for joint, _ in step.follows)):
             if name and name not in names:
                 report.error(
                     "RG014",
                     f"chain step {number + 1} names the joint '{name}', which is not in {among}",
                     (*path, number, "joint"),
+                    help=suggest(name, sorted(names))
+                    or f"there are: {', '.join(sorted(names)) or 'none'}",
                 )
 
 
@@ -308,6 +326,7 @@ def _check_ports(
                     "RG012",
                     f"port {port} is used twice: {users[port]} and {group.name}.{name}",
                     path,
+                    help="give one of the two another one under `ports:` of its group",
                 )
             users.setdefault(port, f"{group.name}.{name}")
             if getattr(given, name) is not None and port > _PLAIN_PORTS_END:

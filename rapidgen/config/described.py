@@ -158,7 +158,12 @@ def _chosen(cell: Cell, answers: Answers) -> list[Arm]:
         path = {j.name for j in cell.graph.path_to(joint.child if joint else tip)}
         made += [arm for arm in cell.arms if arm.joints[-1].name in path and arm not in made]
     if not made:
-        raise refusal("RG052", None, f"no arm leads to {', '.join(answers.tips)}")
+        raise refusal(
+            "RG052",
+            None,
+            f"no arm leads to {', '.join(answers.tips)}",
+            "name the link at the arm's end",
+        )
     return made
 
 

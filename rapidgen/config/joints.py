@@ -41,6 +41,7 @@ def joints_of(
                 f"joints '{seen[joint.axis]}' and '{joint.name}' both drive {joint.axis}",
                 (*here, "axis"),
                 "second time",
+                "one joint drives an axis: give the other the `axis:` that it drives",
             )
         if joint.axis:
             seen.setdefault(joint.axis, joint.name)
@@ -98,6 +99,8 @@ def _joint(
             f"joint '{draft.name}': lower limit {draft.lower:g} is not below the upper limit "
             f"{draft.upper:g}",
             (*path, "upper"),
+            help="the range goes from `lower:` to `upper:`, both from the robot's data sheet"
+            + ("; the one that is not given here is the URDF's" if draft.described else ""),
         )
         return None
     lower, upper = inwards(draft.lower, draft.upper)

@@ -177,7 +177,7 @@ def assignments(words: Sequence[str]) -> dict[str, str]:
     for word in words:
         name, equals, value = word.partition("=")
         if not name or not equals:
-            raise refusal("RG020", None, f"'{word}' is not NAME=VALUE")
+            raise refusal("RG020", None, f"'{word}' is not NAME=VALUE", "such as joint_1=rax_1")
         made[name] = value
     return made
 
@@ -192,9 +192,9 @@ def ranges(words: Sequence[str]) -> dict[str, tuple[float, float]]:
             made[name] = float(lower), float(upper)
         except ValueError:
             text = f"'{word}' is not LOWER..UPPER or NAME=LOWER..UPPER"
-            raise refusal("RG020", None, text) from None
+            raise refusal("RG020", None, text, "such as joint_1=-170..170") from None
         if not made[name][0] < made[name][1]:
-            raise refusal("RG020", None, f"'{word}': lower is not below upper")
+            raise refusal("RG020", None, f"'{word}': lower is not below upper", "swap the two")
     return made
 
 

@@ -57,8 +57,9 @@ def errors(found):
 
 
 def only(code, checked):
-    """The one error of a check, which has this code."""
+    """The one error of a check, which has this code; it says what mends it."""
     assert errors(checked[1]) == [code]
+    assert checked[1][code].help
     return checked[1][code]
 
 

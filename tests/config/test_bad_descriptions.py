@@ -24,6 +24,8 @@ def refused(tmp_path, text, name="robot.urdf"):
         with pytest.raises(DiagnosticError) as caught:
             ask()
         assert len(render(caught.value.diagnostics)) < FOUR_KB
+        without = [d.message for d in caught.value.diagnostics if not d.help]
+        assert [words for words in without if not words.startswith("and ")] == []
         said.append({d.code: d for d in caught.value.diagnostics})
     return said
 

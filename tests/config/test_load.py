@@ -295,6 +295,24 @@ def test_what_the_schema_cannot_say_is_checked(tmp_path):
     assert codes == ["RG006", "RG013", "RG014", "RG014"]
 
 
+@pytest.mark.parametrize(
+    "text",
+    [
+        "model: irb120\nports: {motion: 11000, state: 11000}\n",
+        "model: irb120\njoints: {joint_1: {lower: 10, upper: -10}}\n",
+        "model: irb120\njoints: {joint_2: {axis: rax_1}}\n",
+        "model: irb120\njoints: {joint_1: {axis: rax_2}, joint_2: {axis: rax_1}}\n",
+        "model: irb120\nkeep: [eax_a]\n",
+        "model: irb120\npositioners: {TABLE: [{joint: joint_1}]}\n",
+        "model: irb120\nchain: [{joint: joint_9}, {joint: joint_1, axis: [0, 0, 0]}]\n",
+    ],
+)
+def test_what_is_wrong_is_told_with_what_mends_it(tmp_path, text):
+    found = faults(tmp_path, text)
+    assert found
+    assert [d.message for d in found if not d.help] == []
+
+
 @pytest.mark.parametrize("name", shipped_names())
 def test_the_manifest_keeps_every_bit(name):
     config = load_config(name)
@@ -366,9 +384,12 @@ def test_nothing_and_nowhere(tmp_path):
 
 def test_an_unknown_model_suggests_one(tmp_path):
     assert refused(load_config, "irb12")[0] == "RG009"
-    (fault,) = faults(tmp_path, "model: irb1201\n")
+    (fault,) = faults(tmp_path, "controller: {robotware: 6.15}\nmodel: irb1201\n")
     assert fault.code == "RG009"
     assert "did you mean" in fault.help
+    assert (fault.span.line, fault.span.column) == (2, 8)
+    (fault,) = faults(tmp_path, "model: irb120\n", overrides=["model=irb1201"])
+    assert fault.span.path == "--set model=irb1201"
 
 
 @pytest.mark.parametrize("name", ["kr10", "kr120", "ur10e", "m120"])

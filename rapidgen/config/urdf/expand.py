@@ -94,6 +94,7 @@ def expand(request: Request) -> Description:
                 "RG056",
                 request.place,
                 f"{request.path.name} is a plain URDF and takes no arguments or macro",
+                "leave them out, or name the xacro file that the URDF was made from",
             )
     else:
         made = _expand_xacro(request, text)
@@ -253,7 +254,7 @@ def _translate(request: Request, fault: BaseException, at: Path) -> Diagnostic:
         hint = "a macro calls, or a file includes, itself without end?"
         return error("RG061", place, f"xacro: {name} nests too deep", hint)
     text = " ".join(str(inner).split()) or type(inner).__name__
-    hint = ""
+    hint = "mend it there, or expand the file where all that it needs is, and give the URDF"
     if type(inner).__name__ == "ArgException":
         wanted, text = text, f"the argument '{text}' has no value"
         lines = f"urdf:\n  args: {{{wanted}: VALUE}}"

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from rapidgen.config.urdf.robot import UrdfJoint, UrdfRobot
-from rapidgen.diagnostics import Diagnostic, Severity, Span, error
+from rapidgen.diagnostics import Diagnostic, Severity, Span, error, suggest
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,6 +68,8 @@ def build_graph(robot: UrdfRobot, place: Span | None) -> tuple[Graph, list[Diagn
                         "RG051",
                         joint.span,
                         f"joint '{joint.name}': its {role} link '{link}' does not exist",
+                        suggest(link, robot.links)
+                        or f'add <link name="{link}"/> to the description',
                     )
                 )
         if joint.child in above:
@@ -88,6 +90,8 @@ def build_graph(robot: UrdfRobot, place: Span | None) -> tuple[Graph, list[Diagn
                     "RG042",
                     joint.span,
                     f"joint '{joint.name}' mimics '{joint.mimic}', which does not exist",
+                    suggest(joint.mimic, sorted(names))
+                    or "name a joint of the description in its <mimic>",
                 )
             )
     found += _loops(robot, above)
@@ -115,6 +119,7 @@ def _loops(robot: UrdfRobot, above: dict[str, UrdfJoint]) -> Iterator[Diagnostic
                     "RG051",
                     above[link].span,
                     f"the joints run in a circle through link '{link}'",
+                    "a controller needs a tree: hang the first joint on the link that stands",
                     label="closes a loop",
                 )
                 return

@@ -224,7 +224,9 @@ def _named(joint: JointDraft, graph: Graph, place: Span | None) -> Iterator[Diag
             f"map '{known.mimic}' instead",
         )
     elif known.kind == "fixed":
-        yield error("RG034", known.span or place, f"joint '{joint.name}' is fixed")
+        yield error(
+            "RG034", known.span or place, f"joint '{joint.name}' is fixed", "map a joint that moves"
+        )
 
 
 def _order(draft: GroupDraft, graph: Graph, place: Span | None) -> Found:

@@ -98,7 +98,9 @@ def _range(draft: JointDraft, joint: UrdfJoint, span: Span | None) -> Iterator[D
         mend = f"add, from the robot's data sheet\n{_open(draft, joint)}"
         yield error("RG038", span, f"joint '{name}' has no limits", mend)
     elif lower > upper:
-        yield error("RG053", span, f"joint '{name}': lower {lower:g} is above upper {upper:g}")
+        message = f"joint '{name}': lower {lower:g} is above upper {upper:g}"
+        mend = f"swap the two in the description, or add the range\n{_open(draft, joint)}"
+        yield error("RG053", span, message, mend)
     elif lower == upper:
         yield error(
             "RG039",
@@ -116,9 +118,12 @@ def _range(draft: JointDraft, joint: UrdfJoint, span: Span | None) -> Iterator[D
             label=f"{math.degrees(widest):,.0f} deg",
         )
     elif linear and widest > LONG:
-        yield error("RG041", span, f"joint '{name}': {widest:g} m is no stroke; are these mm?")
+        message = f"joint '{name}': {widest:g} m is no stroke; are these mm?"
+        yield error("RG041", span, message, "a URDF has metres")
     elif linear and upper - lower < SHORT:
-        yield error("RG041", span, f"joint '{name}': a stroke of {upper - lower:g} m is no axis")
+        message = f"joint '{name}': a stroke of {upper - lower:g} m is no axis"
+        mend = f"name it under urdf.ignore_joints, or add its range\n{_open(draft, joint)}"
+        yield error("RG041", span, message, mend)
     else:
         if linear and upper - lower > LOOKS_LIKE_MM:
             message = f"joint '{name}': a stroke of {upper - lower:g} m; are these mm?"

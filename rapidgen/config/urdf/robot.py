@@ -259,7 +259,8 @@ def _structure(root: "Element", span_of: "PlaceOf", name: str) -> Iterator[Diagn
             continue
         own = element.get("name")
         if not own:
-            yield error("RG053", span_of(element), f"a <{element.tag}> has no name")
+            message = f"a <{element.tag}> has no name"
+            yield error("RG053", span_of(element), message, f'write <{element.tag} name="...">')
             continue
         if len(own) > MAX_NAME or not own.isprintable():
             yield error(
@@ -268,6 +269,7 @@ def _structure(root: "Element", span_of: "PlaceOf", name: str) -> Iterator[Diagn
                 f"the name of a <{element.tag}> is {len(own)} characters long"
                 if len(own) > MAX_NAME
                 else f"the name {own!a} has a character that is not printed",
+                "give it a short name of plain letters",
             )
             continue
         if (element.tag, own) in seen:
@@ -275,6 +277,7 @@ def _structure(root: "Element", span_of: "PlaceOf", name: str) -> Iterator[Diagn
                 "RG051",
                 span_of(element),
                 f"two {element.tag}s are called '{own}'",
+                "give one of them another name",
                 label="second time",
             )
         seen[element.tag, own] = 1
@@ -301,10 +304,12 @@ def _joint_structure(element: "Element", name: str, span_of: "PlaceOf") -> Itera
     for part in ("parent", "child"):
         inner = element.find(part)
         if inner is None or not inner.get("link"):
-            yield error("RG053", span_of(element), f"joint '{name}' has no {part} link")
+            message = f"joint '{name}' has no {part} link"
+            yield error("RG053", span_of(element), message, f'add <{part} link="..."/>')
     mimic = element.find("mimic")
     if mimic is not None and not mimic.get("joint"):
-        yield error("RG042", span_of(element), f"joint '{name}' mimics no joint")
+        message = f"joint '{name}' mimics no joint"
+        yield error("RG042", span_of(element), message, 'write <mimic joint="..."/>')
     for part, attributes in (*_NUMBERS.items(), *_VECTORS.items()):
         inner = element.find(part)
         for attribute in attributes if inner is not None else ():
@@ -316,7 +321,11 @@ def _joint_structure(element: "Element", name: str, span_of: "PlaceOf") -> Itera
                     span_of(inner),
                     f"joint '{name}': {part} {attribute}=\"{text}\" is not "
                     + ("a finite number" if wanted == 1 else "three finite numbers"),
-                    "write a decimal point, not a comma" if "," in text else "",
+                    "write a decimal point, not a comma"
+                    if "," in text
+                    else "write a number"
+                    if wanted == 1
+                    else "write three numbers with blanks between them",
                 )
 
 

@@ -49,7 +49,12 @@ def read_xml(path: Path, *, place: Span | None = None) -> tuple[str, bytes]:
             "RG060", place, f"cannot read {path}: {reason}", "give the path of a file"
         ) from None
     if len(data) > MAX_BYTES:
-        raise refusal("RG060", place, f"{path} is larger than {MAX_BYTES:,} bytes")
+        raise refusal(
+            "RG060",
+            place,
+            f"{path} is larger than {MAX_BYTES:,} bytes",
+            "give a URDF: meshes are files of their own",
+        )
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError:
