@@ -103,8 +103,18 @@ def _configuration(given: str, cell: "Cell | None") -> list[Diagnostic]:
     from rapidgen.config import load_config
 
     model = load_config(given)
-    found = list(model.diagnostics)
-    return found if cell is None else [*found, *_on(cell, model)]
+    return [*model.diagnostics, *(_built(model) if cell is None else _on(cell, model))]
+
+
+def _built(model: "RobotConfig") -> list[Diagnostic]:
+    """What a build would refuse, for any controller."""
+    from rapidgen.generate import build
+
+    try:
+        build(model)
+    except DiagnosticError as fault:
+        return list(fault.diagnostics)
+    return []
 
 
 def _on(cell: "Cell", model: "RobotConfig") -> list[Diagnostic]:

@@ -18,7 +18,7 @@ from rapidgen.generate.cell import Cell, check_data, in_the_way, missing, used_s
 from rapidgen.generate.cell_routines import check_routines
 from rapidgen.generate.context import group_context, used_constants
 from rapidgen.generate.lint import lint
-from rapidgen.generate.naming import naming
+from rapidgen.generate.naming import check_tasks, naming
 from rapidgen.generate.numbers import literal
 from rapidgen.generate.output import Output, OutputFile, manifest_file
 from rapidgen.generate.parameters import OPEN_FILES, cfg_files
@@ -35,12 +35,14 @@ _UNKNOWN = "{build---id}"
 def build(config: RobotConfig, cell: Cell | None = None) -> Output:
     """All files for one controller; for `cell`, to which `config` was fitted, what it lacks.
 
-    Raises DiagnosticError: RG101 (a name or text of the configuration does not fit into RAPID),
+    Raises DiagnosticError: RG012 (a motion task has the name of one of ours), RG101 (a name or
+    text of the configuration does not fit into RAPID),
     RG105 (the first line of a cfg file is not known for this RobotWare), RG106 (a name is taken in
     RAPID), RG110 (the cell has something in another way), RG112 (its program has a name that ours
     needs), RG113 (it does not declare data that it should), RG720..RG723 (it would not load the
     files).
     """
+    check_tasks(config)
     templates = data_folder("templates")
     renderer = Renderer(templates)
     renderer.add_filter("num", literal)
@@ -139,7 +141,7 @@ def _modules(config: RobotConfig, group: GroupConfig, renderer: Renderer) -> lis
         # Controllers write CR LF and read both; LF keeps line counts and diffs plain.
         data = rendered.text.encode("ascii", errors="replace")
         files.append(OutputFile(path, data, "module", tasks, rendered.lines))
-    faults += naming(group, [file.data.decode("ascii", errors="replace") for file in files])
+    faults += naming(config, group, [file.data.decode("ascii", errors="replace") for file in files])
     if faults:
         raise DiagnosticError(faults)
     return files

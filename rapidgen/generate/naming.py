@@ -2,8 +2,10 @@
 
 import re
 
-from rapidgen.config.model import GroupConfig
-from rapidgen.diagnostics import Diagnostic, error
+from rapidgen.config.model import GroupConfig, RobotConfig
+from rapidgen.config.places import KeyPath, place_of_value
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, error
+from rapidgen.generate import layout
 from rapidgen.rapid.builtins import signatures
 from rapidgen.rapid.syntax.lexer import KEYWORDS
 
@@ -14,7 +16,31 @@ _PROCEDURE = re.compile(r"\bPROC[ \t]+(\w+)")
 _THEIR_TYPES = frozenset({"tooldata", "wobjdata", "loaddata"})
 
 
-def naming(group: GroupConfig, modules: list[str]) -> list[Diagnostic]:
+def check_tasks(config: RobotConfig) -> None:
+    """Raise DiagnosticError RG012 for a motion task with the name of one of the driver's tasks."""
+    ours = {
+        layout.task_name(config, group, role).casefold()
+        for group in config.groups
+        for role in layout.ROLES
+        if role.task
+    }
+    found = [
+        error(
+            "RG012",
+            place_of_value(config, group.name, ("task",), group.task),
+            f"the motion task of group '{group.name}' and a task of the driver are both "
+            f"{group.task}",
+            "`task:` names the controller's own motion task, as T_ROB1; the driver brings "
+            "its tasks with it",
+        )
+        for group in config.groups
+        if group.task.casefold() in ours
+    ]
+    if found:
+        raise DiagnosticError(found)
+
+
+def naming(config: RobotConfig, group: GroupConfig, modules: list[str]) -> list[Diagnostic]:
     """Names of tool, work object and payload that cannot stand beside these modules: RG106.
 
     RAPID compares names without case; a name of a routine's hides one of its module [K §2.3, 2.12].
@@ -43,10 +69,11 @@ def naming(group: GroupConfig, modules: list[str]) -> list[Diagnostic]:
         others = [other.casefold() for other in list(chosen.values())[:number]]
         why = _why_not(name, declared, others)
         if why:
+            parts: KeyPath = tuple(int(p) if p.isdigit() else p for p in (*key.split("."), "name"))
             found.append(
                 error(
                     "RG106",
-                    None,
+                    place_of_value(config, group.name, parts, name),
                     f"`{key}.name: {name}` cannot be the name of a datum: {why}",
                     "choose another name",
                 )

@@ -100,6 +100,19 @@ def test_configurations_by_name_and_path(folder, capsys):
     assert json.loads(capsys.readouterr().out)[0]["line"] == 2
 
 
+@pytest.mark.parametrize(
+    ("line", "code"),
+    [("task: T_ROS_RECV", "RG012"), ("tool: {name: num, load: {mass: 1}}", "RG106")],
+)
+def test_what_a_build_would_refuse_is_told(folder, capsys, line, code):
+    (folder / "taken.yaml").write_text(f"model: irb120\n{line}\n")
+    assert main(["check", "taken.yaml", "--format", "json"]) == 1
+    (told,) = json.loads(capsys.readouterr().out)
+    assert (told["code"], told["path"], told["line"]) == (code, "taken.yaml", 2)
+    assert main(["build", "taken.yaml"]) == 2
+    assert not (folder / "rapid_out").exists()
+
+
 def test_fmt_writes_once(folder, capsys):
     path = folder / "ugly.mod"
     path.write_bytes(b"module m\r\nvar num gr\xf6\xdfe;\r\nendmodule\r\n")

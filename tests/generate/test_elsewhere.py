@@ -58,6 +58,35 @@ def test_a_name_that_is_taken_is_refused(key, name):
     assert [d.code for d in refused.value.diagnostics] == ["RG106"]
 
 
+@pytest.mark.parametrize(
+    ("text", "line", "column"),
+    [
+        ("model: irb120\ntool: {name: v100, load: {mass: 1}}\n", 2, 14),
+        ("model: irb120\nwork_objects:\n  - name: wA\n  - {name: pose}\n", 4, 12),
+        ("groups:\n  one:\n    model: irb120\n    payload: {name: num}\n", 4, 21),
+    ],
+)
+def test_a_name_that_is_taken_has_its_place(tmp_path, text, line, column):
+    (tmp_path / "cell.yaml").write_text(text)
+    with pytest.raises(DiagnosticError) as refused:
+        build(load_config(tmp_path / "cell.yaml"))
+    (fault,) = refused.value.diagnostics
+    assert (fault.code, fault.span.line, fault.span.column) == ("RG106", line, column)
+    assert fault.span.path.endswith("cell.yaml")
+
+
+@pytest.mark.parametrize("task", ["T_ROS_RECV", "t_ros_sup", "T_ROS_STATE"])
+def test_the_motion_task_is_none_of_the_drivers(tmp_path, task):
+    (tmp_path / "cell.yaml").write_text(f"model: irb120\ntask: {task}\n")
+    with pytest.raises(DiagnosticError) as refused:
+        build(load_config(tmp_path / "cell.yaml"))
+    (fault,) = refused.value.diagnostics
+    assert (fault.code, fault.span.line) == ("RG012", 2)
+    with pytest.raises(DiagnosticError, match="RG012") as refused:
+        build(load_config("irb120", overrides={"task": task}))
+    assert refused.value.diagnostics[0].span is None
+
+
 def test_two_data_of_one_name_are_refused():
     names = {"tool.name": "both", "tool.load.mass": 1, "work_object.name": "Both"}
     with pytest.raises(DiagnosticError, match="another datum"):
