@@ -64,6 +64,16 @@ def test_a_package_from_the_command_line(arm_package, tmp_path):
     assert load_config(path, package_paths=[tmp_path / "elsewhere"])
 
 
+@pytest.mark.parametrize("way", ["command line", "ROS_PACKAGE_PATH"])
+def test_a_package_path_may_be_relative(arm_package, tmp_path, monkeypatch, way):
+    path = configure(tmp_path / "cell")
+    monkeypatch.chdir(tmp_path)
+    if way == "ROS_PACKAGE_PATH":
+        monkeypatch.setenv(way, "elsewhere")
+    config = load_config(path, package_paths=["elsewhere"] if way == "command line" else [])
+    assert len(config.groups[0].joints) == 6
+
+
 def test_a_package_from_ros_package_path(arm_package, tmp_path, monkeypatch):
     monkeypatch.setenv("ROS_PACKAGE_PATH", os.pathsep.join(["/none", str(tmp_path / "elsewhere")]))
     assert load_config(configure(tmp_path / "cell"))

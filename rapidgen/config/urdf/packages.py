@@ -33,8 +33,11 @@ class Packages:
     _scans: dict[Path, dict[str, list[Path]]] = field(default_factory=dict)
 
     def find(self, name: str) -> Path:
-        """Folder of a package; raises PackageNotFound."""
-        self.used[name] = self._find(name)
+        """Folder of a package; raises PackageNotFound.
+
+        It is absolute: xacro takes a relative one from the folder of the file that includes.
+        """
+        self.used[name] = self._find(name).absolute()
         return self.used[name]
 
     def _find(self, name: str) -> Path:
