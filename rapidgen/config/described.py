@@ -27,6 +27,7 @@ from rapidgen.config.urdf.source import macros, read_xml
 from rapidgen.diagnostics import DiagnosticError, Severity, refusal, suggest
 
 _PACKAGE = re.compile(r"package://([\w-]+)")
+_SIDE = re.compile(r"(?:^|_|rob|arm)([lr])(?:_|\d|$)|(?=left|right)([lr])")
 _EXTERNAL = tuple(f"eax_{letter}" for letter in "abcdef")
 
 
@@ -73,6 +74,7 @@ class GroupText:
     head: list[str]
     joints: list[JointLine]
     tail: list[str]
+    tasks: list[str]
 
 
 def describe(
@@ -219,18 +221,41 @@ def _group(cell: Cell, arm: Arm, arms: Sequence[Arm], number: int, answers: Answ
     needs_tip = any(
         j.is_actuated and not j.is_stuck and j.name not in own for j in cell.graph.robot.joints
     )
+    name = _name(arm, arms, number)
     return GroupText(
-        _name(arm, arms, number), [*head, *([f"tip: {tip}"] if needs_tip else [])], lines, tail
+        name,
+        [*head, *([f"tip: {tip}"] if needs_tip else [])],
+        lines,
+        tail,
+        _tasks(name, arms, variant if same else None),
     )
 
 
 def _name(arm: Arm, arms: Sequence[Arm], number: int) -> str:
     if len(arms) == 2 and len(arm.joints) == 7:
-        ends = [a.joints[0].name.lower() for a in arms]
-        for left, right in (("_l", "_r"), ("left", "right")):
-            if left in ends[0] + ends[1] and right in ends[0] + ends[1]:
-                return "rob_l" if left in ends[number] else "rob_r"
+        sides = [_side(a.joints[0].name) for a in arms]
+        if sorted(sides) == ["l", "r"]:
+            return f"rob_{sides[number]}"
     return f"rob{number + 1}"
+
+
+def _side(name: str) -> str:
+    """l or r, as a joint of one of two arms says it: joint_1_l, robl_joint_1, left_1."""
+    hit = _SIDE.search(name.lower())
+    return (hit[1] or hit[2]) if hit else ""
+
+
+def _tasks(name: str, arms: Sequence[Arm], variant: Variant | None) -> list[str]:
+    """Task and unit where they are not the first robot's and the second's: both arms of a YuMi."""
+    if name in ("rob_l", "rob_r"):
+        arm = name[-1].upper()
+        return [f"task: T_ROB_{arm}", f"mechanical_unit: ROB_{arm}"]
+    if variant is None or variant.family != "14000" or len(arms) != 2:
+        return []
+    return [
+        f"task: {OPEN}              # the left arm's is T_ROB_L, the right one's T_ROB_R",
+        f"mechanical_unit: {OPEN}   # ROB_L or ROB_R",
+    ]
 
 
 def _line(

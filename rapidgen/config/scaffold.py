@@ -150,14 +150,9 @@ def _group_lines(group: GroupText, source: Sequence[str]) -> list[str]:
     words = [line for line in group.head if line.startswith("#")]
     tips = [f"  {line}" for line in group.head if not line.startswith("#")]
     width = max(len(line.text(0).split("  #")[0]) for line in group.joints)
-    arms = {"rob_l": "ROB_L", "rob_r": "ROB_R"}
     return [
         *words,
-        *(
-            [f"task: T_{arms[group.name]}", f"mechanical_unit: {arms[group.name]}"]
-            if group.name in arms
-            else []
-        ),
+        *group.tasks,
         "urdf:",
         *source,
         *tips,

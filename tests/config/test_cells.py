@@ -1,9 +1,12 @@
 """`new` on cells: tracks, gantries, positioners, grippers, several arms; and what is no robot."""
 
+import re
+
 import pytest
 
 from rapidgen.cli.new import new
 from rapidgen.config import load_config
+from rapidgen.config.registry import find_shipped
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.generate import build, make_system
 from rapidgen.proving.bench import Bench
@@ -78,13 +81,48 @@ def test_a_cell_is_built_and_moves(tmp_path, case):
         bench.healthy()
 
 
-def test_two_arms_of_a_yumi(tmp_path):
-    from rapidgen.config.registry import find_shipped
+YUMI = (find_shipped("irb14000").parent / "urdf" / "irb14000.urdf").read_text()
 
-    text = (find_shipped("irb14000").parent / "urdf" / "irb14000.urdf").read_text()
-    config = made(tmp_path, text)
+
+def yumi(left, right):
+    """Both arms, with other names of their joints."""
+    names = {"l": left, "r": right}
+    return re.sub(r"yumi_joint_(\d)_([lr])", lambda hit: names[hit[2]].format(hit[1]), YUMI)
+
+
+def test_two_arms_of_a_yumi(tmp_path):
+    config = made(tmp_path, YUMI)
     assert [(g.name, g.task) for g in config.groups] == [("rob_l", "T_ROB_L"), ("rob_r", "T_ROB_R")]
     assert [len(g.joints) for g in config.groups] == [7, 7]
+
+
+@pytest.mark.parametrize(
+    ("left", "right"),
+    [
+        # kth-ros-pkg/yumi; OrebroUniversity/yumi and its forks; others
+        ("yumi_joint_{}_l", "yumi_joint_{}_r"),
+        ("yumi_robl_joint_{}", "yumi_robr_joint_{}"),
+        ("left_{}", "right_{}"),
+        ("LeftArm{}", "RightArm{}"),
+        ("l_joint_{}", "r_joint_{}"),
+    ],
+)
+def test_both_arms_of_a_yumi_have_the_controllers_tasks(tmp_path, left, right):
+    config = made(tmp_path, yumi(left, right))
+    tasks = {g.name: (g.task, g.mechanical_unit) for g in config.groups}
+    assert tasks == {"rob_l": ("T_ROB_L", "ROB_L"), "rob_r": ("T_ROB_R", "ROB_R")}
+    for group in config.groups:
+        own = (left if group.name == "rob_l" else right).format(1)
+        assert own in {j.name for j in group.joints}
+
+
+def test_arms_of_a_yumi_that_no_name_tells_leave_their_tasks_open(tmp_path):
+    (tmp_path / "robot.urdf").write_text(yumi("a_{}", "b_{}"))
+    with pytest.raises(DiagnosticError) as caught:
+        new(tmp_path / "cell.yaml", urdf=tmp_path / "robot.urdf")
+    assert {d.code for d in caught.value.diagnostics} == {"RG022"}
+    written = (tmp_path / "cell.yaml").read_text()
+    assert written.count('task: "???"') == written.count('mechanical_unit: "???"') == 2
 
 
 DELTA = robot(
