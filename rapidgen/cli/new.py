@@ -59,9 +59,18 @@ def new(
         ),
     ] = None,
     controller: Annotated[
-        str, typer.Option("--controller", help="irc5, irc5_compact or omnicore.")
-    ] = "irc5",
-    robotware: Annotated[str, typer.Option("--robotware", help="RobotWare version.")] = "6.15",
+        str,
+        typer.Option(
+            "--controller",
+            help="irc5, irc5_compact or omnicore; default: what the robot comes with, else irc5.",
+        ),
+    ] = "",
+    robotware: Annotated[
+        str,
+        typer.Option(
+            "--robotware", help="RobotWare version; default: of the robot, else 6.15 or 7.10."
+        ),
+    ] = "",
     force: Annotated[bool, typer.Option("--force", help="Replace an existing file.")] = False,
 ) -> None:
     """Write a commented configuration that checks and builds. What stays open is marked in it."""

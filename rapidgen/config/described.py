@@ -44,8 +44,9 @@ class Answers:
     """deg/s and mm/s for axes of which nothing says a speed"""
     ranges: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     """deg or mm by joint; "" is for turning axes of which nothing says a range"""
-    controller: str = "irc5"
-    robotware: str = "6.15"
+    controller: str = ""
+    robotware: str = ""
+    """Where either is empty, what a robot of its type comes with."""
 
 
 @dataclass(slots=True)
@@ -75,6 +76,7 @@ class GroupText:
     joints: list[JointLine]
     tail: list[str]
     tasks: list[str]
+    family: str
 
 
 def describe(
@@ -228,6 +230,7 @@ def _group(cell: Cell, arm: Arm, arms: Sequence[Arm], number: int, answers: Answ
         lines,
         tail,
         _tasks(name, arms, variant if same else None),
+        own_family or (variant.family if variant else ""),
     )
 
 

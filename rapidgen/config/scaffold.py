@@ -9,13 +9,15 @@ from rapidgen._writing import write_whole
 from rapidgen.config import schema
 from rapidgen.config.catalogue import model_description
 from rapidgen.config.described import Answers, GroupText, describe
-from rapidgen.config.library import Variant
+from rapidgen.config.library import Variant, variants
 from rapidgen.config.load import load_config
+from rapidgen.config.model import RobotConfig
 from rapidgen.config.open_lines import OPEN
 from rapidgen.config.registry import find_shipped
 from rapidgen.config.variant_model import model_name, named
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, refusal
 
+_IRC5, _OMNICORE = ("irc5", "6.15"), ("omnicore", "7.10")
 _OPTIONS = """
 # What follows is optional; the values shown are the defaults. `rapidgen schema` and
 # docs/start/configuration.md have the rest.
@@ -49,13 +51,10 @@ def from_model(name: str, said: Answers | None = None) -> str:
     if variant:
         return _from_variant(variant, said or Answers())
     config = load_config(name)
-    major, minor = config.robotware
     lines = [
         f"# {model_description(name)}",
         f"model: {name}",
-        "controller:",
-        f"  type: {config.controller}",
-        f"  robotware: {major}.{minor:02d}        # see the FlexPendant: Settings or System Info",
+        *_controller(said or Answers(), _delivered(config)),
     ]
     text = "\n".join(lines) + "\n" + _OPTIONS
     if len(config.groups) == 1:
@@ -75,9 +74,7 @@ def _from_variant(variant: Variant, said: Answers) -> str:
     lines = [
         f"# ABB {variant.name}, from public sources: `rapidgen robots show {model_name(variant)}`.",
         f"model: {model_name(variant)}",
-        "controller:",
-        f"  type: {said.controller:<20}# irc5, irc5_compact, omnicore",
-        f"  robotware: {said.robotware:<15}# see the FlexPendant: Settings or System Info",
+        *_controller(said, _of_family(variant.family)),
     ]
     slow = [axis.axis for axis in variant.axes if axis.speed is None]
     speed = OPEN if said.speed is None else f"{said.speed:g}"
@@ -85,6 +82,39 @@ def _from_variant(variant: Variant, said: Answers) -> str:
         lines.append("joints:                    # no public source has their speeds, deg/s")
         lines += [f"  joint_{axis[-1]}: {{speed: {speed}}}" for axis in slow]
     return "\n".join(lines) + "\n" + _OPTIONS + _GROUP_OPTIONS + _limits_hint("joint_1")
+
+
+def _delivered(config: RobotConfig) -> tuple[str, str]:
+    major, minor = config.robotware
+    return config.controller, f"{major}.{minor:02d}"
+
+
+def _of_family(known: str) -> tuple[str, str]:
+    """Controller and RobotWare of a type of which a shipped model says that IRC5 is none."""
+    for variant in variants():
+        if known and variant.model and variant.family == known:
+            config = load_config(variant.model)
+            if config.generations and not {5, 6} & set(config.generations):
+                return _delivered(config)
+    return _IRC5
+
+
+def _controller(said: Answers, own: tuple[str, str]) -> list[str]:
+    """What a person says, completed by what the robot comes with."""
+    if said.controller:
+        is_omnicore = said.controller == "omnicore"
+    elif said.robotware:
+        is_omnicore = said.robotware.partition(".")[0] in ("7", "8")
+    else:
+        is_omnicore = own[0] == "omnicore"
+    if is_omnicore != (own[0] == "omnicore"):
+        own = _OMNICORE if is_omnicore else _IRC5
+    name, version = said.controller or own[0], said.robotware or own[1]
+    return [
+        "controller:",
+        f"  type: {name:<20}# irc5, irc5_compact, omnicore",
+        f"  robotware: {version:<15}# see the FlexPendant: Settings or System Info",
+    ]
 
 
 def _limits_hint(joint: str) -> str:
@@ -128,9 +158,7 @@ def from_urdf(
     quoted = json.dumps  # a JSON text is a YAML text
     lines = [
         f"# Made from {Path(given.file).name}. Check every axis against the robot before it moves.",
-        "controller:",
-        f"  type: {said.controller:<20}# irc5, irc5_compact, omnicore",
-        f"  robotware: {said.robotware:<15}# see the FlexPendant: Settings or System Info",
+        *_controller(said, _of_family(groups[0].family)),
     ]
     source = [f"  file: {quoted(given.file)}"]
     source += [f"  macro: {given.macro}"] if given.macro else []

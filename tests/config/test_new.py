@@ -12,6 +12,7 @@ from rapidgen.cli.schema import schema
 from rapidgen.config import load_config, shipped_names
 from rapidgen.config.registry import find_shipped
 from rapidgen.diagnostics import DiagnosticError
+from tests.config.drawing import drawn
 
 URDFS = find_shipped("irb120").parent / "urdf"
 XACRO = 'xmlns:xacro="http://www.ros.org/wiki/xacro"'
@@ -110,6 +111,48 @@ def test_arguments_of_a_macro(tmp_path):
     new(path, urdf=tmp_path / "r.xacro", macro_arg=["side=left_"], coupling=0)
     assert load_config(path).groups[0].joints[0].name == "left_joint_1"
     assert codes(path, urdf=tmp_path / "r.xacro", macro_arg=["side"]) == (["RG020"], 2)
+
+
+@pytest.mark.parametrize(
+    ("said", "wanted"),
+    [
+        ({}, ("omnicore", (7, 10))),
+        ({"robotware": "7.20"}, ("omnicore", (7, 20))),
+        ({"controller": "virtual", "robotware": "7.6"}, ("virtual", (7, 6))),
+    ],
+)
+@pytest.mark.parametrize("source", ["crb15000", "crb15000_10_152", "urdf"])
+def test_a_robot_without_an_irc5_gets_none(tmp_path, source, said, wanted):
+    path = tmp_path / "cell.yaml"
+    if source == "urdf":
+        (tmp_path / "r.urdf").write_text(drawn("crb15000", name_of="gofa"))
+        new(path, urdf=tmp_path / "r.urdf", **said)
+    else:
+        new(path, robot=source, **said)
+    config = load_config(path)
+    assert (config.controller, config.robotware) == wanted
+
+
+@pytest.mark.parametrize(
+    ("said", "wanted"),
+    [
+        ({}, ("irc5", (6, 15))),
+        ({"robotware": "5.61"}, ("irc5", (5, 61))),
+        ({"robotware": "7.6"}, ("omnicore", (7, 6))),
+        ({"controller": "omnicore"}, ("omnicore", (7, 10))),
+        ({"controller": "irc5_compact", "robotware": "6.08"}, ("irc5_compact", (6, 8))),
+    ],
+)
+@pytest.mark.parametrize("source", ["irb1600", "irb1600_10_145", "urdf"])
+def test_controller_and_robotware_are_as_said(tmp_path, source, said, wanted):
+    path = tmp_path / "cell.yaml"
+    if source == "urdf":
+        (tmp_path / "r.urdf").write_text(drawn("irb1600", name_of="x"))
+        new(path, urdf=tmp_path / "r.urdf", **said)
+    else:
+        new(path, robot=source, **said)
+    config = load_config(path)
+    assert (config.controller, config.robotware) == wanted
 
 
 def test_an_axis_of_length_0_is_a_finding(tmp_path):
