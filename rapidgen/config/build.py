@@ -39,7 +39,7 @@ def build(
     _check_controller(configuration, report)
     _check_network(configuration, report)
     _check_profile(configuration, report)
-    if not configuration.groups and not report.is_faulty(("groups",)):
+    if not (configuration.groups or report.is_faulty(("groups",)) or report.is_faulty(("model",))):
         report.error(
             "RG013",
             "no motion group",

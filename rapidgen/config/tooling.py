@@ -43,7 +43,8 @@ def placement_of(frame: schema.FrameKeys, path: KeyPath, report: DraftFindings) 
 def tool_of(tool: schema.ToolKeys, path: KeyPath, report: DraftFindings) -> model.Tool:
     """The tool of the moves."""
     load = tool.load
-    if tool.name == "tool0" and tool != schema.ToolKeys():
+    is_named = not report.is_faulty((*path, "name"))
+    if is_named and tool.name == "tool0" and tool != schema.ToolKeys():
         report.error(
             "RG014",
             "tool0 is the controller's own and cannot be described",
@@ -82,7 +83,8 @@ def work_object_of(
     given: schema.WorkObjectKeys, path: KeyPath, report: DraftFindings
 ) -> model.WorkObject:
     """The work object of the moves."""
-    if given.name == "wobj0" and given != schema.WorkObjectKeys():
+    is_named = not report.is_faulty((*path, "name"))
+    if is_named and given.name == "wobj0" and given != schema.WorkObjectKeys():
         report.error(
             "RG014",
             "wobj0 is the controller's own and cannot be described",

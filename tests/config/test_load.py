@@ -68,6 +68,18 @@ def test_a_key_at_a_wrong_place_is_told_where_it_stands(tmp_path, text, mend):
     assert mend in found.help
 
 
+@pytest.mark.parametrize(
+    "text",
+    [
+        "model: 120\n",
+        "model: irb120\ntool: {name: grüffzange, load: {mass: 1}}\n",
+        "model: irb120\nwork_object: {name: a-b, held: true}\n",
+    ],
+)
+def test_what_follows_from_a_fault_is_no_fault_of_its_own(tmp_path, text):
+    assert [d.code for d in faults(tmp_path, text)] == ["RG006"]
+
+
 def test_a_fault_in_the_schema_does_not_hide_one_in_the_meaning(tmp_path):
     found = faults(tmp_path, "model: irb120\nports: {motion: x, state: 11001}\n")
     assert sorted(d.code for d in found) == ["RG006", "RG012"]

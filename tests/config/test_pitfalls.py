@@ -89,6 +89,12 @@ def test_06_a_prefix_is_resolved_and_said(check):
     assert config is not None
 
 
+def test_06_one_name_that_is_spelt_otherwise(check):
+    names = ["joint_1", "joint_2", "joint 3", "joint_4", "joint_5", "joint_6"]
+    fault = only("RG034", check(robot(BASE, arm(names))))
+    assert fault.message.endswith("'joint 3': it is not spelt like 'joint_1'")
+
+
 def test_06_names_with_blanks_are_mapped_by_hand(check):
     names = [f"Revolute {n}" for n in (14, 15, 16, 17, 18, 19)]
     text = robot(BASE, arm(names))

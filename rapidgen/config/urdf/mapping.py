@@ -235,6 +235,17 @@ def _numbers(graph: Graph, chain: Sequence[UrdfJoint], place: Span | None) -> Di
     numbers = [p[1] if p else None for p in parts]
     if numbers == [1, 2, 3, 4, 5, 6] and len({(p[0], p[2]) for p in parts if p}) == 1:
         return None
+    if numbers == [1, 2, 3, 4, 5, 6]:
+        spelt = [(p[0], p[2]) for p in parts if p]
+        usual = max(spelt, key=spelt.count)
+        odd = next(j for j, own in zip(chain, spelt, strict=True) if own != usual)
+        like = next(j for j, own in zip(chain, spelt, strict=True) if own == usual)
+        return error(
+            "RG034",
+            odd.span or place,
+            f"cannot infer the axis of '{odd.name}': it is not spelt like '{like.name}'",
+            paste(graph, chain),
+        )
     if sorted(n or 0 for n in numbers) == [1, 2, 3, 4, 5, 6]:
         index = next((i for i, n in enumerate(numbers) if n != i + 1), 0)
         return error(
