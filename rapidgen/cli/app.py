@@ -93,10 +93,12 @@ def run(arguments: list[str] | None = None) -> None:
 def main(words: list[str]) -> int:
     """Run one verb; its exit code."""
     as_json = asks_json(words)
+    # There 2 means that there is something to do.
+    usage = 1 if "--detailed-exitcode" in words else 2
     words = set_up(words)
     if "" in words:
         _show((_empty_argument(),), as_json)
-        return 2
+        return usage
     command = typer.main.get_command(_app(words))
     # Who types nothing wants to know what there is.
     words = words or ["--help"]
@@ -105,10 +107,10 @@ def main(words: list[str]) -> int:
         sys.stdout.flush()
     except DiagnosticError as fault:
         _show(fault.diagnostics, as_json)
-        return fault.exit_code
+        return min(fault.exit_code, usage)
     except TyperException as fault:
         _show((_usage(fault),), as_json)
-        return 2
+        return usage
     except (_GivenUp, KeyboardInterrupt, typer.Abort):
         if as_json:
             _show((_given_up(),), as_json)
@@ -127,11 +129,11 @@ def main(words: list[str]) -> int:
         if lacking is None:
             raise
         _show((lacking,), as_json)
-        return 2
+        return usage
     except OSError as fault:
         if fault.filename is None and fault.errno not in _MACHINE | {errno.ENOENT}:
             raise
-        return _refused(fault, as_json)
+        return min(_refused(fault, as_json), usage)
     return result if isinstance(result, int) else 0
 
 

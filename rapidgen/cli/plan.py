@@ -6,7 +6,6 @@ from typing import Annotated
 import typer
 
 from rapidgen.cli import options
-from rapidgen.diagnostics import DiagnosticError
 
 
 def plan(
@@ -38,6 +37,7 @@ def plan(
     """
     import json
 
+    from rapidgen.cli.observed import refuse_unwritable
     from rapidgen.cli.web_services import agree
     from rapidgen.deploy.fleet import parse_targets
     from rapidgen.deploy.plan import plan_json
@@ -45,27 +45,23 @@ def plan(
     from rapidgen.deploy.show import plans_text
     from rapidgen.deploy.target import Access
 
-    try:
-        wanted = wanted_set(config, overrides or ())
-        access = Access(
-            user, secrets, identity, known_hosts, ask=True, fingerprint=fingerprint, agree=agree()
-        )
-        job = FleetJob(
-            "deploy",
-            parse_targets(to),
-            access,
-            lambda _: wanted,
-            parallel=parallel,
-            backup=backup,
-        )
-        plans = plan_all(job)
-        if out is not None:
-            write_plans(out, plans)
-    except DiagnosticError as error:
-        # With --detailed-exitcode 2 means changes, so every error is 1.
-        raise DiagnosticError(
-            error.diagnostics, exit_code=1 if detailed_exitcode else error.exit_code
-        ) from error
+    if out is not None:
+        refuse_unwritable([out])
+    wanted = wanted_set(config, overrides or ())
+    access = Access(
+        user, secrets, identity, known_hosts, ask=True, fingerprint=fingerprint, agree=agree()
+    )
+    job = FleetJob(
+        "deploy",
+        parse_targets(to),
+        access,
+        lambda _: wanted,
+        parallel=parallel,
+        backup=backup,
+    )
+    plans = plan_all(job)
+    if out is not None:
+        write_plans(out, plans)
     if as_json:
         typer.echo(json.dumps([plan_json(made) for made in plans], indent=2))
     else:

@@ -219,12 +219,9 @@ def earlier_set(transport: Transport, name: str, number: int | None) -> DriverSe
 
 
 def write_plans(path: Path, plans: Sequence[Plan]) -> None:
-    """`--out`. Raises DiagnosticError RG523 when the file cannot be written."""
+    """`--out`. Raises OSError."""
     text = json.dumps({"format": 1, "plans": [plan_json(p) for p in plans]}, indent=2) + "\n"
-    try:
-        write_whole(path, text.encode())
-    except OSError as fault:
-        raise _plan_file(path, fault.strerror or str(fault)) from fault
+    write_whole(path, text.encode())
 
 
 def check_plans(path: Path, plans: Sequence[Plan]) -> None:
