@@ -109,7 +109,7 @@ def connected(target: Target, access: Access) -> Iterator[Transport]:
 
 def _lines(path: str) -> list[str]:
     try:
-        text = Path(path).read_text(encoding="utf-8")
+        text = Path(path).read_text(encoding="utf-8-sig")
     except OSError as fault:
         raise _bad(f"{path}: {fault.strerror}") from fault
     except UnicodeDecodeError as fault:

@@ -108,7 +108,7 @@ def _entry(path: Path, host: str, port: int) -> dict[str, str]:
             status = os.fstat(file.fileno())
             if status.st_mode & (stat.S_IRWXG | stat.S_IRWXO):
                 raise _refused(path, "others on this machine can read it", f"chmod 600 {path}")
-            data = tomllib.load(file)
+            data = tomllib.loads(file.read().decode("utf-8-sig"))
     except OSError as fault:
         raise _refused(path, fault.strerror or str(fault), "name a file that exists") from fault
     except ValueError as fault:  # TOMLDecodeError, UnicodeDecodeError: without the line's text

@@ -16,7 +16,7 @@ from rapidgen.cli.rollback import rollback
 from rapidgen.cli.uninstall import uninstall
 from rapidgen.deploy import TransportFault, parse_target
 from rapidgen.deploy.driverset import NEW as STAGED
-from rapidgen.deploy.fleet import GivingUp
+from rapidgen.deploy.fleet import GivingUp, parse_targets
 from rapidgen.deploy.secrets import Credentials, Secret, find_password, redact
 from rapidgen.deploy.transports.folder import FolderTransport
 from rapidgen.diagnostics import DiagnosticError, render
@@ -390,3 +390,13 @@ def test_a_plan_with_a_backup_looks_for_data_of_the_users_program(run, home, tmp
     program = backup / "RAPID/TASK1/PROGMOD/theirs.mod"
     program.write_text(program.read_text().replace("  PROC", "  PERS loaddata lPart;\n  PROC", 1))
     assert run("plan", *words)[0] == 0
+
+
+def test_a_mark_at_the_beginning_of_a_file_is_no_part_of_it(tmp_path):
+    listed, secrets = tmp_path / "robots.txt", tmp_path / "secrets.toml"
+    listed.write_bytes(b"\xef\xbb\xbfftp://10.0.0.1\r\nftp://10.0.0.2\r\n")
+    assert [t.host for t in parse_targets([f"@{listed}"])] == ["10.0.0.1", "10.0.0.2"]
+    secrets.write_bytes(b'\xef\xbb\xbf[default]\r\npassword = "s3cret"\r\n')
+    secrets.chmod(0o600)
+    login = find_password(Credentials("x"), "10.0.0.1", 21, secrets=secrets, ask=False)
+    assert login.password.get() == "s3cret"
