@@ -93,11 +93,14 @@ def find_password(
         prompt = f"password of {login.user or 'the default user'} at {host}: "
         return replace(login, password=Secret(getpass.getpass(prompt)))
     if ask and needed:
+        # A host's name without quotes is a table in tables: TOML, and nothing for that host.
+        mend = (
+            f"--secrets FILE, or {ENVIRONMENT}; it may be empty"
+            if secrets is None
+            else f'{secrets} has none for it: ["{host}"], in quotes, and below it password = "..."'
+        )
         raise refusal(
-            "RG512",
-            None,
-            f"{host} wants a password, and nobody is here to be asked",
-            f"--secrets FILE, or {ENVIRONMENT}; it may be empty",
+            "RG512", None, f"{host} wants a password, and nobody is here to be asked", mend
         )
     return login
 

@@ -400,3 +400,17 @@ def test_a_mark_at_the_beginning_of_a_file_is_no_part_of_it(tmp_path):
     secrets.chmod(0o600)
     login = find_password(Credentials("x"), "10.0.0.1", 21, secrets=secrets, ask=False)
     assert login.password.get() == "s3cret"
+
+
+def test_a_file_without_the_password_that_is_asked_for_is_named(tmp_path, monkeypatch):
+    monkeypatch.delenv("RAPIDGEN_PASSWORD", raising=False)
+    monkeypatch.setattr("sys.stdin", io.StringIO())
+    secrets = tmp_path / "secrets.toml"
+    secrets.write_text('[10.0.0.1]\npassword = "s3cret"\n')  # tables in tables, to TOML
+    secrets.chmod(0o600)
+    asked = (Credentials(""), "10.0.0.1", 21)
+    (found,) = refusal(find_password, *asked, secrets=secrets, ask=True).diagnostics
+    assert (found.code, str(secrets) in found.help) == ("RG512", True)
+    assert '["10.0.0.1"]' in found.help
+    (found,) = refusal(find_password, *asked, secrets=None, ask=True).diagnostics
+    assert found.help.startswith("--secrets FILE")
