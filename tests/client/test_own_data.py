@@ -100,6 +100,7 @@ def test_data_that_are_not_listed_so_are_not_asked_for():
         for name, value in (
             ("cell:count", float("nan")),
             ("cell:count", True),
+            ("cell:count", None),
             ("cell:ready", 1),
             ("cell:recipe", "x" * 81),
             ("cell:recipe", "Ω"),

@@ -152,6 +152,15 @@ def test_a_value_that_no_message_holds_is_refused(connected):
             robot.read_signal(2**40)
 
 
+@pytest.mark.parametrize("value", [None, "on"])
+def test_a_signal_without_a_number_is_not_read_instead_of_written(connected, value):
+    with connected(control=True) as (robot, controller):
+        with pytest.raises(RequestRefused, match=f"takes a number, not {value!r}") as error:
+            robot.write_signal(0, value)
+        assert error.value.diagnostics[0].help
+        assert not controller.frames
+
+
 def edited(script_hello, offset, packing, *values):
     """A HELLO with other bytes in its content, which begins behind 16 bytes of head."""
     data = bytearray(script_hello)

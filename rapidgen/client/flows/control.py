@@ -38,6 +38,12 @@ def read_signal(core: Core, signal: str | int) -> Flow[float]:
 
 def write_signal(core: Core, signal: str | int, value: float) -> Flow[float]:
     """Set a signal; the value as it was read then. Raises as `pause`."""
+    if value is None or isinstance(value, str):
+        raise RequestRefused.because(
+            "RG625",
+            f"signal {signal} takes a number, not {value!r}",
+            "0 or 1, or the number of a group or of an analog signal",
+        )
     return (yield from _signal(core, signal, value))
 
 

@@ -15,16 +15,16 @@ Datum = float | bool | str
 def read(core: Core, name: str) -> Flow[Datum]:
     """A PERS of `data:`, by its name there. Raises NotSupported for one that is not listed,
     RequestRefused where the robot's program does not have it, RobotTimeout."""
-    return (yield from _reach(core, name, None))
+    return (yield from _reach(core, name, None, writes=False))
 
 
 def write(core: Core, name: str, value: Datum) -> Flow[Datum]:
     """Give a PERS of `data:` a value; that is what it then was read as. Raises as `read_data`, and
     ValueError for a value that its type does not have."""
-    return (yield from _reach(core, name, value))
+    return (yield from _reach(core, name, value, writes=True))
 
 
-def _reach(core: Core, name: str, value: Datum | None) -> Flow[Datum]:
+def _reach(core: Core, name: str, value: Datum | None, *, writes: bool) -> Flow[Datum]:
     known = core.known_group.data
     names = [datum.name for datum in known]
     if name not in names:
@@ -35,18 +35,18 @@ def _reach(core: Core, name: str, value: Datum | None) -> Flow[Datum]:
         )
     index = names.index(name)
     datum = known[index]
-    if value is not None and datum.access == "read":
+    if writes and datum.access == "read":
         raise NotSupported.because(
             "RG624",
             f"'{name}' is listed for reading only",
             "`access: write` in the configuration; build and deploy again",
         )
-    if value is not None and not fits(datum.type, value):
+    if writes and (value is None or not fits(datum.type, value)):
         raise ValueError(f"{name} is a {datum.type}: it cannot be {value!r}")
     number = 0.0 if value is None or isinstance(value, str) else float(value)
     text = value if isinstance(value, str) else ""
-    asked = messages.DataRequest(index, int(value is not None), number, text)
-    reply = yield from ask(core, asked, f"{'read' if value is None else 'write'} {name}")
+    asked = messages.DataRequest(index, int(writes), number, text)
+    reply = yield from ask(core, asked, f"{'write' if writes else 'read'} {name}")
     if not isinstance(reply, messages.DataReply) or reply.datum != index:
         raise RequestRefused.because(
             "RG625", f"{name} was answered with {reply}", **core.evidence()
