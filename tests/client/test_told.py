@@ -161,6 +161,15 @@ def test_a_signal_without_a_number_is_not_read_instead_of_written(connected, val
         assert not controller.frames
 
 
+@pytest.mark.parametrize("way", ["fast", "Stream", 1])
+def test_a_way_that_is_none_moves_nothing(connected, way):
+    with connected() as (robot, controller):
+        for call, given in ((robot.execute, PATH), (robot.run, Program().move_joints(HOME))):
+            with pytest.raises(ValueError, match="'download', 'stream' or None"):
+                call(given, way=way)
+        assert not controller.frames
+
+
 def edited(script_hello, offset, packing, *values):
     """A HELLO with other bytes in its content, which begins behind 16 bytes of head."""
     data = bytearray(script_hello)

@@ -7,7 +7,7 @@ comes in pieces: the axis values and durations that go onto the wire.
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from os import PathLike
-from typing import ClassVar, Literal
+from typing import ClassVar, Literal, get_args
 
 import numpy as np
 import numpy.typing as npt
@@ -118,6 +118,12 @@ def require_trajectory(given: object) -> None:
     raise InvalidTrajectory.because(
         "RG611", f"this takes a Trajectory, and was given {type(given).__name__}", mend, exit_code=2
     )
+
+
+def require_way(given: object) -> None:
+    """Raise ValueError for what is no way: nobody shall take another one than was meant."""
+    if given is not None and given not in get_args(Way):
+        raise ValueError(f"a way is 'download', 'stream' or None, not {given!r}")
 
 
 def check_trajectory(

@@ -17,6 +17,7 @@ from rapidgen.client.core.checks import (
     check_points,
     check_trajectory,
     require_trajectory,
+    require_way,
     to_stream,
 )
 from rapidgen.client.core.download import Download
@@ -393,6 +394,7 @@ class Core:
         yet), NotSupported (no driver that streams).
         """
         require_trajectory(trajectory)
+        require_way(way)
         if way == "stream":
             self.require_streaming()
             return check_points(trajectory, self.known_group, before=None, start=self.start)
@@ -409,6 +411,7 @@ class Core:
         Raises InvalidProgram, NotReady (no state yet), NotSupported.
         """
         require_program(program)
+        require_way(way)
         hello = self.state_port.driver.hello
         if hello is None or Feature.PROGRAMS not in Feature(hello.features):
             raise NotSupported.because(
