@@ -432,15 +432,16 @@ def test_a_jog_is_small_and_stands_soon_after_a_lost_client():
         robot.jog(joint_1=0.1, joint_5=-0.05)
         assert robot.state.joints[0] == pytest.approx(0.1, abs=1e-4)
         assert robot.state.joints[4] == pytest.approx(-0.05, abs=1e-4)
-        for wrong in (
-            {"joint_1": 0.3},
-            {"joint_9": 0.1},
-            {"joint_1": float("nan")},
-            {"z": 0.2},
-            {"joint_1": "5"},
+        for wrong, mend in (
+            ({"joint_1": 0.3}, "at most 0.2 rad"),
+            ({"joint_9": 0.1}, "did you mean 'joint_"),
+            ({"joint_1": float("nan")}, "at most 0.2 rad"),
+            ({"z": 0.2}, "at most 0.1 m"),
+            ({"joint_1": "5"}, "at most 0.2 rad"),
         ):
-            with pytest.raises(InvalidProgram):
+            with pytest.raises(InvalidProgram) as error:
                 robot.jog(**wrong)
+            assert mend in error.value.diagnostics[0].help
         jogging = robot.later.jog(joint_1=-0.2, speed=0.02)
         robot.sleep(1.0)
         group = controller.motion.group("rob1")

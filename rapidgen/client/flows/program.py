@@ -108,13 +108,18 @@ def _check_steps(group: Group, by: Mapping[str, float]) -> None:
     kinds = {name: "prismatic" for name in DIRECTIONS}
     kinds |= {joint.name: joint.kind for joint in group.joints}
     for name, step in by.items():
-        most = LONGEST_JOG.get(kinds.get(name, ""), 0.0)
+        if name not in kinds:
+            raise InvalidProgram.because(
+                "RG670",
+                f"'{name}' is no joint and no direction",
+                suggest(name, list(kinds)) or f"there are {', '.join(kinds)}",
+            )
+        most, unit = LONGEST_JOG[kinds[name]], "rad" if kinds[name] == "revolute" else "m"
         if not isinstance(step, int | float | np.number) or not abs(step) <= most:
             raise InvalidProgram.because(
                 "RG670",
                 f"'{name}' cannot be jogged by {step!r}",
-                suggest(name, list(kinds))
-                or "by at most 0.2 rad or 0.1 m, by the joint's name or by x, y, z",
+                f"a number, at most {most:g} {unit} at a time",
             )
     turned = [name for name in by if name in group.names]
     if turned and len(turned) < len(by):
