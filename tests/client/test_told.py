@@ -64,6 +64,28 @@ def test_a_scale_that_is_named_fits(irb120):
         check_trajectory(fast.scaled(share), irb120, start=HOME)
 
 
+@pytest.mark.parametrize("value", [math.inf, -math.inf, math.nan])
+def test_what_is_no_number_is_not_called_too_fast(irb120, value):
+    points = Trajectory([0, 1, 2], [HOME, [value, *HOME[1:]], HOME])
+    with pytest.raises(InvalidTrajectory) as error:
+        check_trajectory(points, irb120)
+    assert [d.code for d in error.value.diagnostics] == ["RG613"]
+
+
+def test_each_fault_of_a_trajectory_has_a_mend(irb120):
+    names = ["joint_1", "joint_2", "joint_3", "joint_4", "joint_5"]
+    for points in (
+        Trajectory([0, 1], [HOME[1:]] * 2, names),
+        Trajectory([0, 1], [HOME, [math.nan, *HOME[1:]]]),
+        Trajectory([0, math.nan], [HOME, HOME]),
+        Trajectory([0, 0.2], [HOME, [1.0, 0, 0, 0, 0, 0]]),
+    ):
+        with pytest.raises(InvalidTrajectory) as error:
+            check_trajectory(points, irb120)
+        assert all(d.help for d in error.value.diagnostics)
+    assert "--speed" in error.value.diagnostics[0].help
+
+
 def test_a_resampling_that_is_named_mends(irb120):
     for duration in np.random.default_rng(7).uniform(0.5, 60, 100):
         dense = Trajectory(np.linspace(0, duration, 2000), np.zeros((2000, 6)))

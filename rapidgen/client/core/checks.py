@@ -25,6 +25,7 @@ Way = Literal["download", "stream"]
 _SPEED_ROUNDING = 1 + 1e-4
 """float32 positions and durations may ask for this much more than was meant."""
 _TIME_ROUNDING = 1e-6
+_NUMBERS = "give each point a time and a value of each joint; leave out a point that has none"
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -287,7 +288,8 @@ def _names(trajectory: Trajectory, group: Group) -> list[Diagnostic]:
     ]
     missing = [name for name in own if name not in names]
     if missing:
-        found.append(_finding("RG611", f"joints are missing: {', '.join(missing)}"))
+        mend = f"a column for each of the robot's joints: {', '.join(own)}"
+        found.append(_finding("RG611", f"joints are missing: {', '.join(missing)}", mend))
     return found
 
 
@@ -297,14 +299,14 @@ def _finite(asked: _Asked) -> Iterator[Diagnostic]:
         points = np.flatnonzero(bad[:, column])
         value = asked.ordered.positions[points[0], column]
         message = f"{asked.group.names[column]} is {value} at"
-        yield asked.finding("RG613", message, points)
+        yield asked.finding("RG613", message, points, "", _NUMBERS)
 
 
 def _times(asked: _Asked) -> Iterator[Diagnostic]:
     times, before = asked.ordered.times, asked.before
     unknown = np.flatnonzero(~np.isfinite(times))
     if len(unknown):
-        yield asked.finding("RG613", f"the time is {times[unknown[0]]} at", unknown)
+        yield asked.finding("RG613", f"the time is {times[unknown[0]]} at", unknown, "", _NUMBERS)
         return
     if before is None and times[0] < 0:
         yield _finding("RG612", f"the first time is {times[0]:g} s", "times count from the start")
@@ -356,7 +358,9 @@ def _speeds(asked: _Asked) -> Iterator[Diagnostic]:
     if before is None and asked.ordered.times[0] <= 0:
         rates[0] = 0.0
     for column, joint in enumerate(asked.group.joints):
-        points = np.flatnonzero(rates[:, column] > joint.speed * _SPEED_ROUNDING)
+        # A step from or to what is no number is no speed, and no scale mends it.
+        fast = rates[:, column] > joint.speed * _SPEED_ROUNDING
+        points = np.flatnonzero(fast & np.isfinite(steps[:, column]))
         if not len(points):
             continue
         worst = float(rates[points, column].max())
@@ -366,7 +370,8 @@ def _speeds(asked: _Asked) -> Iterator[Diagnostic]:
             f"{joint.name} is too fast on the way to",
             points,
             f"{joint.axis} would need {worst:.3f} {unit}, and has {joint.speed:.3f} {unit}",
-            f"`scaled({0.99 * joint.speed / worst:.3g})` would fit",
+            f"`scaled({0.99 * joint.speed / worst:.3g})` would fit; in the shell, a `--speed` that "
+            "much lower",
         )
 
 
