@@ -423,11 +423,23 @@ def _addresses(controller: "VirtualController", target: "Bootable", host: str) -
 
 def _check_host(host: str) -> None:
     import ipaddress
+    import socket
 
     try:
         ipaddress.IPv4Address(host)
     except ValueError as fault:
         raise typer.BadParameter(f"--host takes an IPv4 address, not '{host}'") from fault
+    with socket.socket() as probe:
+        try:
+            probe.bind((host, 0))
+        except OSError as fault:
+            raise refusal(
+                "RG901",
+                None,
+                f"--host {host} is no address of this machine: {fault.strerror}",
+                "127.0.0.1, or 0.0.0.0 for all that it has; a robot's address goes behind `--to` "
+                "of the verbs that talk to it",
+            ) from fault
 
 
 def _check_release(target: "Bootable", rws: str | None) -> None:
