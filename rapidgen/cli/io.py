@@ -46,7 +46,7 @@ def io(
     width = max((len(signal.name) for signal in read), default=0)
     for signal in read:
         note = "  simulated" if signal.simulated else ""
-        typer.echo(f"{signal.name:<{width}}  {signal.type:<2}  {signal.value:g}{note}")
+        typer.echo(f"{signal.name:<{width}}  {signal.type:<2}  {_shown(signal.value)}{note}")
     if not read:
         typer.echo(f"{target} has no signals: `signals:` of a configuration exposes them", err=True)
     return 0
@@ -69,6 +69,11 @@ def _number(text: str) -> float:
         raise typer.BadParameter(f"'{text}' is no value of a signal") from fault
 
 
+def _shown(value: float) -> str:
+    """A group's number with all its digits, an analog value with six."""
+    return f"{value:.0f}" if float(value).is_integer() else f"{value:g}"
+
+
 def _over_web_services(
     host: str,
     name: str,
@@ -84,7 +89,7 @@ def _over_web_services(
     with controller(host, user, secrets, fingerprint) as found:
         if value is not None:
             if not found.identity().is_virtual:
-                make_sure(f"set {name} to {value:g} at {host}?", yes=yes)
+                make_sure(f"set {name} to {_shown(value)} at {host}?", yes=yes)
             signals = [found.set_signal(name, value)]
         else:
             signals = [found.signal(name)] if name else list(found.signals())

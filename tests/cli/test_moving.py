@@ -12,7 +12,13 @@ import pytest
 from rapidgen.cli.app import main
 from rapidgen.client import Trajectory
 
-CELL = "model: irb120\nsignals:\n  gripper: {kind: DO, access: write}\n  part: {kind: DI}\n"
+CELL = """\
+model: irb120
+signals:
+  gripper: {kind: DO, access: write}
+  part: {kind: DI}
+  count: {kind: GO, access: write}
+"""
 HOME = "0,0,0,0,30,0"
 
 
@@ -129,7 +135,13 @@ def test_signals_of_a_driver_are_read_and_set(cell, capsys):
     path, _ = cell
     assert told(capsys, "io", path, "gripper", "1", "--to", "sim").out == "gripper  DO  1\n"
     found = json.loads(told(capsys, "io", path, "--to", "sim", "--json").out)
-    assert [(s["name"], s["value"]) for s in found] == [("gripper", 1.0), ("part", 0.0)]
+    assert [(s["name"], s["value"]) for s in found] == [
+        ("gripper", 1.0),
+        ("part", 0.0),
+        ("count", 0.0),
+    ]
+    shown = told(capsys, "io", path, "count", "1234567", "--to", "sim")
+    assert shown.out == "count  GO  1234567\n"
     shown = told(capsys, "io", "irb120", "--to", "127.0.0.1:1,1,1")
     assert shown.out == ""
     assert "irb120 has no signals" in shown.err
