@@ -164,9 +164,17 @@ def read_pose(
     return (x, y, z), (a, b, c, d)
 
 
+def plain_number(text: str) -> float:
+    """A number as people write one: `1_0`, ten to Python, is more likely a 1.0. Raises
+    ValueError."""
+    if "_" in text:
+        raise ValueError(text)
+    return float(text)
+
+
 def _number(text: str, option: str) -> float:
     try:
-        value = float(text)
+        value = plain_number(text)
     except ValueError:
         value = math.nan
     if not math.isfinite(value):

@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from rapidgen.cli import options
+from rapidgen.cli.goals import plain_number
 
 
 def io(
@@ -64,7 +65,7 @@ class _Read:
 
 def _number(text: str) -> float:
     try:
-        return float(text)
+        return plain_number(text)
     except ValueError as fault:
         raise typer.BadParameter(f"'{text}' is no value of a signal") from fault
 

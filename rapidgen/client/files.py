@@ -87,7 +87,7 @@ def read_csv(path: Path) -> Content:
         column = 1
         for cell in cells:
             try:
-                row.append(float(cell))
+                row.append(_number(cell))
             except ValueError:
                 message = f"'{cell.strip()}' is not a number"
                 place = (path, number, column)
@@ -106,6 +106,13 @@ def read_csv(path: Path) -> Content:
         raise InvalidTrajectory(found, exit_code=2)
     table = np.array(rows, dtype=np.float64).reshape(len(rows), len(names))
     return Content(table[:, 0], table[:, 1:], tuple(names[1:]), str(path), tuple(lines))
+
+
+def _number(cell: str) -> float:
+    """A number of a table; what only Python takes for one (`1_0`) is none. Raises ValueError."""
+    if "_" in cell:
+        raise ValueError(cell)
+    return float(cell)
 
 
 def write_csv(path: Path, times: Array, positions: Array, names: Sequence[str]) -> None:

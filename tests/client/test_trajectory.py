@@ -70,7 +70,7 @@ def test_csv_round_trip(tmp_path):
 
 def test_csv_faults_are_told_all_at_once_with_their_places(tmp_path):
     path = tmp_path / "bad.csv"
-    path.write_text("# a comment\ntime,a,b\n0,1\n\n1,x,2\n2,1,2,3\n3,1,y\n")
+    path.write_text("# a comment\ntime,a,b\n0,1\n\n1,x,2\n2,1,2,3\n3,1,y\n4,0_5,1\n")
     with pytest.raises(InvalidTrajectory) as error:
         Trajectory.from_csv(path)
     places = [(d.span.line, d.span.column, d.message) for d in error.value.diagnostics]
@@ -79,6 +79,7 @@ def test_csv_faults_are_told_all_at_once_with_their_places(tmp_path):
         (5, 3, "'x' is not a number"),
         (6, 1, "4 values, the header has 3"),
         (7, 5, "'y' is not a number"),
+        (8, 3, "'0_5' is not a number"),  # Python would read 5
     ]
     assert error.value.exit_code == 2
 
