@@ -12,8 +12,12 @@ def monitor(
     config: options.ConfigOrHost,
     to: options.RobotAddress = "",
     group: options.Group = "",
-    plain: Annotated[bool, typer.Option("--plain", help="One line a state, no table.")] = False,
-    as_json: Annotated[bool, typer.Option("--json", help="One JSON object a line.")] = False,
+    plain: Annotated[
+        bool, typer.Option("--plain", help="One line a state, no table; deg and mm.")
+    ] = False,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="One JSON object a line; rad and m.")
+    ] = False,
     count: Annotated[
         int, typer.Option(help="End after so many states; 0: with Ctrl-C.", min=0)
     ] = 0,
@@ -43,7 +47,8 @@ def monitor(
                 width, place = screen.console.width, str(robot.address)
                 screen.update(live.as_table(state, watcher, robot.group, place, width))
             else:
-                typer.echo((live.as_json if as_json else live.as_line)(state, watcher))
+                told = live.as_json(state, watcher) if as_json else None
+                typer.echo(told or live.as_line(state, watcher, robot.group))
             if number == count:
                 break
     return 0

@@ -60,10 +60,13 @@ class Watcher:
 
 
 def activity(state: State) -> str:
-    """What the robot is at, in a word."""
+    """What the robot is at, in a word, and whether it would not take a motion."""
     if state.trajectory is not None and state.trajectory in _ACTIVITIES:
         return _ACTIVITIES[state.trajectory]
-    return "moving" if state.is_moving else "standing"
+    if state.is_moving:
+        return "moving"
+    held = state.status.motion_possible is TriState.FALSE
+    return "standing, motion not possible" if held else "standing"
 
 
 def changes(before: Status, after: Status) -> list[str]:
@@ -99,11 +102,14 @@ def error_text(status: Status) -> str:
     return f"error {status.error_code}" if status.error_code else "error"
 
 
-def as_line(state: State, watcher: Watcher) -> str:
-    """Time of day, joints rad or m, rate, mode, what it is at, what happened."""
+def as_line(state: State, watcher: Watcher, group: Group) -> str:
+    """Time of day, joints in degrees or mm, rate, mode, what it is at, what happened."""
+    units = [_unit(joint.kind) for joint in group.joints]
+    values = (v * factor for v, (_, factor) in zip(state.joints, units, strict=True))
     words = [
         _received(state).astimezone().strftime("%H:%M:%S.%f")[:-3],
-        " ".join(f"{value:.4f}" for value in state.joints),
+        " ".join(f"{round(value, 2) + 0.0:.2f}" for value in values)
+        + f" {', '.join(dict.fromkeys(unit for unit, _ in units))}",
         f"{state.rate:.1f}/s",
         state.status.mode.name.lower(),
         activity(state),
@@ -143,6 +149,11 @@ def _received(state: State) -> datetime:
     return datetime.fromtimestamp(time.time() - state.age, timezone.utc)
 
 
+def _unit(kind: str) -> tuple[str, float]:
+    """What joints of a kind are shown in, and how many of it are one rad or m."""
+    return ("deg", 180 / math.pi) if kind == "revolute" else ("mm", 1000.0)
+
+
 def rows(state: State, group: Group, bar: int = 31) -> list[tuple[str, str, str, str]]:
     """Joint, value and speed in degrees or mm, and where between its limits (`bar` letters)."""
     found = []
@@ -153,7 +164,7 @@ def rows(state: State, group: Group, bar: int = 31) -> list[tuple[str, str, str,
         group.map.to_controller(state.joints),
         strict=True,
     ):
-        unit, factor = ("deg", 180 / math.pi) if joint.kind == "revolute" else ("mm", 1000.0)
+        unit, factor = _unit(joint.kind)
         here, moving = f"{value * factor:8.2f} {unit}", f"{speed * factor:7.1f} {unit}/s"
         found.append((joint.name, here, moving, _bar(wire, joint.lower, joint.upper, bar)))
     return found

@@ -138,6 +138,13 @@ def test_monitor(controller, capsys):
     lines = capsys.readouterr().out.splitlines()
     assert len(lines) == 3
     assert all("auto" in line and "standing" in line for line in lines)
+    controller.position = [0.5, -0.1, 0.0, 0.0, 0.0, 0.0]
+    controller.script.status = {"possible": 0}
+    assert main(["monitor", "irb120", "--to", controller.address, "--plain", "--count", "30"]) == 0
+    line = capsys.readouterr().out.splitlines()[-1]
+    assert "  28.65 -5.73 0.00 0.00 0.00 0.00 deg  " in line
+    assert "standing, motion not possible" in line
+    controller.position = [0.0] * 6
     words = ["monitor", "irb120", "--to", controller.address, "--json", "--count", "30"]
     controller.script.status = {"in_error": 1, "error_code": 7}
     assert main(words) == 0
