@@ -42,7 +42,7 @@ def find_simulator(name: str = "", group: str = "") -> Address:
 
 
 def _unclear(name: str, own: list[Simulator], found: list[Simulator]) -> InvalidTarget:
-    shown = tuple(f"{one.name} (process {one.pid}): {_places(one)}" for one in found)
+    shown = tuple(f"{one.name} (process {one.pid}): {_places(one)}" for one in own or found)
     if own:
         message, mend = f"{len(own)} simulators run", "end the others, or say --to with an address"
     elif found:

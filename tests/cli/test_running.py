@@ -66,6 +66,13 @@ def test_what_is_not_clear_is_refused(there, name, message, note):
     assert note in " ".join(found.notes)
 
 
+def test_others_are_not_counted_where_it_is_not_clear_which():
+    with published(ARM), published(YUMI), published(Simulator("irb120", 9, {})):
+        (found,) = refusal(find_simulator, "irb120").diagnostics
+    assert found.message == "2 simulators run"
+    assert [note.partition(" ")[0] for note in found.notes] == ["irb120", "irb120"]
+
+
 def test_one_that_ended_without_a_word_is_told_of_and_forgotten(caplog):
     script = (
         "import os, signal\n"
