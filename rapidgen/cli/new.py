@@ -1,5 +1,6 @@
 """`rapidgen new`: a commented configuration to start from."""
 
+import shlex
 from pathlib import Path
 from typing import Annotated
 
@@ -134,4 +135,4 @@ def new(
         raise
     for note in notes:
         typer.echo(render([note]), err=True, nl=False)
-    typer.echo(f"wrote {file}; next: rapidgen build {file}", err=True)
+    typer.echo(f"wrote {file}; next: rapidgen build {shlex.quote(str(file))}", err=True)

@@ -1,5 +1,6 @@
 """`rapidgen run`: execute RAPID on the virtual clock."""
 
+import shlex
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
@@ -146,7 +147,7 @@ def _no_configuration(files: list[Path]) -> None:
                 "RG901",
                 None,
                 f"{file} is a configuration, and run takes RAPID",
-                f"`rapidgen sim {file}` boots it; or build it and run the folder",
+                f"`rapidgen sim {shlex.quote(str(file))}` boots it; or build it and run the folder",
             )
 
 

@@ -4,6 +4,7 @@ import inspect
 import json
 import logging
 import re
+import shlex
 import subprocess
 import sys
 from pathlib import Path
@@ -154,3 +155,13 @@ def test_the_package_is_the_command_too():
     done = subprocess.run(command, capture_output=True, text=True)
     assert (done.returncode, done.stdout) == (2, "")
     assert done.stderr.startswith("error[RG902]")
+
+
+def test_a_command_that_is_told_can_be_typed(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    assert main(["new", "my cell.yaml", "--robot", "irb120"]) == 0
+    following = shlex.split(capsys.readouterr().err.split("next: rapidgen ")[1])
+    assert following == ["build", "my cell.yaml"]
+    assert main(["run", "my cell.yaml"]) == 2
+    told = capsys.readouterr().err.split("`rapidgen ")[1].split("`")[0]
+    assert shlex.split(told) == ["sim", "my cell.yaml"]
