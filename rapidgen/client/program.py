@@ -266,7 +266,7 @@ class Program:
         """To joints, rad and m, all axes together (MoveAbsJ; with `triggers` TriggJ to the pose
         that they have)."""
         self._hold(speed, zone)
-        return self._add(Instruction.MOVE_ABSJ, joints=_joints_of(joints), triggers=tuple(triggers))
+        return self._add(Instruction.MOVE_ABSJ, joints=joints_of(joints), triggers=tuple(triggers))
 
     def move_to(
         self,
@@ -426,7 +426,7 @@ def zone_of(zone: ZoneLike) -> Zone:
     return ZONES[zone]
 
 
-def _joints_of(joints: Sequence[float]) -> tuple[float, ...]:
+def joints_of(joints: Sequence[float]) -> tuple[float, ...]:
     """Joints as plain numbers. Raises InvalidProgram for something that has none."""
     try:
         return tuple(map(float, joints))

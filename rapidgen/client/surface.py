@@ -22,9 +22,10 @@ from rapidgen.client.core.group import Group
 from rapidgen.client.core.job import Job
 from rapidgen.client.core.robot import Core, Timeouts
 from rapidgen.client.core.state import Driver, Event, Feedback, Progress, State
+from rapidgen.client.errors import InvalidProgram, InvalidTarget
 from rapidgen.client.flows.effects import Flow
 from rapidgen.client.methods import Method, method
-from rapidgen.client.program import Program, pose_of
+from rapidgen.client.program import Program, joints_of, pose_of
 from rapidgen.client.recording import JointRecording
 from rapidgen.client.target import resolve
 from rapidgen.client.trajectory import Trajectory
@@ -46,6 +47,18 @@ class FlowCarrier(Protocol):
     """Held while something is looked at that another thread may change."""
 
     def __init__(self, address: Address, make_core: MakeCore) -> None: ...
+
+
+def _on_axes(group: Group, joints: Sequence[float]) -> tuple[float, ...]:
+    """Axis values of joints. Raises InvalidProgram for what are no joints of the robot."""
+    values = joints_of(joints)
+    if len(values) != len(group.names):
+        raise InvalidProgram.because(
+            "RG670",
+            f"{len(values)} joints, the robot has {len(group.names)}",
+            f"numbers, rad and m, of {', '.join(group.names)}",
+        )
+    return group.map.to_controller(values)
 
 
 def _of_core(flow: Callable[Concatenate[Core, P], Flow[T]]) -> Method[P, T]:
@@ -205,6 +218,13 @@ class RobotSurface(Generic[C_co, Execution, Stream, Run]):
         feedback: bool = False,
     ) -> None:
         self.address, known = resolve(target, address, group)
+        if not isinstance(timeouts, Timeouts | None):
+            raise InvalidTarget.because(
+                "RG607",
+                f"time-outs are a Timeouts, not {type(timeouts).__name__}",
+                "Timeouts(reply=5) and the like, in s: each kind of waiting has its own",
+                exit_code=2,
+            )
         make_core = partial(
             Core,
             known,
@@ -336,9 +356,10 @@ class RobotSurface(Generic[C_co, Execution, Stream, Run]):
     def pose_of(self, joints: Sequence[float]) -> Pose:
         """The pose that joints (rad, m) reach: ((x, y, z), (w, x, y, z)), m.
 
-        Raises NotSupported where the robot's geometry is not known.
+        Raises NotSupported where the robot's geometry is not known, InvalidProgram for what are no
+        joints of it.
         """
-        return self.group.poses.pose(self.group.map.to_controller(joints))
+        return self.group.poses.pose(_on_axes(self.group, joints))
 
     def joints_for(
         self,
@@ -350,10 +371,11 @@ class RobotSurface(Generic[C_co, Execution, Stream, Run]):
         """All joints (rad, m) within the limits that reach a pose, nearest first to `near`, by
         default to where the robot stands; those of a configuration (cf1, cf4, cf6, cfx).
 
-        Raises NotSupported where the robot's geometry is not known.
+        Raises NotSupported where the robot's geometry is not known, InvalidProgram for what is no
+        pose and no joints of it.
         """
         group = self.group
-        here = group.map.to_controller(self.state.joints if near is None else near)
+        here = _on_axes(group, self.state.joints if near is None else near)
         found = group.poses.postures(pose_of(pose), here, configuration)
         return tuple(group.map.to_urdf(posture) for posture in found)
 

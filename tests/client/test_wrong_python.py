@@ -31,6 +31,18 @@ WRONG = {
         InvalidTarget, "'irb121' is no configuration", "irb120"),
     "a group that is none": (
         lambda: Robot("irb120", group="rob2"), InvalidTarget, "no motion group 'rob2'", "rob1"),
+    "a number for time-outs": (
+        lambda: Robot("irb120", timeouts=5),
+        InvalidTarget, "time-outs are a Timeouts, not int", "Timeouts(reply=5)"),
+    "joints too few for a pose": (
+        lambda: Robot("irb120").pose_of([0] * 5),
+        InvalidProgram, "5 joints, the robot has 6", "joint_1, joint_2"),
+    "a text for a pose's joints": (
+        lambda: Robot("irb120").pose_of("0,0,0,0,0,0"),
+        InvalidProgram, "'0,0,0,0,0,0' are no joints", "numbers in rad"),
+    "joints too many to be near": (
+        lambda: Robot("irb120").joints_for(((0.3, 0, 0.5), (1, 0, 0, 0)), near=[0] * 7),
+        InvalidProgram, "7 joints, the robot has 6", "joint_1, joint_2"),
     "a cell of a name": (
         lambda: Cell("irb120"), InvalidTarget, "robots by name, not of str", "Cell({"),
     "a number for a controller": (
