@@ -1,11 +1,16 @@
 """Where the `rapidgen` command begins: a STOP goes out before anything heavy is imported."""
 
 import gc
+import signal
 import sys
 
 
 def run() -> None:
     """Run one verb and leave with its exit code."""
+    # Until there is somebody who can tell of it, Ctrl-C ends the process without a traceback.
+    heeded = signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    if heeded:
+        signal.signal(signal.SIGINT, signal.SIG_DFL)
     # Imports make tens of thousands of objects that live on: collecting them is a tenth of a build.
     gc.set_threshold(200_000, 20, 50)
     words = sys.argv[1:]
@@ -15,4 +20,6 @@ def run() -> None:
         send(words[1:])
     from rapidgen.cli.app import run as whole
 
+    if heeded:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
     whole()

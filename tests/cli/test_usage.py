@@ -5,6 +5,7 @@ import json
 import logging
 import re
 import shlex
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -46,6 +47,25 @@ def test_start_up_imports_nothing_heavy():
     )
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
     assert done.stdout == "[]\n", done.stderr
+
+
+def test_an_interruption_while_it_starts_ends_it_without_a_traceback():
+    script = """if True:
+        import os, signal, sys
+        from rapidgen.cli.entry import run
+
+        class Interrupts:
+            def find_spec(name, path=None, target=None):
+                if name == "rapidgen.cli.app":
+                    os.kill(os.getpid(), signal.SIGINT)
+
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+        sys.meta_path.insert(0, Interrupts)
+        sys.argv[1:] = ["--version"]
+        run()
+    """
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
+    assert (done.returncode, done.stdout, done.stderr) == (-signal.SIGINT, "", "")
 
 
 @pytest.mark.parametrize(
