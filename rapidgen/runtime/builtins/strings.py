@@ -67,10 +67,13 @@ def str_match(task: Task, text: str, position: float, pattern: str) -> int:
 
 @builtin("StrMap", cost="string", pure=True)
 def str_map(_task: Task, text: str, source: str, target: str) -> str:
-    """Each character of `source` replaced by its counterpart in `target`."""
-    if len(source) != len(target):
-        raise RapidError("ERR_ARGVALERR", "FromMap and ToMap differ in length")
-    return text.translate(str.maketrans(source, target))
+    """Each character of `source` replaced by its counterpart in `target`.
+
+    One that has none is copied, as what is not in `source` [S4 StrMap]: STR_LOWER has two
+    letters more than STR_UPPER.
+    """
+    paired = min(len(source), len(target))
+    return text.translate(str.maketrans(source[:paired], target[:paired]))
 
 
 @builtin("StrOrder", cost="string", pure=True)
