@@ -44,7 +44,16 @@ def test_message_says_what_was_met_expected_and_what_is_open():
 
 
 @pytest.mark.parametrize(
-    "body", ["a = 1;", "a{2} = 1;", "a.b == 1;", "IF a = 1 a = 2;", "VAR num b = 2;"]
+    "body",
+    [
+        "a = 1;",
+        "a{2} = 1;",
+        "a.b == 1;",
+        "IF a = 1 a = 2;",
+        "VAR num b = 2;",
+        "MoveL p, v100, fine, tool0 \\WObj=wobj0;",
+        "a := ASin(1 \\Unit = 2);",
+    ],
 )
 def test_an_equals_sign_that_should_assign_is_told(body):
     (found,) = parse(routine(body)).diagnostics

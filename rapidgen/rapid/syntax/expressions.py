@@ -414,7 +414,8 @@ class ExpressionParser:
                 self.after = i
                 return found
             elif kind != "\\":
-                raise SyntaxFault(i, f"',', '\\' or '{close}'")
+                given = "':=', " if kind == "=" and argument.kind == "switch" else ""
+                raise SyntaxFault(i, f"{given}',', '\\' or '{close}'")
 
     def _optional(self, i: int, close: str) -> Argument:
         """The optional or conditional argument at a backslash; <ID> and <VAR> for procedures."""
