@@ -5,13 +5,17 @@ from itertools import islice
 
 from rapidgen.axes.frames import Pose
 from rapidgen.axes.kinematics import Kinematics, Posture
+from rapidgen.axes.limits import ROUNDING
 
 _LOOKED_AT = 8
 """Postures beyond the ranges that are compared; a search may find any number."""
 
 
-def unreached(kinematics: Kinematics, flange: Pose, near: Posture) -> tuple[bool, str]:
-    """Whether a posture beyond the axis ranges would reach the pose, and a sentence for people."""
+def unreached(
+    kinematics: Kinematics, flange: Pose, near: Posture, arm_angle: float | None = None
+) -> tuple[bool, str]:
+    """Whether a posture, beyond the axis ranges or not, would reach the pose, and a sentence for
+    people. `arm_angle` (rad) is the one that was asked for, of an arm with seven axes."""
     group = kinematics.group
     place = ", ".join(f"{v * 1000:.1f}" for v in flange[0])
     robot = group.model or group.name
@@ -25,7 +29,13 @@ def unreached(kinematics: Kinematics, flange: Pose, near: Posture) -> tuple[bool
             for joint, value in zip(group.joints, posture, strict=True)
         ]
         worst.append(max(over, key=lambda one: one[0]))
-    _, joint, value = min(worst, key=lambda one: one[0])
+    over_by, joint, value = min(worst, key=lambda one: one[0])
+    if over_by <= ROUNDING:
+        if arm_angle is None:
+            but = "not from the posture that the robot is in"
+        else:
+            but = f"not with an arm angle (eax_a) of {math.degrees(arm_angle):.1f} deg"
+        return True, f"{robot}: the flange can be at [{place}] mm within the axis ranges, but {but}"
     turns = joint.kind == "revolute"
     at, low, high = (
         math.degrees(v) if turns else v * 1000 for v in (value, joint.lower, joint.upper)

@@ -12,6 +12,7 @@ import pytest
 from rapidgen.axes import frames
 from rapidgen.axes.arm_angle import ArmAngle
 from rapidgen.axes.kinematics import Kinematics
+from rapidgen.axes.unreached import unreached
 from rapidgen.config import load_config
 
 # fmt: off
@@ -89,6 +90,23 @@ def test_the_home_target_of_public_programs(name, side):
     )
     found = next(arm.at_arm_angle(target, math.radians(side * ARM_ANGLE), from_afar))
     assert found == pytest.approx(home, abs=1e-4)
+
+
+def test_a_pose_that_is_reached_with_another_arm_angle_alone_is_told_so():
+    """An axis that stays within its range is no reason."""
+    arm = Kinematics.of(load_config("irb14000").groups[0])
+    start = (0.0,) * 7
+    pose = ((0.35, 0.2, 0.2), (0.0, 0.0, 1.0, 0.0))
+    assert arm.solutions(pose, start)
+    assert next(arm.at_arm_angle(pose, 0.0, start), None) is None
+    within = "the flange can be at [350.0, 200.0, 200.0] mm within the axis ranges"
+    reached, why = unreached(arm, pose, start, 0.0)
+    assert (reached, f"{within}, but not with an arm angle (eax_a) of 0.0 deg" in why) == (
+        True,
+        True,
+    )
+    reached, why = unreached(arm, pose, start)
+    assert (reached, f"{within}, but not from the posture" in why) == (True, True)
 
 
 def test_a_pose_with_its_arm_angle_is_found_from_afar():

@@ -109,10 +109,12 @@ def joints_for(
     outside its range in every posture); NoConfiguration: not with this one.
     """
     place = kinematics.seventh
+    arm_angle = None
     if place >= 0 and near[place] != here[place]:
+        arm_angle = near[place]
         started = (*near[:place], here[place], *near[place + 1 :])
         found = []
-        for one in kinematics.at_arm_angle(flange, near[place], started):
+        for one in kinematics.at_arm_angle(flange, arm_angle, started):
             found.append(one)
             if wanted is None or kinematics.misfit(one, wanted) == 0.0:
                 return one
@@ -120,7 +122,7 @@ def joints_for(
     else:
         found = kinematics.solutions(flange, near)
     if not found:
-        reached, why = unreached(kinematics, flange, near)
+        reached, why = unreached(kinematics, flange, near, arm_angle)
         raise RapidError("ERR_ROBLIMIT" if reached else "ERR_OUTSIDE_REACH", why)
     if wanted is None:
         return found[0]
