@@ -6,6 +6,8 @@ STAMP := $(VENV)/.made
 # `time` of bash says what a step of the gate has cost.
 SHELL := /bin/bash
 export TIMEFORMAT = %U s of CPU, %R s
+# Where it is set, each of the hundreds of processes of a gate compiles all modules that it imports.
+unexport PYTHONDONTWRITEBYTECODE
 
 .PHONY: demo test lint types contract unit wheel page driver-hours site release-lint changelog room picture foreign campaigns clean
 
