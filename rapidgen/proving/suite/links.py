@@ -4,7 +4,7 @@ from rapidgen.proving import messages
 from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import STOP, RawLink, point_frame, raw_point
-from rapidgen.proving.messages import PING, RawComm, RawReason, decode, encode
+from rapidgen.proving.messages import PING, RawComm, RawReason, RawTrajectoryState, decode, encode
 from rapidgen.proving.model import Broken
 from rapidgen.proving.stream import BEGIN, END, FLUSH, Streamer
 from rapidgen.proving.track import Point, changed, distance
@@ -179,7 +179,7 @@ _PING = encode(messages.RawPing(), RawComm.REQUEST)
 @case("second-stops", "a second client's STOP stops, and its trajectory takes over", "R5, R12")
 def _second_stops(bench: Bench) -> None:
     """Also byte by byte, and behind something else; whatever the first client does."""
-    old = bench.motion()
+    old, watcher = bench.motion(), bench.watcher()
     ways = ("download", "stream", "fed") if bench.streams else ("download", "download", "fed")
     for number, what in enumerate(ways):
         _sets_off(bench, old, what)
@@ -202,6 +202,9 @@ def _second_stops(bench: Bench) -> None:
         if not isinstance(new.reply(messages.JOINT_TRAJ_PT, 1), messages.RawAcknowledged):
             raise Broken(f"{what}: a second client's STOP is not confirmed")
         bench.stays(1, f"{what}: a second client has said STOP")
+        told = bench.progress(watcher)
+        if (told.state, told.reason) != (RawTrajectoryState.STOPPED, RawReason.STOPPED):
+            raise Broken(f"{what}: a second client has said STOP, PROGRESS says {told}")
         bench.moves_through(new, bench.wave(3))
         old = new
     # Its own trajectory takes the place of what is under way, and begins where that has stopped.

@@ -9,7 +9,7 @@ MODULE ROS_motionServer
     ! end (ROS_stream). The client's STOP lies in the same stream of bytes behind its points, so
     ! this task never waits for room: it reads, and feeds the ring in between.
 
-    CONST string ROS_BUILD_MOTION_SERVER := "4987f98195b5";
+    CONST string ROS_BUILD_MOTION_SERVER := "ebc306338565";
 
     LOCAL CONST num PORT := 11000;
     ! s between two looks for bytes while the ring is being fed
@@ -169,14 +169,14 @@ MODULE ROS_motionServer
     ENDFUNC
 
     ! The robot does not go on for a client that is gone, and half a trajectory is none. Whoever waits
-    ! is served next.
+    ! is served next; who has taken over has ended what was under way, and said why.
     LOCAL PROC lose(VAR socketdev client)
         SocketClose client;
-        taken_over := waiting;
-        waiting := FALSE;
         ROS_lose_download;
         ROS_lose_stream;
-        ROS_end_session ROS_REASON_CLIENT_LOST;
+        IF NOT taken_over ROS_end_session ROS_REASON_CLIENT_LOST;
+        taken_over := waiting;
+        waiting := FALSE;
         ROS_await_halt;
     ENDPROC
 
