@@ -231,6 +231,9 @@ class Trajectory:
         `robot` is `Robot.group`. Raises InvalidTrajectory when names do not fit or limits are
         not known, ValueError for fewer than two points.
         """
+        from rapidgen.client.core.checks import check_names
+
+        check_names(self, robot)
         if not robot.has_limits:
             raise InvalidTrajectory.because(
                 "RG615", "the robot's speeds are not known", "connect with a configuration"

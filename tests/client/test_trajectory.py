@@ -300,3 +300,17 @@ def test_timed_stays_within_speed_limits(irb120):
     good = rough.timed(irb120)
     check_trajectory(good, irb120, start=[0.0] * 10)
     assert rough.timed(irb120, 0.5).duration > good.duration
+
+
+def test_timed_wants_the_joints_of_the_robot(irb120):
+    """A joint that is missing is told; one that the robot does not have is not dropped."""
+    ends = np.zeros((2, 7))
+    named = (*irb120.names, "gripper")
+    for width, names, said in (
+        (5, named[:5], "joints are missing: joint_6"),
+        (7, named, "no joint 'gripper'"),
+        (5, (), "5 joints, the robot has 6"),
+    ):
+        path = Trajectory.from_points(ends[:, :width], seconds=1.0, names=names)
+        with pytest.raises(InvalidTrajectory, match=said):
+            path.timed(irb120)

@@ -218,6 +218,13 @@ def on_the_grid(wire: Array, group: Group) -> Array:
     return steps
 
 
+def check_names(trajectory: Trajectory, group: Group) -> None:
+    """Raises InvalidTrajectory when the columns are not the robot's joints."""
+    found = _names(trajectory, group)
+    if found:
+        raise InvalidTrajectory(found, exit_code=1)
+
+
 def _fitting(trajectory: Trajectory, group: Group, found: list[Diagnostic]) -> Trajectory:
     """The trajectory with the robot's columns: without them nothing else can be asked."""
     found = found + _names(trajectory, group)
