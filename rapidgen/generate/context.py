@@ -21,6 +21,7 @@ from rapidgen.config.model import (
 )
 from rapidgen.generate import layout
 from rapidgen.generate.hello import hello_reply
+from rapidgen.generate.lint import MAX_LINE
 from rapidgen.generate.numbers import inward, literal
 from rapidgen.generate.status import STATUS_SIGNALS
 from rapidgen.wire.simple_message import messages, rapid, spec
@@ -437,8 +438,19 @@ def _datum(
         "name": f"{kind}_now" if elsewhere else name,
         "source": name if elsewhere else "",
         "declared": declared,
-        "value": value,
+        "value": _in_lines(value, len(f"    TASK PERS tooldata {name} := ;")),
     }
+
+
+def _in_lines(value: str, taken: int) -> str:
+    """A record's value behind `taken` characters, broken behind commas where the line is full."""
+    lines, room = [""], MAX_LINE - taken
+    for part in re.findall("[^,]+,?", value):
+        if len(lines[-1]) + len(part) > room:
+            lines.append("        ")
+            room = MAX_LINE - 1
+        lines[-1] += part
+    return "\n".join(lines)
 
 
 def _bool(value: bool) -> str:

@@ -10,9 +10,10 @@ import pytest
 
 from rapidgen._data import data_folder
 from rapidgen.config import from_manifest, load_config
-from rapidgen.config.model import Tool
+from rapidgen.config.model import Load, Placement, Tool, WorkObject
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.generate import build, compare, write
+from rapidgen.generate.context import tool_literal, work_object_literal
 from rapidgen.generate.numbers import inward, literal, single
 from rapidgen.generate.render import Renderer
 from rapidgen.system import parse_cfg, read_folder
@@ -175,6 +176,32 @@ def test_names_too_long_for_rapid_are_refused(irb120):
         build(replace(irb120, groups=(group,)))
     assert {d.code for d in caught.value.diagnostics} == {"RG101"}
     assert tool.name in caught.value.diagnostics[0].label
+
+
+def test_measured_figures_fit_into_lines(irb120):
+    """As a calibration or LoadIdentify gives them. RAPID is free-format [K §2.1], and a controller
+    that saves a PERS writes as many digits."""
+    measured = Placement(
+        (0.1234567, -0.7654321, 1.2345678), (0.5123456, -0.5234567, 0.4765432, -0.4863215)
+    )
+    load = Load(
+        3.4567891, measured.position, measured.orientation, (0.0123456, 0.0234567, 0.0345678)
+    )
+    tools = [
+        Tool("torch_of_the_second_station_left", frame=measured, load=load),
+        Tool("other", frame=measured, load=load),
+    ]
+    group = replace(
+        irb120.groups[0],
+        tool=tools[0],
+        work_object=WorkObject("fixture", user_frame=measured, object_frame=measured),
+        tools=(tools[1],),
+        work_objects=(WorkObject("fixture_2", user_frame=measured, object_frame=measured),),
+    )
+    output = build(replace(irb120, groups=(group,)))
+    motion = "".join(text_of(output, "ROS_motion.mod").split())
+    assert f"TASKPERStooldata{tools[0].name}:={tool_literal(tools[0])};" in motion
+    assert f"TASKPERSwobjdatafixture:={work_object_literal(group.work_object)};" in motion
 
 
 # -- writing ---------------------------------------------------------------------------------
