@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from rapidgen.axes.frames import Pose, Quaternion, Vector
     from rapidgen.client import InvalidTrajectory, Result, Robot, Trajectory
     from rapidgen.client.core.checks import Way
+    from rapidgen.client.core.group import Group
 
 
 def move(
@@ -176,7 +177,7 @@ def _from_file(points: Path) -> "Trajectory":
 
 def _joints(robot: "Robot", units: Units, figures: Figures) -> tuple[float, ...]:
     goal = joints_of(figures, units, robot.group, robot.state.joints)
-    _within_limits(robot, goal, units)
+    within_limits(robot.group, goal, units)
     return goal
 
 
@@ -199,14 +200,14 @@ def _straight(robot: "Robot", goal: "Sequence[float]", speed: float) -> "Traject
     )
 
 
-def _within_limits(robot: "Robot", goal: "Sequence[float]", units: Units) -> None:
+def within_limits(group: "Group", goal: "Sequence[float]", units: Units) -> None:
     """Refuse a goal outside the axes' limits, in the units that it was typed in."""
+    from rapidgen.axes.limits import ROUNDING
     from rapidgen.client import InvalidTrajectory
 
-    group = robot.group
     wire = group.map.to_controller(goal)
     for joint, value in zip(group.joints, wire, strict=True):
-        if not joint.lower <= value <= joint.upper:
+        if not joint.lower - ROUNDING <= value <= joint.upper + ROUNDING:
             unit, factor, digits = units.joint(joint.kind)
             asked, lower, upper = (
                 figure(v, factor, digits) for v in (value, joint.lower, joint.upper)

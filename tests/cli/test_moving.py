@@ -10,7 +10,11 @@ import sys
 import pytest
 
 from rapidgen.cli.app import main
-from rapidgen.client import Trajectory
+from rapidgen.cli.goals import Units, joints_of, read_figures
+from rapidgen.cli.move import within_limits
+from rapidgen.client import InvalidTrajectory, Trajectory
+from rapidgen.client.core.group import Group
+from rapidgen.config import load_config
 
 CELL = """\
 model: irb120
@@ -67,6 +71,22 @@ def test_some_by_name_and_in_radians(cell, capsys):
     told(capsys, "move", path, "--joints", "joint_6=0.2,joint_2=-0.1", "--rad", "--to", "sim")
     wanted = [0, -0.1, 0, 0, math.radians(30), 0.2]
     assert positions(sim) == pytest.approx(wanted, abs=1e-5)
+
+
+def test_a_robot_that_stands_at_its_limit_is_moved_on(cell, capsys):
+    """float32, as the wire tells it, of 120 deg is more than 120 deg."""
+    told(capsys, "move", cell[0], "--joints", "0,0,0,0,120,0", "--to", "sim")
+    told(capsys, "move", cell[0], "--joints", "joint_1=10", "--to", "sim")
+    assert positions(cell[1])[0] == pytest.approx(math.radians(10), abs=1e-5)
+
+
+def test_what_adds_up_to_the_limit_of_a_coupled_axis_is_inside():
+    config = load_config("irb2400")
+    group = Group.of(config, config.groups[0])
+    goal = joints_of(read_figures("0,-29,-31,0,0,0"), Units(), group, [0.0] * 6)
+    within_limits(group, goal, Units())
+    with pytest.raises(InvalidTrajectory, match=r"rax_3 would be at -60\.01 deg"):
+        within_limits(group, [*goal[:2], math.radians(-31.01), *goal[3:]], Units())
 
 
 def test_a_pose_as_it_was_told_is_where_the_robot_goes(cell, capsys):
