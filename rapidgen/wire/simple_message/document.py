@@ -32,6 +32,8 @@ _RULES = """\
   single point is sent twice, as -1 and as -3. Nothing moves before the end frame.
 - Points are topics and are not answered. An end frame or a STOP that is a request is answered
   once: STOP with a header alone, as abb_driver does.
+- A request of a type that a driver does not have is answered by FAILURE and a header alone: SIGNAL,
+  DATA, RESULT and TARGET, too, where its configuration has no signals, data, routines or targets.
 - Every point is checked before anything moves. What was executed is a prefix of what was asked,
   point for point; it is shorter only with a reported reason and point.
 - No message is longer than 1,024 bytes: a ROS-Industrial node crashes on one.
