@@ -4,6 +4,7 @@ from collections.abc import Iterable, Mapping
 
 from rapidgen.axes import frames
 from rapidgen.axes.kinematics import Posture
+from rapidgen.axes.limits import outside
 from rapidgen.controller.cabinet import Cabinet
 from rapidgen.motion.group import MotionGroup
 from rapidgen.runtime.task.task import Task
@@ -107,9 +108,8 @@ class MotionAspect:
         return ""
 
     def _put(self, group: MotionGroup, axes: Posture) -> None:
-        for joint, value in zip(group.config.joints, axes, strict=True):
-            if not joint.lower <= value <= joint.upper:
-                raise Declined(f"{joint.name} would leave its range")
+        for fault in outside(group.config.joints, axes):
+            raise Declined(f"{fault.joint.name} would leave its range")
         if any(t.state == "running" and t.spec.motion for t in self._tasks()):
             raise Declined("a program has the robot: stop it first")
         try:
