@@ -9,7 +9,7 @@ MODULE ROS_motionServer
     ! end (ROS_stream). The client's STOP lies in the same stream of bytes behind its points, so
     ! this task never waits for room: it reads, and feeds the ring in between.
 
-    CONST string ROS_BUILD_MOTION_SERVER := "ebc306338565";
+    CONST string ROS_BUILD_MOTION_SERVER := "fb56b91a6519";
 
     LOCAL CONST num PORT := 11000;
     ! s between two looks for bytes while the ring is being fed
@@ -174,7 +174,7 @@ MODULE ROS_motionServer
         SocketClose client;
         ROS_lose_download;
         ROS_lose_stream;
-        IF NOT taken_over ROS_end_session ROS_REASON_CLIENT_LOST;
+        IF NOT (taken_over AND ROS_active()) ROS_end_session ROS_REASON_CLIENT_LOST;
         taken_over := waiting;
         waiting := FALSE;
         ROS_await_halt;
