@@ -8,7 +8,7 @@ own: they get back what they had, and are never taken away.
 """
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 from rapidgen._json import Json, Members, items, text
@@ -148,7 +148,7 @@ def merged(
     names = list(dict.fromkeys(key[1] for key in left))
     for name in names:
         sections.append(Section(name, tuple(i for key, i in left.items() if key[1] == name)))
-    return CfgText(domain, present.version, tuple(s for s in sections if s.instances), present.path)
+    return replace(present, sections=tuple(s for s in sections if s.instances))
 
 
 def stays(key: Key, instance: Instance, before: Mapping[str, Json], *, uninstall: bool) -> bool:

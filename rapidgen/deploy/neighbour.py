@@ -9,7 +9,7 @@ are never touched.
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from rapidgen.deploy.cfg import Keyed, attributes_text, keyed, name_of, shown_key
 from rapidgen.deploy.driverset import STATE
@@ -58,7 +58,7 @@ class Neighbour:
                 for name in names
             )
             if sections:
-                found.append(CfgText(text.domain, text.version, sections))
+                found.append(replace(text, sections=sections))
         return tuple(found)
 
 

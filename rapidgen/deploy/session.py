@@ -26,7 +26,7 @@ from rapidgen.diagnostics import DiagnosticError, refusal
 from rapidgen.generate.cell import check_data
 from rapidgen.generate.cell_routines import check_routines
 from rapidgen.generate.context import data_of_another
-from rapidgen.system import CfgText, read_backup, write_cfg
+from rapidgen.system import CfgText, cfg_bytes, read_backup
 
 Say = Callable[[str], None]
 
@@ -273,7 +273,7 @@ def save_neighbours(plans: Sequence[Plan], folder: Path) -> list[Path]:
         for text in plan.neighbour.texts(plan.cfg_present) if plan.neighbour else ():
             path = folder / _host(plan) / f"{text.domain}.cfg"
             path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_text(write_cfg(text), encoding="latin-1")
+            path.write_bytes(cfg_bytes(text))
             saved.append(path)
     return saved
 

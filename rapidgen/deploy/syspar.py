@@ -8,7 +8,7 @@ from rapidgen._json import Json
 from rapidgen.deploy.cfg import keyed, merged, without_used
 from rapidgen.deploy.transports.transport import Transport, read_or_none
 from rapidgen.diagnostics import refusal
-from rapidgen.system import CfgText, parse_cfg, write_cfg
+from rapidgen.system import CfgText, cfg_bytes, parse_cfg
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,7 +98,7 @@ def syspar_changes(
         new = merged(text, instances, ours, before)
         if _plain(new) == _plain(text):
             continue
-        after: bytes | None = write_cfg(new).encode("latin-1", "replace")
+        after: bytes | None = cfg_bytes(new)
         if file is not None and b"\r\n" in file.data:
             after = (after or b"").replace(b"\n", b"\r\n")
         copy = originals.get(text.path)

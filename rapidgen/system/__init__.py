@@ -8,7 +8,15 @@ from rapidgen.diagnostics import Diagnostic
 
 if TYPE_CHECKING:
     from rapidgen.system.backup import is_backup, read_backup
-    from rapidgen.system.cfg import Attribute, CfgText, Instance, Section, parse_cfg, write_cfg
+    from rapidgen.system.cfg import (
+        Attribute,
+        CfgText,
+        Instance,
+        Section,
+        cfg_bytes,
+        parse_cfg,
+        write_cfg,
+    )
     from rapidgen.system.compose import eio_cfg, sys_cfg
     from rapidgen.system.folder import expand_lines, is_generated, read_folder, read_manifest
     from rapidgen.system.loose import read_files, task_folders
@@ -29,7 +37,7 @@ _FILES = {
     name: file
     for file, names in {
         "backup": "is_backup read_backup",
-        "cfg": "Attribute CfgText Instance Section parse_cfg write_cfg",
+        "cfg": "Attribute CfgText Instance Section cfg_bytes parse_cfg write_cfg",
         "folder": "expand_lines is_generated read_folder read_manifest",
         "compose": "eio_cfg sys_cfg",
         "loose": "read_files task_folders",
@@ -53,6 +61,7 @@ __all__ = [
     "SystemInput",
     "SystemOutput",
     "TaskSpec",
+    "cfg_bytes",
     "eio_cfg",
     "expand_lines",
     "is_backup",

@@ -9,8 +9,9 @@ no blank lines, any indentation, `# text` anywhere between lines, LF; RobotWare 
 """
 
 import re
+from codecs import BOM_UTF8
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import isinf
 
 from rapidgen.diagnostics import DiagnosticError, Span, refusal
@@ -79,6 +80,8 @@ class CfgText:
     """Digits of the header; ABB's own examples (DAP on a 7.6) have none."""
     sections: tuple[Section, ...]
     path: str = ""
+    encoding: str = field(default="utf-8", compare=False)
+    """Of the file that it was read from, for `cfg_bytes`."""
 
     def instances(self, name: str) -> Iterator[Instance]:
         """Instances of every section with this name (in any case), in order."""
@@ -92,7 +95,7 @@ def parse_cfg(data: bytes | str, *, path: str = "") -> CfgText:
 
     Raises DiagnosticError: RG701 (no header), RG702 (text that is no cfg).
     """
-    text = data if isinstance(data, str) else _decode(data)
+    text, encoding = (data, "utf-8") if isinstance(data, str) else _decode(data)
     lines = _LINE_END.split(text)
     start = next((i for i, line in enumerate(lines) if line.strip()), 0)
     header = _HEADER.match(lines[start].strip("\ufeff"))
@@ -120,6 +123,7 @@ def parse_cfg(data: bytes | str, *, path: str = "") -> CfgText:
         (int(header[2]), int(header[3])) if header[2] else None,
         tuple(Section(name, tuple(instances)) for name, instances in sections),
         path,
+        encoding,
     )
 
 
@@ -145,11 +149,30 @@ def write_cfg(cfg: CfgText) -> str:
     return "\n".join(out) + "\n"
 
 
-def _decode(data: bytes) -> str:
+def cfg_bytes(cfg: CfgText) -> bytes:
+    """`write_cfg` in the encoding that the file was read in, with its byte order mark.
+
+    Raises DiagnosticError RG703, also for a letter that this encoding does not have.
+    """
+    text = write_cfg(cfg)
     try:
-        return data.decode("utf-8-sig")
+        return text.encode(cfg.encoding)
+    except UnicodeEncodeError as fault:
+        raise refusal(
+            "RG703",
+            None,
+            f"{cfg.path or cfg.domain} is in {cfg.encoding}, which has no {text[fault.start]!r}",
+            "save the file as UTF-8",
+        ) from None
+
+
+def _decode(data: bytes) -> tuple[str, str]:
+    """The text, and the encoding that it is in."""
+    encoding = "utf-8-sig" if data.startswith(BOM_UTF8) else "utf-8"
+    try:
+        return data.decode(encoding), encoding
     except UnicodeDecodeError:
-        return data.decode("latin-1")
+        return data.decode("latin-1"), "latin-1"
 
 
 def _logical_lines(lines: list[str], start: int) -> Iterator[tuple[int, str]]:

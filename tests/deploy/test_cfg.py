@@ -73,6 +73,19 @@ def test_what_others_changed_meanwhile_stays(kit, controller):
     assert next(left.instances("CAB_TASKS")).text("Entry") == "their_main"
 
 
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "latin-1"])
+def test_texts_of_others_keep_their_letters(kit, controller, encoding):
+    word = "Größe" if encoding == "latin-1" else "Größe 夹具"
+    theirs = SYS.replace("theirs", word)
+    path = controller / "SYSPAR/SYS.cfg"
+    path.write_bytes(theirs.encode(encoding))
+    kit.deploy(FolderTransport(controller), kit.driver(OLD))
+    merged = path.read_bytes().decode(encoding)
+    assert "T_ROS_server" in merged
+    assert f'-Name "{word}"' in merged
+    assert merged.encode(encoding) == path.read_bytes()
+
+
 def test_the_wrong_robotware_is_refused_before_anything_changes(kit, controller):
     wrong = kit.driver(OLD, robotware=(7, 13))
     assert refused(kit.deploy, FolderTransport(controller), wrong)[0] == "RG525"
