@@ -55,8 +55,8 @@ def apply(
 
     `given_up` is asked until files are switched: then the controller stays as it was (RG545).
 
-    Raises DiagnosticError: RG520, RG521, RG531, RG534, RG535, RG537, RG541 (conflicts), RG522,
-    RG540 (the controller moved on, is another one), RG527, RG543 (cut), RG542 (not in this
+    Raises DiagnosticError: RG520, RG521, RG528, RG531, RG534, RG535, RG537, RG541 (conflicts),
+    RG522, RG540 (the controller moved on, is another one), RG527, RG543 (cut), RG542 (not in this
     state), RG544 (not what was deployed); TransportFault before that: then nothing old was changed.
     """
     conflicts = conflicts_of(plan, overwrite=overwrite)
@@ -97,7 +97,7 @@ def _apply_files(transport: Transport, plan: Plan, say: Say, given_up: Callable[
 
 
 def conflicts_of(plan: Plan, *, overwrite: bool = False) -> list[Diagnostic]:
-    """RG520, RG521, RG531: only `overwrite` replaces that; the others: nothing does."""
+    """RG520, RG521, RG528, RG531: only `overwrite` replaces that; the others: nothing does."""
     found = [] if overwrite else [_conflict(change) for change in plan.conflicts]
     if plan.damaged and not overwrite:
         found.insert(0, error("RG531", None, plan.damaged, DAMAGED))
@@ -367,6 +367,15 @@ def _cut(plan: Plan, fault: TransportFault) -> DiagnosticError:
 
 
 def _conflict(change: FileChange) -> Diagnostic:
+    if change.conflict == "kept":
+        return error(
+            "RG528",
+            None,
+            f"{change.shown}: {change.doubt}",
+            "--overwrite goes on without it: the driver's file goes, and nothing comes back"
+            if change.after is None
+            else "--overwrite puts back what the copy holds now: look at the file afterwards",
+        )
     if change.conflict == "stranger":
         return error(
             "RG521",

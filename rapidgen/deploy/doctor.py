@@ -177,7 +177,9 @@ def _contents(
             "`rapidgen plan` shows the difference",
         )
     for change in plan.conflicts:
-        what = "edited by hand" if change.conflict == "edited" else "a stranger's file"
+        what = {"edited": "edited by hand", "stranger": "a stranger's file"}.get(
+            change.conflict, change.doubt
+        )
         yield Check("files", "fail", f"{change.shown}: {what}", "`rapidgen plan` says more")
     yield from _clashes(transport, plan, wanted)
     yield from _beside(plan)

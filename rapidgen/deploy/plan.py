@@ -25,6 +25,8 @@ DAMAGED = (
 
 Verb = Literal["deploy", "rollback", "uninstall"]
 Action = Literal["add", "change", "same", "remove", "restore"]
+Conflict = Literal["", "edited", "stranger", "kept"]
+"""`kept`: the copy of what was there before the first deployment is damaged or gone."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,10 +48,19 @@ class FileChange:
     tasks: tuple[str, ...] = ()
     before: bytes | None = field(default=None, repr=False)
     after: bytes | None = field(default=None, repr=False)
-    conflict: Literal["", "edited", "stranger"] = ""
+    conflict: Conflict = ""
     foreign: bool = False
     """A stranger's file lies there and will be kept for `uninstall`."""
     note: str = ""
+
+    @property
+    def doubt(self) -> str:
+        """The conflict in words."""
+        if self.conflict == "kept":
+            return f"the copy of what was there before the first deployment is {self.note}"
+        if self.conflict == "edited":
+            return f"edited by hand since the last deployment{': ' * bool(self.note)}{self.note}"
+        return "not put there by rapidgen" if self.conflict else ""
 
     @property
     def shown(self) -> str:

@@ -4,18 +4,26 @@ import difflib
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import Literal
 
 from rapidgen._json import Members
 from rapidgen.deploy.cfg import compare, keyed, may_be_refused, name_of
-from rapidgen.deploy.driverset import FENCE, NEW, STATE, DriverSet, digest
+from rapidgen.deploy.driverset import FENCE, NEW, DriverSet, digest
 from rapidgen.deploy.live.memory import saved
 from rapidgen.deploy.live.plan import LivePlan, find_clashes, live_steps, make_live_plan
 from rapidgen.deploy.live.view import LiveView, build_symbols, look
 from rapidgen.deploy.mend import copies, mended
 from rapidgen.deploy.neighbour import MODULE, Beside, Neighbour, find_neighbour, in_memory
-from rapidgen.deploy.plan import DAMAGED, Action, FileChange, Layout, Plan, Verb, lines_of
-from rapidgen.deploy.state import FileRecord, Manifest, StateFolder, read_state
+from rapidgen.deploy.plan import (
+    DAMAGED,
+    Action,
+    Conflict,
+    FileChange,
+    Layout,
+    Plan,
+    Verb,
+    lines_of,
+)
+from rapidgen.deploy.state import FileRecord, Manifest, StateFolder, read_kept, read_state
 from rapidgen.deploy.steps import CFG_FIRST, steps_beside, steps_of
 from rapidgen.deploy.syspar import read_syspar, syspar_changes
 from rapidgen.deploy.tasks import check_complete, entry_steps
@@ -92,14 +100,13 @@ def make_plan(
         if layout.syspar:
             restored = in_memory(transport, _names(wanted))
     originals = {
-        r.path: f"{layout.home}{STATE}/backup/{r.stored}"
+        r.path: data if data is not None and digest(data) == r.sha256 else None
         for r in base.origin.values()
-        if r.kind == "syspar"
+        if seen and r.kind == "syspar"
+        for data in [read_kept(transport, layout.home, r)]
     }
     for change in (
-        syspar_changes(
-            transport, layout.syspar, syspar, wanted_cfg, ours, base.cfg_before, originals
-        )
+        syspar_changes(layout.syspar, syspar, wanted_cfg, ours, base.cfg_before, originals)
         if seen
         else ()
     ):
@@ -266,12 +273,13 @@ def _file_changes(
     transport: Transport, layout: Layout, base: _Base, wanted: DriverSet | None
 ) -> list[FileChange]:
     changes: list[FileChange] = []
+    conflict: Conflict
     for file in wanted.files if wanted else ():
         where = layout.home + file.path
         current = read_or_none(transport, where)
         ours = base.known.get(file.path)
         action: Action = "add" if current is None else "change"
-        conflict: Literal["", "edited", "stranger"] = ""
+        conflict = ""
         note = ""
         if current == file.data:
             action = "same"
@@ -302,11 +310,15 @@ def _file_changes(
         where = layout.home + path
         current = read_or_none(transport, where)
         record, after = base.records.get(path), None
+        conflict, note = "", ""
         if path in base.origin:
-            after = transport.read(f"{layout.home}{STATE}/backup/{base.origin[path].stored}")
+            after = read_kept(transport, layout.home, base.origin[path])
+            if after is None or digest(after) != base.origin[path].sha256:
+                conflict, note = "kept", "damaged" if after is not None else "gone"
         if current == after:
             continue
-        edited = current is not None and not base.owns(path, current)
+        if not conflict and current is not None and not base.owns(path, current):
+            conflict = "edited"
         changes.append(
             FileChange(
                 path,
@@ -316,7 +328,8 @@ def _file_changes(
                 record.tasks if record else (),
                 current,
                 after,
-                "edited" if edited else "",
+                conflict,
+                note=note,
             )
         )
     return changes

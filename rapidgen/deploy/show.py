@@ -46,12 +46,7 @@ def plan_text(plan: Plan) -> str:
     out += _changed_keys(plan)
     out += _file_lines(plan)
     for change in plan.conflicts:
-        what = (
-            f"edited by hand since the last deployment{': ' + change.note if change.note else ''}"
-            if change.conflict == "edited"
-            else "not put there by rapidgen"
-        )
-        out.append(f"  ? {change.shown}: {what}  -> needs --overwrite")
+        out.append(f"  ? {change.shown}: {change.doubt}  -> needs --overwrite")
     if plan.neighbour is not None:
         out += [f"  x {n.domain}: {n.shown}: another driver's" for n in plan.neighbour.instances]
         out += [f"  x HOME:/{path}: another driver's, stays" for path in plan.neighbour.files]

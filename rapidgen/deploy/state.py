@@ -258,6 +258,11 @@ def read_backup(transport: Transport, home: str, number: int) -> tuple[Manifest,
     return manifest, files
 
 
+def read_kept(transport: Transport, home: str, record: FileRecord) -> bytes | None:
+    """The copy of a stranger's file, damaged or not; None when it is gone."""
+    return read_or_none(transport, f"{home}{STATE}/backup/{record.stored}")
+
+
 def _no_backup(message: str) -> DiagnosticError:
     return refusal(
         "RG528", None, message, "`rapidgen rollback --list` shows which there are", exit_code=1

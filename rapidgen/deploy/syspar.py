@@ -6,7 +6,7 @@ from pathlib import Path
 
 from rapidgen._json import Json
 from rapidgen.deploy.cfg import keyed, merged, without_used
-from rapidgen.deploy.transports.transport import Transport, read_or_none
+from rapidgen.deploy.transports.transport import Transport
 from rapidgen.diagnostics import refusal
 from rapidgen.system import CfgText, cfg_bytes, parse_cfg
 
@@ -68,18 +68,17 @@ def _folders(place: Path) -> list[Path]:
 
 
 def syspar_changes(
-    transport: Transport,
     folder: str,
     files: tuple[SysparFile, ...],
     wanted: tuple[CfgText, ...],
     ours: frozenset[str],
     before: Mapping[str, Json],
-    originals: Mapping[str, str],
+    originals: Mapping[str, bytes | None],
 ) -> list[SysparChange]:
     """Files in which something differs. Signals that somebody else has defined stay.
 
-    `before` has the instances from before the first deployment, `originals` the paths of copies
-    of the files from then (by SYSPAR path): such a file comes back byte for byte where nothing
+    `before` has the instances from before the first deployment, `originals` the files from
+    then by SYSPAR path (None: the copy is lost): such a file comes back byte for byte where nothing
     else was changed since, and one that was not there goes.
     """
     present = {f.text.domain: f for f in files}
@@ -101,10 +100,9 @@ def syspar_changes(
         after: bytes | None = cfg_bytes(new)
         if file is not None and b"\r\n" in file.data:
             after = (after or b"").replace(b"\n", b"\r\n")
-        copy = originals.get(text.path)
-        if copy is None and not _plain(new):
+        if text.path not in originals and not _plain(new):
             after = None
-        original = read_or_none(transport, copy) if copy else None
+        original = originals.get(text.path)
         if original is not None and _plain(parse_cfg(original)) == _plain(new):
             after = original
         touched = any(name.startswith(f"{domain.casefold()} ") for name in before)

@@ -137,6 +137,26 @@ def test_a_strangers_file_is_refused_then_kept_and_put_back(kit, home, transport
     assert tree(home) == before
 
 
+@pytest.mark.parametrize("left", [b"MODULE", None], ids=["damaged", "gone"])
+def test_a_strangers_file_whose_copy_was_spoilt_is_not_given_back_unasked(
+    kit, home, transport, left
+):
+    target = home / "rapidgen/ROS_motion.mod"
+    target.parent.mkdir()
+    target.write_text("MODULE theirs\nENDMODULE\n")
+    kit.deploy(transport, kit.driver(OLD), overwrite=True)
+    copy = home / "rapidgen_deploy/backup/origin/0.bin"
+    copy.unlink() if left is None else copy.write_bytes(left)
+    before = tree(home)
+    assert refused(kit.deploy, transport, None, verb="uninstall") == ["RG528"]
+    assert tree(home) == before
+    kit.deploy(transport, kit.driver(NEW))
+    kit.deploy(transport, None, verb="uninstall", overwrite=True)
+    there = tree(home)
+    there.pop("rapidgen/", None)
+    assert there == ({"rapidgen/ROS_motion.mod": left} if left is not None else {})
+
+
 def test_the_plan_is_refused_when_the_controller_moved_on(kit, home, transport):
     old, new = kit.driver(OLD), kit.driver(NEW)
     kit.deploy(transport, old)
