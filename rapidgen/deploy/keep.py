@@ -54,7 +54,10 @@ def strangers(plan: Plan) -> list[tuple[FileRecord, bytes]]:
     count = plan.copies
     found: list[tuple[FileRecord, bytes]] = []
     for change in plan.changes:
-        if change.foreign and change.before is not None and change.path not in plan.origin:
+        if change.foreign and change.before is not None:
+            kept = plan.origin.get(change.path)
+            if kept is not None and kept.sha256 == digest(change.before):
+                continue  # it came back once, and nobody has changed it since
             record = FileRecord(
                 change.path,
                 digest(change.before),
@@ -74,6 +77,7 @@ def new_manifest(plan: Plan, wanted: DriverSet, number: int) -> Manifest:
     undone = plan.repair and had is not None and had.files == files
     if had is not None and not undone:
         history = (*history, Past(number, had.time, had.name, had.build_id))[-KEPT:]
+    origin = {**plan.origin, **{record.path: record for record, _ in strangers(plan)}}
     before: Members = dict(plan.cfg_before)
     if plan.cfg_present:
         before = remember(keyed(wanted.cfg), keyed(plan.cfg_present), before, plan.cfg_ours)
@@ -84,7 +88,7 @@ def new_manifest(plan: Plan, wanted: DriverSet, number: int) -> Manifest:
         wanted.build_id,
         wanted.robotware,
         files,
-        (*plan.origin.values(), *(record for record, _ in strangers(plan))),
+        tuple(origin.values()),
         history,
         before,
         {"written_by": __version__, **wanted.generated},

@@ -23,7 +23,14 @@ from rapidgen.deploy.plan import (
     Verb,
     lines_of,
 )
-from rapidgen.deploy.state import FileRecord, Manifest, StateFolder, read_kept, read_state
+from rapidgen.deploy.state import (
+    FileRecord,
+    Manifest,
+    StateFolder,
+    next_copy,
+    read_kept,
+    read_state,
+)
 from rapidgen.deploy.steps import CFG_FIRST, steps_beside, steps_of
 from rapidgen.deploy.syspar import read_syspar, syspar_changes
 from rapidgen.deploy.tasks import check_complete, entry_steps
@@ -59,11 +66,12 @@ def make_plan(
     nothing = wanted is None and had is None and not base.interrupted
     if nothing and transport.services is None:
         raise _nothing_there(transport)
-    if wanted is not None and had is not None and had.name != wanted.name:
+    carried = state.carried(had, repair=base.repair)
+    if wanted is not None and carried and carried != wanted.name:
         raise refused(
             "RG524",
-            f"{transport.shown} carries the driver of {had.name!r}, not of {wanted.name!r}",
-            f"check the URL; to replace it, `rapidgen uninstall {had.name} --to ...` first",
+            f"{transport.shown} carries the driver of {carried!r}, not of {wanted.name!r}",
+            f"check the URL; to replace it, `rapidgen uninstall {carried} --to ...` first",
         )
     changes = _file_changes(transport, layout, base, wanted)
     syspar = read_syspar(transport, layout.syspar)
@@ -166,7 +174,7 @@ def make_plan(
     return Plan(
         verb,
         transport.shown,
-        wanted.name if wanted else (had.name if had else ""),
+        wanted.name if wanted else carried,
         wanted.build_id if wanted else "",
         wanted.robotware if wanted else (had.robotware if had else (0, 0)),
         tuple(changes),
@@ -189,7 +197,7 @@ def make_plan(
         neighbour,
         restored,
         damaged,
-        copies(transport, layout.home) if damaged else len(base.origin),
+        copies(transport, layout.home) if damaged else next_copy(base.origin.values()),
         live,
     )
 

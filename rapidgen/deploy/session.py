@@ -289,10 +289,11 @@ def check_names(plans: Sequence[Plan], name: str) -> None:
 
 
 def _check_name(plan: Plan, name: str) -> None:
-    if plan.had is not None and name and plan.had.name != name:
+    carried = plan.state.carried(plan.had, repair=plan.repair)
+    if carried and name and carried != name:
         raise refused(
             "RG524",
-            f"{plan.target} carries the driver of {plan.had.name!r}, not of {name!r}",
+            f"{plan.target} carries the driver of {carried!r}, not of {name!r}",
             "check the URL",
         )
 

@@ -7,7 +7,7 @@ that old files are being replaced, and `backup/<number>/` what was there before 
 
 import json
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import asdict, dataclass, field
 
 from rapidgen._json import Json, Members, items, members, whole
@@ -114,6 +114,11 @@ class StateFolder:
     present: bool = False
     litter: bool = False
     """Files of a run that was cut while it tried out what rename does."""
+
+    def carried(self, had: Manifest | None, *, repair: bool) -> str:
+        """Name of the robot whose driver lies there, if only in part (`repair`); '' for none."""
+        half = self.journal.new if repair and self.journal is not None else None
+        return next((m.name for m in (had, half) if m is not None), "")
 
 
 def read_state(transport: Transport, home: str) -> StateFolder:
@@ -261,6 +266,12 @@ def read_backup(transport: Transport, home: str, number: int) -> tuple[Manifest,
 def read_kept(transport: Transport, home: str, record: FileRecord) -> bytes | None:
     """The copy of a stranger's file, damaged or not; None when it is gone."""
     return read_or_none(transport, f"{home}{STATE}/backup/{record.stored}")
+
+
+def next_copy(kept: Iterable[FileRecord]) -> int:
+    """Number of the next copy of a stranger's file: above those that are kept."""
+    stems = [r.stored.rpartition("/")[2].partition(".")[0] for r in kept]
+    return 1 + max((int(stem) for stem in stems if stem.isdecimal()), default=-1)
 
 
 def _no_backup(message: str) -> DiagnosticError:

@@ -5,7 +5,8 @@ import os
 
 import pytest
 
-from rapidgen.deploy import apply, backup_set, make_plan
+from rapidgen.deploy import TransportFault, apply, backup_set, make_plan
+from rapidgen.deploy.session import check_names
 from rapidgen.deploy.show import plan_text
 from rapidgen.deploy.transports.folder import FolderTransport
 from tests.refusal import refused
@@ -168,6 +169,39 @@ def test_the_plan_is_refused_when_the_controller_moved_on(kit, home, transport):
 def test_another_robots_driver_is_not_replaced(kit, transport):
     kit.deploy(transport, kit.driver(OLD))
     assert refused(make_plan, transport, kit.driver(NEW, name="cell2")) == ["RG524"]
+
+
+def test_a_first_deployment_that_was_cut_keeps_other_robots_away(kit, home):
+    class Cut(FolderTransport):
+        def rename(self, old, new):
+            if old.endswith("ROS_motion.mod.rg-new"):
+                raise TransportFault("lost", "cut")
+            super().rename(old, new)
+
+    transport = FolderTransport(home)
+    assert refused(kit.deploy, Cut(home), kit.driver(OLD)) == ["RG505", "RG527"]
+    assert refused(make_plan, transport, kit.driver(NEW, name="cell2")) == ["RG524"]
+    plan = make_plan(transport, None, verb="uninstall")
+    assert refused(check_names, [plan], "cell2") == ["RG524"]
+    check_names([plan], "cell1")
+    apply(transport, plan)
+    assert tree(home) == {}
+
+
+def test_a_strangers_file_that_came_back_and_was_changed_is_kept_anew(kit, home, transport):
+    target, other = home / "rapidgen/ROS_motion.mod", home / "rapidgen/ROS_stateServer.mod"
+    target.parent.mkdir()
+    target.write_text("MODULE first\nENDMODULE\n")
+    without = ("rapidgen/ROS_motion.mod", "rapidgen/ROS_stateServer.mod")
+    kit.deploy(transport, kit.driver(OLD, drop=without[1:]), overwrite=True)
+    kit.deploy(transport, kit.driver(NEW, drop=without))
+    target.write_text("MODULE second\nENDMODULE\n")
+    kit.deploy(transport, kit.driver(OLD, drop=without[1:]), overwrite=True)
+    other.write_text("MODULE third\nENDMODULE\n")
+    kit.deploy(transport, kit.driver(OLD), overwrite=True)
+    kit.deploy(transport, None, verb="uninstall")
+    assert target.read_text() == "MODULE second\nENDMODULE\n"
+    assert other.read_text() == "MODULE third\nENDMODULE\n"
 
 
 def test_backups_are_pruned_and_all_of_them_can_be_restored(kit, home, transport):
