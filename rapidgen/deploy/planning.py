@@ -212,11 +212,14 @@ def _nothing_there(transport: Transport) -> DiagnosticError:
 
 def find_layout(transport: Transport) -> Layout:
     """HOME itself, or a system folder (a backup, a virtual controller) that holds HOME."""
-    entries = {e.name.casefold(): e for e in transport.entries("") if e.folder is not False}
-    home, syspar = entries.get("home"), entries.get("syspar")
-    if home is None or home.name != "HOME":
+    # Of two names that differ in case the one in capitals counts.
+    found = sorted((e.name for e in transport.entries("") if e.folder is not False), reverse=True)
+    names = {name.casefold(): name for name in found}
+    home, syspar = names.get("home", ""), names.get("syspar", "")
+    # A folder `home` alone may be anybody's, one beside SYSPAR is that of a copied backup.
+    if not home or (home != "HOME" and not syspar):
         return Layout("", "")
-    return Layout("HOME/", f"{syspar.name}/" if syspar else "")
+    return Layout(f"{home}/", f"{syspar}/" if syspar else "")
 
 
 @dataclass(frozen=True, slots=True)

@@ -86,6 +86,15 @@ def test_texts_of_others_keep_their_letters(kit, controller, encoding):
     assert merged.encode(encoding) == path.read_bytes()
 
 
+def test_a_backup_whose_folders_were_renamed_to_small_letters_is_one(kit, controller):
+    (controller / "HOME").rename(controller / "home")
+    (controller / "SYSPAR").rename(controller / "syspar")
+    kit.deploy(FolderTransport(controller), kit.driver(OLD))
+    assert {p.name for p in controller.iterdir()} == {"home", "syspar"}
+    assert kit.verdict(controller / "home", kit.driver(OLD)) == "set 0"
+    assert "T_ROS_server" in (controller / "syspar/SYS.cfg").read_text()
+
+
 def test_the_wrong_robotware_is_refused_before_anything_changes(kit, controller):
     wrong = kit.driver(OLD, robotware=(7, 13))
     assert refused(kit.deploy, FolderTransport(controller), wrong)[0] == "RG525"
