@@ -69,6 +69,9 @@ class Beside:
     modules: dict[str, frozenset[str]]
     instances: frozenset[str]
     paths: frozenset[str]
+    tasks: frozenset[str] = frozenset()
+    """Background tasks that no deployment has brought yet, without case: one that is there with a
+    module of its own is somebody else's."""
 
 
 def find_neighbour(
@@ -136,11 +139,14 @@ def _folders(transport: Transport, place: str, beginning: str) -> list[str]:
 
 
 def _is_other(row: Instance, source: bytes | None, mine: Beside) -> bool:
-    """Whether a row of CAB_TASK_MODULES loads abb_driver, or a name of ours into a task of ours."""
+    """Whether a row of CAB_TASK_MODULES loads abb_driver, a name of ours into a task of ours, or
+    anything into a task that has only its name from us."""
     found = MODULE.search(source or b"")
     stem = row.text("File").replace("\\", "/").rpartition("/")[2].rpartition(".")[0]
     name = found[1].decode("latin-1") if found else row.text("ModName") or stem
     if _OLD.fullmatch(name) or _OLD.fullmatch(stem):
+        return True
+    if row.text("Task").casefold() in mine.tasks:
         return True
     tasks = mine.modules.get(name.casefold(), frozenset())
     return bool(tasks) and (not row.text("Task") or row.text("Task").casefold() in tasks)

@@ -375,7 +375,12 @@ def _neighbour(
     modules = _names(wanted)
     instances = ours | frozenset(map(name_of, keyed(wanted.cfg)))
     paths = known | {file.path for file in wanted.files}
-    return find_neighbour(transport, layout.home, texts, Beside(modules, instances, paths))
+    tasks = frozenset(
+        instance.text("Name").casefold()
+        for key, instance in keyed(wanted.cfg).items()
+        if key[1] == "CAB_TASKS" and not instance.flag("MotionTask") and name_of(key) not in ours
+    )
+    return find_neighbour(transport, layout.home, texts, Beside(modules, instances, paths, tasks))
 
 
 def _names(wanted: DriverSet | None) -> dict[str, frozenset[str]]:

@@ -104,6 +104,18 @@ def controller(tmp_path):
     return folder
 
 
+THEIR_TASK = """
+#
+CAB_TASKS:
+
+      -Name "t_ros_state" -Type "STATIC" -Entry "theirs"
+#
+CAB_TASK_MODULES:
+
+      -File "HOME:/theirs.mod" -Task "T_ROS_state"
+"""
+
+
 def files(folder):
     return {p: p.read_bytes() for p in folder.rglob("*") if p.is_file()}
 
@@ -302,3 +314,25 @@ def test_doctor_names_it_and_a_copy_loads_it_again(kit, controller, tmp_path, mo
         "ROS_MotionServer",
     ]
     assert len([i for s in kept.sections for i in s.instances]) == len(GOES)
+
+
+def test_somebody_elses_task_with_a_name_of_ours_is_not_taken_over(kit, controller):
+    path = controller / "SYSPAR/SYS.cfg"
+    path.write_text(CLEAN + THEIR_TASK)
+    transport = FolderTransport(controller)
+    plan = make_plan(transport, kit.driver(BUILD))
+    assert [n.shown for n in plan.neighbour.instances] == [
+        "CAB_TASK_MODULES HOME:/theirs.mod T_ROS_state"
+    ]
+    before = files(controller)
+    assert refused(apply, transport, plan, overwrite=True) == ["RG534"]
+    assert files(controller) == before
+    path.write_text(CLEAN)
+    kit.deploy(transport, kit.driver(BUILD))
+    # Whoever loads a module into a task of the driver afterwards has decided so.
+    text = path.read_text().replace(
+        "CAB_TASK_MODULES:\n",
+        'CAB_TASK_MODULES:\n\n      -File "HOME:/x.mod" -Task "T_ROS_state"\n',
+    )
+    path.write_text(text)
+    assert make_plan(transport, kit.driver("bbbbbbbbbbbb")).neighbour is None
