@@ -88,9 +88,17 @@ def _apply_files(transport: Transport, plan: Plan, say: Say, given_up: Callable[
         return
     journal = _prepare(work)
     try:
+        _hold(work, journal)
+    except TransportFault:
+        # The other run may use files of the same names, until it is done.
+        if not names(transport, work.folder) & {"journal.a", "journal.b", "switching"}:
+            delete_all(work, journal.staged)
+        raise
+    try:
         write(work, f"{work.folder}/switching", b"old files are being replaced: see the journal\n")
         _switch(work)
         _verify(work)
+        _hold(work, journal)
         _finish(work, journal)
     except TransportFault as fault:
         raise _cut(plan, fault) from fault
@@ -314,7 +322,11 @@ def _clean(work: Work) -> None:
     journal = work.plan.state.journal
     if work.plan.repair:
         return
-    delete_all(work, [*(journal.staged if journal else ()), f"{work.folder}/manifest.json{NEW}"])
+    staged = journal.staged if journal is not None else ()
+    if work.plan.state.switching and journal is None:
+        # Two ran at once: what one of them staged no journal tells any more.
+        staged = tuple(c.where + suffix for c in work.plan.changes for suffix in (NEW, FENCE))
+    delete_all(work, [*staged, f"{work.folder}/manifest.json{NEW}"])
     finished = journal is not None and work.plan.had is not None and work.plan.had.id == journal.id
     delete_all(work, [f"{work.folder}/switching"])
     if journal is not None and journal.new is not None and not finished:
@@ -344,10 +356,28 @@ def _undo_preparation(work: Work, journal: Journal) -> None:
 def _write_journal(work: Work, journal: Journal) -> None:
     """Into the file that is not in use, then the other goes: one of them is always whole."""
     current = work.plan.state.journal_file
-    name = "journal.b" if current == "journal.a" else "journal.a"
-    write(work, f"{work.folder}/{name}", encode(journal_json(journal)))
+    write(work, _journal_path(work), encode(journal_json(journal)))
     if current:
         delete_all(work, [f"{work.folder}/{current}"])
+
+
+def _journal_path(work: Work) -> str:
+    name = "journal.b" if work.plan.state.journal_file == "journal.a" else "journal.a"
+    return f"{work.folder}/{name}"
+
+
+def _hold(work: Work, journal: Journal) -> None:
+    """That this run's journal still stands: another run takes it away, or writes over it.
+
+    Raises TransportFault RG522.
+    """
+    if read_or_none(work.transport, _journal_path(work)) != encode(journal_json(journal)):
+        raise TransportFault(
+            "denied",
+            f"{work.plan.target}: another deployment came between",
+            code="RG522",
+            help="find out whose it is, let it end, then plan again",
+        )
 
 
 def _cut(plan: Plan, fault: TransportFault) -> DiagnosticError:

@@ -204,6 +204,48 @@ def test_a_strangers_file_that_came_back_and_was_changed_is_kept_anew(kit, home,
     assert other.read_text() == "MODULE third\nENDMODULE\n"
 
 
+@pytest.mark.parametrize(
+    ("moment", "codes"),
+    [("ROS_motion.mod.rg-new", ["RG522"]), ("switching", ["RG506", "RG527"])],
+)
+def test_of_two_deployments_at_once_one_is_refused_and_nothing_is_left(kit, home, moment, codes):
+    transport, other = FolderTransport(home), kit.driver(NEW)
+    kit.deploy(transport, kit.driver(OLD))
+
+    class Slow(FolderTransport):
+        """Somebody else deploys from beginning to end right after this file was written."""
+
+        reached = False
+
+        def write(self, path, data):
+            super().write(path, data)
+            if path.endswith(moment) and not self.reached:
+                self.reached = True
+                kit.deploy(transport, other)
+
+    assert refused(kit.deploy, Slow(home), kit.driver("cccccccccccc")) == codes
+    assert kit.verdict(home, other) == "set 0"
+    kit.deploy(transport, other)
+    assert make_plan(transport, other).is_empty
+    state = {p.name for p in (home / "rapidgen_deploy").iterdir()}
+    assert state == {"manifest.json", "backup", "SYS.cfg", "EIO.cfg"}
+    assert not [p for p in home.rglob("*") if ".rg-" in p.name]
+
+
+def test_the_last_word_is_not_said_over_another_deployment(kit, home):
+    """Its files lie there, read back as its own, and the other run's notes say otherwise."""
+
+    class Slow(FolderTransport):
+        def rename(self, old, new):
+            super().rename(old, new)
+            if new.endswith("ROS_common.sys") and old.endswith(".rg-new"):
+                for journal in (home / "rapidgen_deploy").glob("journal.*"):
+                    journal.write_bytes(journal.read_bytes().replace(b"aaaaaaaaaaaa", b"b" * 12))
+
+    assert refused(kit.deploy, Slow(home), kit.driver(OLD)) == ["RG522", "RG527"]
+    assert not (home / "rapidgen_deploy/manifest.json").exists()
+
+
 def test_backups_are_pruned_and_all_of_them_can_be_restored(kit, home, transport):
     sets = [kit.driver(f"{n:012x}") for n in range(1, 9)]
     for wanted in sets:
