@@ -19,7 +19,7 @@ from rapidgen.deploy.syspar import loaded_cfg
 from rapidgen.deploy.target import Access, connect, credentials
 from rapidgen.deploy.tasks import MAIN, entry_steps
 from rapidgen.deploy.transports.registry import Target
-from rapidgen.deploy.transports.transport import Transport, TransportFault
+from rapidgen.deploy.transports.transport import FILE_LIMIT, Transport, TransportFault
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.system import CfgText
 from rapidgen.wire.rws.bodies import Generation
@@ -232,7 +232,17 @@ def _clashes(transport: Transport, plan: Plan, wanted: DriverSet) -> Iterator[Ch
             suffix = entry.name.rpartition(".")[2].lower()
             if where in ours or entry.folder or suffix not in ("mod", "sys", "modx", "sysx", "prg"):
                 continue
-            data = transport.read(where)
+            try:
+                if (entry.size or 0) > FILE_LIMIT:
+                    raise TransportFault("denied", f"{where} is larger than 8 MB")
+                data = transport.read(where)
+            except TransportFault as fault:
+                if fault.kind in ("lost", "garbled"):
+                    raise
+                found = True
+                mend = "look whether it holds a module with a name of the driver's"
+                yield Check("names", "unknown", fault.diagnostics[0].message, mend)
+                continue
             module = MODULE.search(data)
             if module and module[1].lower() in names:
                 found = True

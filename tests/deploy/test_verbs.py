@@ -19,6 +19,7 @@ from rapidgen.deploy.driverset import NEW as STAGED
 from rapidgen.deploy.fleet import GivingUp, parse_targets
 from rapidgen.deploy.secrets import Credentials, Secret, find_password, redact
 from rapidgen.deploy.transports.folder import FolderTransport
+from rapidgen.deploy.transports.transport import FILE_LIMIT
 from rapidgen.diagnostics import DiagnosticError, render
 from rapidgen.faces import serve_ftp, serve_sftp
 from tests.generate.cell_backup import write_backup
@@ -263,6 +264,19 @@ def test_doctor(run, built, home):
     assert checks["reach"]["verdict"] == "ok"
     assert checks["RobotWare"]["verdict"] == "unknown"
     assert list(p.name for p in home.iterdir()) == ["theirs.mod"]
+
+
+def test_doctor_goes_on_past_modules_that_it_cannot_read(run, built, home, tmp_path):
+    with (home / "large.mod").open("wb") as file:
+        file.truncate(FILE_LIMIT + 1)
+    (tmp_path / "elsewhere.mod").write_text("MODULE x\nENDMODULE\n")
+    (home / "link.mod").symlink_to(tmp_path / "elsewhere.mod")
+    _, out, _ = run("doctor", built(OLD), "--to", f"dir://{home}", "--json")
+    checks = json.loads(out)
+    names = [c for c in checks if c["area"] == "names"]
+    assert [c["verdict"] for c in names] == ["unknown", "unknown"]
+    assert ["large.mod" in names[0]["found"], "link.mod" in names[1]["found"]] == [True, True]
+    assert checks[-1]["area"] == "disk"
 
 
 def test_doctor_warns_of_the_delivered_password_and_of_other_programs(
