@@ -259,10 +259,7 @@ def save_edits(plans: Sequence[Plan], folder: Path) -> list[Path]:
     for plan in plans:
         for change in plan.conflicts:
             if change.before is not None:
-                path = folder / _host(plan) / change.path
-                path.parent.mkdir(parents=True, exist_ok=True)
-                path.write_bytes(change.before)
-                saved.append(path)
+                saved.append(_keep(folder / _host(plan) / change.path, change.before))
     return saved
 
 
@@ -271,11 +268,19 @@ def save_neighbours(plans: Sequence[Plan], folder: Path) -> list[Path]:
     saved = []
     for plan in plans:
         for text in plan.neighbour.texts(plan.cfg_present) if plan.neighbour else ():
-            path = folder / _host(plan) / f"{text.domain}.cfg"
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_bytes(cfg_bytes(text))
-            saved.append(path)
+            saved.append(_keep(folder / _host(plan) / f"{text.domain}.cfg", cfg_bytes(text)))
     return saved
+
+
+def _keep(path: Path, data: bytes) -> Path:
+    """Where the copy lies now: under a name of its own (`SYS-2.cfg`) beside one that is another."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    place, number = path, 1
+    while place.exists() and place.read_bytes() != data:
+        number += 1
+        place = path.with_name(f"{path.stem}-{number}{path.suffix}")
+    place.write_bytes(data)
+    return place
 
 
 def _host(plan: Plan) -> str:

@@ -11,6 +11,7 @@ import pytest
 from rapidgen.cli.deploy import deploy as deploy_verb
 from rapidgen.deploy import apply, make_plan
 from rapidgen.deploy.doctor import examine
+from rapidgen.deploy.session import save_neighbours
 from rapidgen.deploy.syspar import loaded_cfg
 from rapidgen.deploy.target import Access, parse_target
 from rapidgen.deploy.transports.folder import FolderTransport
@@ -336,3 +337,18 @@ def test_somebody_elses_task_with_a_name_of_ours_is_not_taken_over(kit, controll
     )
     path.write_text(text)
     assert make_plan(transport, kit.driver("bbbbbbbbbbbb")).neighbour is None
+
+
+def test_a_copy_of_what_loads_the_other_driver_outlives_a_second_run(kit, controller, tmp_path):
+    """Between the runs half of its instances were deleted, as the steps say."""
+    transport, folder = FolderTransport(controller), tmp_path / "before"
+    first = make_plan(transport, kit.driver(BUILD))
+    (whole,) = save_neighbours([first], folder)
+    text = whole.read_bytes()
+    path = controller / "SYSPAR/SYS.cfg"
+    path.write_text(ABB_DRIVER.replace('-Name "ROS_StateServer" -TrustLevel "None"', ""))
+    (rest,) = save_neighbours([make_plan(transport, kit.driver(BUILD))], folder)
+    assert (whole.name, rest.name) == ("SYS.cfg", "SYS-2.cfg")
+    assert whole.read_bytes() == text
+    assert b"ROS_StateServer" in text
+    assert save_neighbours([first], folder) == [whole]
