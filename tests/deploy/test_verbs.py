@@ -23,6 +23,7 @@ from rapidgen.deploy.transports.transport import FILE_LIMIT
 from rapidgen.diagnostics import DiagnosticError, render
 from rapidgen.faces import serve_ftp, serve_sftp
 from tests.generate.cell_backup import write_backup
+from tests.ports import free_port
 from tests.refusal import refusal, refused
 
 OLD, NEW = "aaaaaaaaaaaa", "bbbbbbbbbbbb"
@@ -294,6 +295,18 @@ def test_doctor_warns_of_the_delivered_password_and_of_other_programs(
         else:
             assert [c["verdict"] for c in found] == ["fail"]
     service.close()
+
+
+@pytest.mark.parametrize(("option", "code"), [("--known-hosts", "RG503"), ("--identity", "RG502")])
+def test_a_file_for_sftp_that_is_not_there_is_no_fault_of_the_line(
+    run, built, tmp_path, option, code, monkeypatch
+):
+    monkeypatch.setenv("RAPIDGEN_PASSWORD", "x")
+    missing = tmp_path / "missing"
+    url = f"sftp://127.0.0.1:{free_port()}"
+    _, _, err = run("plan", built(OLD), "--to", url, option, missing)
+    assert f"error[{code}]: {option} {missing}: No such file" in err
+    assert "cable" not in err
 
 
 @pytest.mark.parametrize(

@@ -79,6 +79,8 @@ class SftpTransport:
 
     def _connect(self, host: str, port: int, timeout: float) -> None:
         login = self._login
+        _readable("--known-hosts", login.known_hosts, "RG503")
+        _readable("--identity", login.identity, "RG502")
         try:
             if login.known_hosts:
                 self._client.load_host_keys(login.known_hosts)
@@ -254,6 +256,20 @@ class _Unknown(paramiko.MissingHostKeyPolicy):
             help="compare it with the controller's, then add it to known_hosts:\n"
             f"{hostname} {key.get_name()} {key.get_base64()}",
         )
+
+
+def _readable(option: str, path: str, code: str) -> None:
+    """Refuse a file of ours that is not there before anybody looks for a fault of the line."""
+    try:
+        if path:
+            open(path, "rb").close()
+    except OSError as error:
+        raise TransportFault(
+            "login",
+            f"{option} {path}: {error.strerror or error}",
+            code=code,
+            help="name a file that is there and can be read",
+        ) from None
 
 
 def _print(key: paramiko.PKey) -> str:
