@@ -32,7 +32,7 @@ from rapidgen.machine.network.memory import MemoryNetwork
 from rapidgen.machine.network.sockets import SocketTable
 from rapidgen.machine.network.system import PortMap, SystemNetwork
 from rapidgen.machine.operator import Answer, Operator
-from rapidgen.machine.scheduler import ClockKind, Schedule, Scheduler
+from rapidgen.machine.scheduler import AdvanceEnd, ClockKind, Schedule, Scheduler
 from rapidgen.machine.smart_gripper import Hands
 from rapidgen.machine.system_parameters import SystemParameters
 from rapidgen.machine.texts import TextTables
@@ -327,8 +327,8 @@ class VirtualController:
         return self.motion.record()
 
     def run_for(self, seconds: float) -> None:
-        """Let simulated time pass."""
-        self.scheduler.advance(until=self.scheduler.now + round(seconds * _NS))
+        """Let simulated time pass. RuntimeError: it is not this thread that does so."""
+        self._step(until=self.scheduler.now + round(seconds * _NS))
 
     def run_until(self, condition: Callable[[], bool], *, timeout: float | None = None) -> bool:
         """Let time pass until `condition()`, looked at after every event and slice.
@@ -337,7 +337,7 @@ class VirtualController:
         ahead that could change anything.
         """
         until = None if timeout is None else self.scheduler.now + round(timeout * _NS)
-        outcome = self.scheduler.advance(until, condition)
+        outcome = self._step(until, condition)
         if outcome == "idle":
             raise Deadlock("\n".join(self.where()))
         return outcome == "stop"
@@ -359,7 +359,7 @@ class VirtualController:
                 return False
             return scheduler.now - scheduler.idle - spent > max_statements * price
 
-        outcome = scheduler.advance(until, lambda: self._all_ended() or exhausted())
+        outcome = self._step(until, lambda: self._all_ended() or exhausted())
         if self._all_ended():
             return "finished"
         if outcome == "paused":
@@ -370,6 +370,14 @@ class VirtualController:
         busy = scheduler.ready or scheduler.preempted is not None
         idle = scheduler.next_event() is None and not busy
         return "deadlock" if outcome == "idle" or idle else "time"
+
+    def _step(self, until: int | None, stop: Callable[[], bool] | None = None) -> AdvanceEnd:
+        if self._thread.begun:
+            raise RuntimeError(
+                "the controller runs in another thread, its own since start(): time passes there "
+                "by itself, call() runs a function there"
+            )
+        return self.scheduler.advance(until, stop)
 
     def _all_ended(self) -> bool:
         return all(t.state != "running" for t in self.rapid_tasks.values())
@@ -485,21 +493,29 @@ class VirtualController:
     # -- real time -------------------------------------------------------------------------------
 
     def start(self) -> None:
-        """Run in a thread of its own from now on. ValueError: the clock is not the real one."""
+        """Run in a thread of its own from now on. ValueError: the clock is not the real one.
+
+        RuntimeError: the controller is closed, or its tasks run in the thread that let time pass.
+        """
+        if not self._thread.begun and any(task.body for task in self.rapid_tasks.values()):
+            raise RuntimeError(
+                "its tasks run in the thread that has let time pass: call start() before run_for "
+                "and run_until, or go on with these"
+            )
         self._thread.start()
 
     def stop(self) -> None:
-        """End the thread; the controller can be started again."""
+        """Let the thread stand, and time with it; the controller can be started again."""
         self._thread.stop()
 
     def call(self, function: Callable[[], _T]) -> _T:
-        """Run `function` on the controller's thread and return what it returns."""
+        """Run `function` on the controller's thread, and return or raise what it does."""
         return self._thread.call(function)
 
     def close(self) -> None:
         """Stop and give everything back: thread, sockets, files."""
         # In one go: nothing may run between the tasks' end and the thread's.
-        self._thread.stop(lambda: self.scheduler.close_processes(self.rapid_tasks.values()))
+        self._thread.close(lambda: self.scheduler.close_processes(self.rapid_tasks.values()))
         for name in self.rapid_tasks:
             self.sockets.close_task(name)
         self.network.shut_down()

@@ -2,9 +2,10 @@
 
 import threading
 from collections.abc import Callable
+from queue import SimpleQueue
 from typing import TypeVar
 
-from rapidgen.machine.scheduler import Scheduler
+from rapidgen.machine.scheduler import CLOSED, Scheduler
 
 _T = TypeVar("_T")
 _LOOK = 0.1
@@ -12,61 +13,105 @@ _LOOK = 0.1
 
 
 class ControllerThread:
-    """Lets a scheduler advance, and carries out what other threads ask."""
+    """Lets a scheduler advance, and carries out what other threads ask.
+
+    It is one thread until it is closed: RAPID tasks cannot be moved to another one. While it is
+    stopped it stands, and what is asked is carried out by whoever asks.
+    """
 
     def __init__(self, scheduler: Scheduler, name: str) -> None:
         self._scheduler = scheduler
         self._name = name
         self._thread: threading.Thread | None = None
         self._stopping = False
+        self._stands = threading.Event()
+        self._going_on: SimpleQueue[Callable[[], None] | None] = SimpleQueue()
+
+    @property
+    def begun(self) -> bool:
+        """Whether the controller's tasks run in this thread, be it that it stands."""
+        return self._thread is not None
 
     def start(self) -> None:
-        """Run from now on. ValueError: the clock is not the real one."""
+        """Run from now on. ValueError: the clock is not the real one. RuntimeError: closed."""
         if self._scheduler.clock != "real":
             raise ValueError('only clock="real" runs by itself; else use run_for and run_until')
-        if self._thread is not None:
+        if self._scheduler.is_closed:
+            raise RuntimeError(CLOSED)
+        if self._thread is not None and not self._stands.is_set():
             return
         self._stopping = False
         self._scheduler.rebase()
-        self._thread = threading.Thread(
-            target=lambda: self._scheduler.advance(stop=lambda: self._stopping),
-            name=self._name,
-            daemon=True,
-        )
+        if self._thread is not None:
+            self._stands.clear()
+            self._going_on.put(None)
+            return
+        self._thread = threading.Thread(target=self._run, name=self._name, daemon=True)
         self._thread.start()
 
-    def stop(self, last: Callable[[], None] | None = None) -> None:
-        """End the thread, which can be started again; `last` is what it does as its last."""
+    def _run(self) -> None:
+        last = None
+        while last is None:
+            self._scheduler.advance(stop=lambda: self._stopping)
+            self._stands.set()
+            last = self._going_on.get()
+        last()
 
-        def end() -> None:
+    def stop(self) -> None:
+        """Let the thread stand; it can be started again."""
+        thread = self._thread
+        if thread is None or self._stands.is_set():
+            return
+
+        def stand() -> None:
             self._stopping = True
-            if last is not None:
-                last()
 
-        self.call(end)
-        if self._thread is not None:
-            self._thread.join()
-            self._thread = None
+        self.call(stand)
+        while not self._rests(thread):
+            self._stands.wait(_LOOK)
+
+    def close(self, last: Callable[[], None]) -> None:
+        """End the thread; `last` is what it does as its last."""
+        self.stop()
+        thread = self._thread
+        if thread is None or not thread.is_alive():
+            last()
+            return
+        self._going_on.put(last)
+        thread.join()
+        self._thread = None
 
     def call(self, function: Callable[[], _T]) -> _T:
-        """Run `function` on the thread, or here where there is none, and return its result."""
+        """Run `function` on the thread, or here where none runs, and return its result.
+
+        What it raises is raised here: the controller goes on.
+        """
         thread = self._thread
-        if thread is None or thread is threading.current_thread() or not thread.is_alive():
+        if thread is None or thread is threading.current_thread() or self._rests(thread):
             return function()
         done = threading.Event()
+        taken = threading.Lock()
         result: list[_T] = []
+        raised: list[BaseException] = []
 
         def run() -> None:
+            if not taken.acquire(blocking=False):
+                return
             try:
                 result.append(function())
+            except BaseException as fault:  # noqa: BLE001 - handed to whoever asked
+                raised.append(fault)
             finally:
                 done.set()
 
         self._scheduler.post(run)
         while not done.wait(_LOOK):
-            if not thread.is_alive() and not done.is_set():
-                # A fault has ended the thread: nobody else runs anything any more.
+            # Stopped, or ended by a fault, before it came to that: nobody else runs it.
+            if self._rests(thread) and taken.acquire(blocking=False):
                 return function()
-        if not result:
-            raise RuntimeError("the controller's thread could not carry out the request")
+        if raised:
+            raise raised[0]
         return result[0]
+
+    def _rests(self, thread: threading.Thread) -> bool:
+        return self._stands.is_set() or not thread.is_alive()

@@ -39,6 +39,7 @@ PATIENCE = 20 * MS
 """A process that waits for the CPU longer than that comes first, whatever its priority."""
 _LARGEST_BUDGET = 50 * MS
 _SERVE_EVERY = 2 * MS
+CLOSED = "the controller is closed: make another one"
 _LAG = 200 * MS
 """Real ns by which a busy machine may be behind, and catches up."""
 
@@ -139,6 +140,7 @@ class Scheduler:
         self._selector: selectors.BaseSelector | None = None
         self._pipe: tuple[int, int] | None = None
         self._served_at = 0
+        self.is_closed = False
         self._origin = (0, time.monotonic_ns())
 
     def draw_from(self, seed: int) -> None:
@@ -237,7 +239,8 @@ class Scheduler:
         return self._selector
 
     def close(self) -> None:
-        """Give back the operating system's handles."""
+        """Give back the operating system's handles; no time passes any more."""
+        self.is_closed = True
         if self._selector is not None:
             self._selector.close()
             self._selector = None
@@ -280,8 +283,15 @@ class Scheduler:
 
         Returns "time" when `until` is reached, "stop" when `stop()` said so after something
         happened, "idle" when nothing is ready and nothing is ahead, "paused" while it is paused
-        (both on the virtual clock only).
+        (both on the virtual clock only). RuntimeError: it passes already, or ended with `close`.
         """
+        if self.is_closed:
+            raise RuntimeError(CLOSED)
+        if self._hub is not None:
+            raise RuntimeError(
+                "time passes already, and is let pass once more by what is called meanwhile: "
+                "a condition only looks"
+            )
         self._hub = greenlet.getcurrent()
         self._until, self._stop, self._stopping = until, stop, False
         try:
@@ -460,7 +470,13 @@ class Scheduler:
         assert body is not None
         if not body:  # not started: when it ends, the loop goes on here
             body.parent = greenlet.getcurrent()
-        body.switch()
+        try:
+            body.switch()
+        except greenlet.error as fault:
+            self.running, self._front = None, process
+            raise RuntimeError(
+                "time is let pass by another thread than before: one thread steps a controller"
+            ) from fault
         if self.running is process:  # the body returned while charged for
             self._now = self.deadline - process.b
             self.running = None
