@@ -167,6 +167,8 @@ def override_tree(overrides: Overrides) -> tuple[MappingNode, tuple[tuple[str, b
     inputs: list[tuple[str, bytes]] = []
     found: list[Diagnostic] = []
     pairs: Sequence[tuple[str, object, bool]]
+    if isinstance(overrides, str):
+        raise TypeError(f"overrides are a list, or a mapping of keys to values: [{overrides!r}]")
     if isinstance(overrides, Mapping):
         pairs = [(key, value, False) for key, value in overrides.items()]
     else:

@@ -82,7 +82,7 @@ def load_target(targets: Sequence[Source], wishes: Wishes | None = None) -> Boot
         _only_of_files(str(first), wishes, "--set controller.robotware=7.6 changes it")
         from rapidgen.generate import build, make_system
 
-        config = load_config(str(targets[0]), overrides=tuple(wishes.overrides))
+        config = load_config(str(targets[0]), overrides=wishes.overrides)
         system = make_system(config, build(config))
         made = _driver(config, system, tuple(config.diagnostics), wishes)
         named = [group.name for group in config.groups if is_path(str(first))]
@@ -116,7 +116,7 @@ def is_configuration(target: Path) -> bool:
 
 
 def _loose(targets: Sequence[Source], wishes: Wishes) -> System:
-    if not targets and not wishes.tasks:
+    if not targets and not any(wishes.tasks.values()):
         raise refusal(
             "RG901",
             None,
@@ -130,7 +130,7 @@ def _loose(targets: Sequence[Source], wishes: Wishes) -> System:
     if targets:
         own = by_task.pop("T_ROB1", [])
         by_task = {"T_ROB1": [*own, *targets], **by_task}
-    name = Path(next(iter(by_task.values()))[0]).stem
+    name = Path(next(names[0] for names in by_task.values() if names)).stem
     return _read(by_task, name, wishes)
 
 

@@ -5,7 +5,7 @@ import threading
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from os import PathLike
 from pathlib import Path
-from typing import Literal, TypedDict, TypeVar
+from typing import Literal, TypedDict, TypeVar, get_args
 
 from rapidgen.config.model import GroupConfig, RobotConfig
 from rapidgen.controller.booting import Bootable, Wishes, load_target
@@ -17,7 +17,7 @@ from rapidgen.controller.operation import OperatingMode, Operation
 from rapidgen.controller.surroundings import Surroundings, settle
 from rapidgen.controller.system_signals import SystemSignals
 from rapidgen.controller.thread import ControllerThread
-from rapidgen.controller.views import Signals, TaskView
+from rapidgen.controller.views import Signals, TaskView, unknown
 from rapidgen.machine.arc_equipment import ArcEquipment
 from rapidgen.machine.cameras import cameras
 from rapidgen.machine.costs import Costs
@@ -36,6 +36,7 @@ from rapidgen.machine.scheduler import AdvanceEnd, ClockKind, Schedule, Schedule
 from rapidgen.machine.smart_gripper import Hands
 from rapidgen.machine.system_parameters import SystemParameters
 from rapidgen.machine.texts import TextTables
+from rapidgen.motion.group import MotionGroup
 from rapidgen.motion.recorder import Recorder
 from rapidgen.motion.system import MotionSystem
 from rapidgen.python310 import Self, Unpack
@@ -126,6 +127,16 @@ class VirtualController:
         self.system = system
         self.costs = costs if costs is not None else Costs()
         self.dialect = dialect if dialect is not None else Switches()
+        for option, given, known in (
+            ("cycle", cycle, get_args(Cycle)),
+            ("accounting", accounting, get_args(Accounting)),
+        ):
+            if given not in known:
+                raise ValueError(f"{option}={given!r} is none of {', '.join(known)}")
+        if ports != "auto" and not isinstance(ports, int):
+            raise ValueError(f'ports={ports!r} is neither "auto" nor a number to add to every port')
+        if not speed >= 0:
+            raise ValueError(f"speed={speed!r}: 1 is real time, 2 twice as fast, 0 lets time stand")
         self.cycle: Cycle = cycle
         self.scheduler = Scheduler(
             clock=clock,
@@ -275,6 +286,9 @@ class VirtualController:
         if isinstance(files, str | Path):
             raise TypeError(f"files are a list, or a mapping of tasks to lists: [{str(files)!r}]")
         tasks = files if isinstance(files, Mapping) else {"T_ROB1": files}
+        for task, names in tasks.items():
+            if isinstance(names, str | Path):
+                raise TypeError(f"the files of {task} are a list: [{str(names)!r}]")
         wishes = Wishes(tasks, robot=robot, entry=entry, cell=cell, start=start)
         return cls.boot(load_target((), wishes), **options)
 
@@ -306,7 +320,9 @@ class VirtualController:
         return self.scheduler.now / _NS
 
     def task(self, name: str) -> TaskView:
-        """A task by name."""
+        """A task by name. KeyError: there is none."""
+        if name not in self.tasks:
+            raise unknown("task", name, list(self.tasks))
         return self.tasks[name]
 
     @property
@@ -319,8 +335,14 @@ class VirtualController:
 
         Of the first group, or of a named one (KeyError: there is none).
         """
-        found = self.motion.group(group or next(iter(self.motion.groups)))
+        found = self._group(group)
         return dict(zip(found.map.names, found.positions(), strict=True))
+
+    def _group(self, name: str) -> MotionGroup:
+        groups = self.motion.groups
+        if name and name not in groups:
+            raise unknown("motion group", name, list(groups))
+        return groups[name or next(iter(groups))]
 
     def record(self) -> dict[str, Recorder]:
         """Record the motion of every group from now on: `["rob1"].recording()` gives arrays."""
@@ -403,8 +425,7 @@ class VirtualController:
         For a controller that runs in a thread of its own (`start()`). TimeoutError when they do
         not listen within `timeout` s; KeyError for an unknown group.
         """
-        name = group or next(iter(self.motion.groups))
-        ports = self.motion.group(name).config.ports
+        ports = self._group(group).config.ports
         wanted = [port for port in (ports.motion, ports.state, ports.control) if port]
         listeners = self.network.listeners
         listening = threading.Event()

@@ -1,14 +1,25 @@
 """How tests and people see a controller: tasks with their data, signals by name."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 
 from rapidgen.controller.operation import Operation
-from rapidgen.machine.io import IOSystem
-from rapidgen.runtime.compiler.symbols import Data
+from rapidgen.diagnostics import suggest
+from rapidgen.machine.io import IOSystem, Signal
+from rapidgen.runtime.compiler.symbols import Data, LoadedModule
 from rapidgen.runtime.errors import FatalError, Location
 from rapidgen.runtime.host import TaskState
 from rapidgen.runtime.task.task import Task
-from rapidgen.runtime.values import PersistentCell, Type, Value
+from rapidgen.runtime.values import PersistentCell, Type, Value, misfit
+
+_SHOWN = 6
+"""Names that an error lists."""
+
+
+def unknown(kind: str, name: str, known: Sequence[str]) -> KeyError:
+    """What is raised where somebody asks for a name that is none of those `known`."""
+    few = ", ".join(known[:_SHOWN]) + (", ..." if len(known) > _SHOWN else "")
+    mend = suggest(name, known) or (f"there are {few}" if known else "there is none")
+    return KeyError(f"there is no {kind} '{name}': {mend}")
 
 
 class Signals(Mapping[str, float]):
@@ -18,10 +29,16 @@ class Signals(Mapping[str, float]):
         self._io = io
 
     def __getitem__(self, name: str) -> float:
-        return self._io[name].value
+        return self._signal(name).value
 
     def __setitem__(self, name: str, value: float) -> None:
-        self._io.set(self._io[name], value)
+        self._io.set(self._signal(name), value)
+
+    def _signal(self, name: str) -> Signal:
+        found = self._io.get(name)
+        if found is None:
+            raise unknown("signal", name, list(self))
+        return found
 
     def __iter__(self) -> Iterator[str]:
         return iter([s.name for s in self._io.signals.values()])
@@ -62,11 +79,17 @@ class TaskView:
         where, colon, key = name.lower().rpartition(":")
         module = program.modules.get(where) if colon else None
         if colon and module is None:
-            raise KeyError(name)
+            raise unknown(f"module in {self.name} called", where, [m.name for m in self._modules()])
         data = program.find_data(module, key)
         if data is None:
-            raise KeyError(name)
+            raise unknown(f"data in {self.name} called", name, self._names())
         return data, program.space.get(data.code)
+
+    def _modules(self) -> list[LoadedModule]:
+        return [m for m in self.rapid.program.modules.values() if not m.installed]
+
+    def _names(self) -> list[str]:
+        return [f"{m.name}:{d.name}" for m in self._modules() for d in m.declarations.values()]
 
     def __getitem__(self, name: str) -> Value:
         data, kept = self._data(name)
@@ -78,6 +101,10 @@ class TaskView:
         data, kept = self._data(name)
         if data.readonly:
             raise KeyError(f"{name} is a constant")
+        if wrong := misfit(value, data.type, data.dims):
+            raise TypeError(f"{name} takes {wrong}")
+        if data.type.kind == "bool" and not data.dims:
+            value = bool(value)
         if data.storage == "cell":
             kept.set(value)
         else:

@@ -113,8 +113,9 @@ class Scheduler:
         quantum: int = QUANTUM,
         schedule: Schedule = "round-robin",
     ) -> None:
-        if clock not in get_args(ClockKind):
-            raise ValueError(f"clock={clock!r} is none of {', '.join(get_args(ClockKind))}")
+        for option, given, kind in (("clock", clock, ClockKind), ("schedule", schedule, Schedule)):
+            if given not in get_args(kind):
+                raise ValueError(f"{option}={given!r} is none of {', '.join(get_args(kind))}")
         self.clock: ClockKind = clock
         self.speed = speed
         self.quantum = quantum

@@ -6,14 +6,16 @@ record and array type keep one object for life: assignment writes into it, so pa
 object is passing by reference.
 """
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from keyword import iskeyword
+from numbers import Real
 from typing import Any, Literal, TypeAlias
 
 from rapidgen.machine.scheduler import WaitSet
 from rapidgen.rapid.builtins import signatures
-from rapidgen.rapid.numbers import MAX_STRING, single
+from rapidgen.rapid.numbers import MAX_STRING, is_single, single
 from rapidgen.runtime.errors import RapidError
 
 Value: TypeAlias = Any
@@ -219,6 +221,51 @@ def assign_array(target: dict[int, Value], value: dict[int, Value]) -> None:
             record.assign(value[i])
     else:
         target.update(value)
+
+
+# -- values that come from outside ---------------------------------------------------------------
+
+_WANTED = {
+    "num": "a number up to 3.4E+38",
+    "dnum": "a number",
+    "bool": "True or False",
+    "string": f"a text of at most {MAX_STRING} characters of Latin-1",
+}
+
+
+def misfit(value: Value, type: Type, dims: tuple[int, ...] = ()) -> str:
+    """What a datum takes instead of `value`, which whoever tests has made; "": it fits."""
+    if dims:
+        size, *inner = dims
+        if value.__class__ is not dict or list(value) != list(range(1, size + 1)):
+            elements = "{1: ...}" if size == 1 else f"{{1: ..., {size}: ...}}"
+            return f"an array of {size}, {elements}, not {_short(value)}"
+        return next((w for v in value.values() if (w := misfit(v, type, tuple(inner)))), "")
+    if type.kind == "record":
+        if isinstance(value, Record) and value.rapid_type is type:
+            parts = zip(value.values(), type.components, strict=True)
+            return next((w for v, (_, kind) in parts if (w := misfit(v, kind))), "")
+        fields = ", ".join(name for name, _ in type.components)
+        return f"a {type.name} ({fields}), not {_short(value)}: change a copy() of what is there"
+    if not type.is_value:
+        return f"nothing: the program alone handles a {type.name}"
+    return "" if _fits(value, type.kind) else f"{_WANTED[type.kind]}, not {_short(value)}"
+
+
+def _fits(value: Value, kind: Kind) -> bool:
+    if kind == "string":
+        text = isinstance(value, str) and len(value) <= MAX_STRING
+        return text and max(map(ord, value), default=0) <= 0xFF
+    if not isinstance(value, Real):
+        return False
+    if kind == "bool":
+        return value in (0, 1)
+    return kind == "dnum" or not math.isfinite(value) or is_single(float(value))
+
+
+def _short(value: Value) -> str:
+    text = repr(value)
+    return text if len(text) <= 40 else f"{text[:37]}..."
 
 
 # -- references and cells ------------------------------------------------------------------------

@@ -6,7 +6,9 @@ from concurrent.futures import ThreadPoolExecutor
 import pytest
 
 from rapidgen.controller import VirtualController
+from rapidgen.diagnostics import DiagnosticError
 from rapidgen.machine.scheduler import S
+from rapidgen.runtime.values import Pos, copy_value
 
 
 @pytest.fixture
@@ -135,3 +137,129 @@ def test_a_closed_controller_says_so(files):
         for step in steps:
             with pytest.raises(RuntimeError, match="closed"):
                 step()
+
+
+DATA = """MODULE data
+  RECORD part
+    num id;
+    string name;
+  ENDRECORD
+  CONST num most := 5;
+  VAR clock watch;
+  PERS num n := 0;
+  PERS dnum big := 0;
+  PERS bool go := FALSE;
+  PERS string word := "";
+  PERS num row{3} := [1, 2, 3];
+  PERS num grid{1, 2} := [[1, 2]];
+  PERS pos p := [1, 2, 3];
+  PERS part pp := [1, "a"];
+  PROC main()
+    WaitTime 1;
+  ENDPROC
+ENDMODULE
+"""
+
+
+@pytest.fixture
+def data(tmp_path):
+    (tmp_path / "data.mod").write_text(DATA)
+    with VirtualController.from_files([tmp_path / "data.mod"]) as controller:
+        yield controller.task("T_ROB1")
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "wanted"),
+    [
+        ("n", "abc", "n takes a number up to 3.4E\\+38, not 'abc'"),
+        ("n", None, "not None"),
+        ("n", 1e39, "not 1e\\+39"),
+        ("big", "1", "a number, not '1'"),
+        ("go", "yes", "True or False, not 'yes'"),
+        ("go", 2, "not 2"),
+        ("word", 5, "at most 80 characters of Latin-1, not 5"),
+        ("word", "x" * 81, "not 'xxx"),
+        ("word", "€", "not '€'"),
+        ("row", [1, 2, 3], "an array of 3, {1: ..., 3: ...}, not"),
+        ("row", {1: 1, 2: 2}, "array of 3"),
+        ("row", {1: 1, 2: 2, 3: "c"}, "a number"),
+        ("grid", {1: {1: 0}}, "array of 2"),
+        ("p", [1, 2, 3], r"a pos \(x, y, z\), not \[1, 2, 3\]: change a copy\(\)"),
+        ("p", Pos(1, 2, "c"), "a number"),
+        ("pp", Pos(1, 2, 3), r"a part \(id, name\)"),
+        ("watch", 1, "the program alone handles a clock"),
+    ],
+)
+def test_a_value_that_does_not_fit_changes_nothing(data, name, value, wanted):
+    before = copy_value(data[f"data:{name}"])
+    with pytest.raises(TypeError, match=wanted):
+        data[f"data:{name}"] = value
+    assert name == "watch" or data[f"data:{name}"] == before
+
+
+def test_values_that_fit(data):
+    changed = data["data:pp"].copy()
+    changed.name = "b"
+    given = {"n": 0.5, "big": 2**40, "go": 1, "word": "é", "row": {1: 4, 2: 5, 3: 6}}
+    given |= {"grid": {1: {1: 7, 2: 8}}, "p": Pos(1, 2, 4), "pp": changed}
+    for name, value in given.items():
+        data[f"data:{name}"] = value
+        assert data[f"data:{name}"] == value
+    assert data["data:go"] is True
+
+
+@pytest.mark.parametrize(
+    ("name", "wanted"),
+    [
+        ("data:m", "there is no data in T_ROB1 called 'data:m'"),
+        ("data:wrd", "did you mean 'data:word'"),
+        ("dta:n", "no module in T_ROB1 called 'dta': did you mean 'data'"),
+        ("zzz", "there are data:most, data:watch"),
+    ],
+)
+def test_data_that_there_is_not(data, name, wanted):
+    with pytest.raises(KeyError, match=wanted):
+        data[name]
+    with pytest.raises(KeyError, match=wanted):
+        data[name] = 1
+
+
+def test_names_that_there_are_not():
+    with VirtualController.from_config("irb120") as controller:
+        for use, wanted in (
+            (lambda: controller.task("T_ROB2"), "no task 'T_ROB2': did you mean 'T_ROB1'"),
+            (lambda: controller.task("zzz"), "there are T_ROB1, T_ROS_"),
+            (lambda: controller.signals["doX"], "no signal 'doX': there are "),
+            (lambda: controller.signals.__setitem__("doX", 1), "no signal 'doX'"),
+            (lambda: controller.positions("rob2"), "no motion group 'rob2': did you mean 'rob1'"),
+        ):
+            with pytest.raises(KeyError, match=wanted):
+                use()
+
+
+@pytest.mark.parametrize(
+    ("options", "wanted"),
+    [
+        ({"cycle": "onec"}, "cycle='onec' is none of once, forever"),
+        ({"accounting": "lines"}, "block, statement, none"),
+        ({"schedule": "robin"}, "schedule='robin' is none of round-robin, random"),
+        ({"ports": "any"}, "ports='any' is neither"),
+        ({"speed": -1}, "speed=-1: 1 is real time"),
+    ],
+)
+def test_an_option_that_there_is_not(files, options, wanted):
+    with pytest.raises(ValueError, match=wanted):
+        VirtualController.from_files(files, **options)
+
+
+def test_files_that_are_none(files):
+    with pytest.raises(TypeError, match=r"T_ROB1 are a list: \['.*idle.mod'\]"):
+        VirtualController.from_files({"T_ROB1": files[0]})
+    for nothing in ([], {}, {"T_ROB1": []}):
+        with pytest.raises(DiagnosticError, match="nothing to run"):
+            VirtualController.from_files(nothing)
+
+
+def test_overrides_that_are_no_list():
+    with pytest.raises(TypeError, match=r"a list, or a mapping .*: \['ports.motion=5000'\]"):
+        VirtualController.from_config("irb120", overrides="ports.motion=5000")
