@@ -5,6 +5,7 @@ the names and errors of 3HAC16581-1. A dialog that is broken off raises its erro
 number into \\BreakFlag and goes on. \\DefaultBtn is what such a message box then returns [mem].
 """
 
+import math
 from collections.abc import Callable, Iterable, Mapping
 from types import MappingProxyType
 
@@ -178,12 +179,22 @@ def _one_of(choices: Mapping[str, float]) -> Callable[[str], float]:
 def _a_number(
     low: float | None = None, high: float | None = None, *, integer: bool = False
 ) -> Callable[[str], float]:
+    bounds = "".join(
+        f" {word} {bound:.15g}"
+        for word, bound in (("from", low), ("up to", high))
+        if bound is not None
+    )
+    wanted = f"a {'whole ' if integer else ''}number{bounds} is wanted"
+
     def check(value: str) -> float:
-        number = float(value)
-        if not (low is None or number >= low) or not (high is None or number <= high):
-            raise ValueError(f"{value} is out of range")
-        if number != number or (integer and number != int(number)):
-            raise ValueError(f"{value} is not whole")
+        try:
+            number = float(value)
+        except ValueError as fault:
+            raise ValueError(wanted) from fault
+        small = low is not None and number < low
+        large = high is not None and number > high
+        if small or large or not math.isfinite(number) or (integer and number != int(number)):
+            raise ValueError(wanted)
         return number
 
     return check

@@ -187,6 +187,18 @@ def test_number_and_text_entry(make_bench):
     assert flag.get() == errnum("ERR_TP_MAXTIME")
 
 
+@pytest.mark.parametrize("value", ["inf", "1e400", "nan", "many", "2.5", "11"])
+def test_what_is_no_number_is_refused_and_told_what_is_wanted(make_bench, value):
+    bench = make_bench(answers=[Answer(value)])
+    options = {"MinValue": 1, "MaxValue": 10} if value == "11" else {}
+    flag = bench.box(0)
+    bench("UINumEntry", AsInteger=True, InitValue=3, MaxTime=1, BreakFlag=flag, **options)
+    assert flag.get() == errnum("ERR_TP_MAXTIME")
+    within = " from 1 up to 10" if options else ""
+    told = "".join(bench.controller.operator.rows)
+    assert f"refused: a whole number{within} is wanted" in told
+
+
 @pytest.mark.parametrize(
     ("options", "error"),
     [
