@@ -116,7 +116,12 @@ def _parsed(name: str, data: bytes, shown: str, made: Assembly) -> MappingNode:
     return root
 
 
-def keys_of(data: bytes, shown: str) -> tuple[MappingNode, list[Diagnostic]]:
+def keys_of(
+    data: bytes,
+    shown: str,
+    what: str = "a configuration",
+    such: str = "such as `model: irb120`; `rapidgen schema` has them all",
+) -> tuple[MappingNode, list[Diagnostic]]:
     """The keys of a YAML file, none of an empty one, and faults that do not hinder them.
 
     Raises DiagnosticError (RG002, RG003, RG006).
@@ -128,8 +133,8 @@ def keys_of(data: bytes, shown: str) -> tuple[MappingNode, list[Diagnostic]]:
         raise refusal(
             "RG006",
             root.span,
-            "a configuration is a mapping of keys",
-            "such as `model: irb120`; `rapidgen schema` has them all",
+            f"{what} is a mapping of keys",
+            such,
             label="not a mapping",
         )
     return root, faults

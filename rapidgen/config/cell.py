@@ -205,7 +205,8 @@ def load_cell(path: Path) -> CellDescription:
     Raises DiagnosticError (RG001..RG009, RG014) with everything that is wrong.
     """
     shown = shown_path(path)
-    root, found = keys_of(read_bytes(path, shown), shown)
+    such = "such as `signals: {doGrip: {kind: DO}}`; `rapidgen schema --cell` has them all"
+    root, found = keys_of(read_bytes(path, shown), shown, "a cell file", such)
     keys, faults, removed = sound(root, CellKeys)
     report = DraftFindings(root, removed)
     report.found = found + faults

@@ -20,7 +20,7 @@ from rapidgen.config.tree import MappingNode, place_of, to_python
 from rapidgen.diagnostics import Diagnostic, error, suggest
 
 Path = tuple[str | int, ...]
-_SCHEMA = "`rapidgen schema` has all keys, and what each takes"
+_SCHEMA = "`rapidgen schema{}` has all keys, and what each takes"
 T = TypeVar("T")
 
 
@@ -118,6 +118,7 @@ def _translate(
     root: MappingNode, kind: type, path: Path, is_key: bool, item: ErrorDetails
 ) -> Diagnostic:
     key, value = place_of(root, path)
+    schema = _SCHEMA.format("" if kind is ConfigurationKeys else " --cell")
     if item["type"] == "unexpected_keyword_argument":
         known = _keys_at(kind, path[:-1])
         elsewhere = _belongs(str(path[-1]), path[:-1]) if kind is ConfigurationKeys else ""
@@ -127,14 +128,14 @@ def _translate(
             "RG005",
             key,
             f"unknown key '{_short(path[-1])}'{where}",
-            meant or (f"known here: {', '.join(known)}" if len(known) < 25 else _SCHEMA),
+            meant or (f"known here: {', '.join(known)}" if len(known) < 25 else schema),
             label="not a key of this file" if len(path) == 1 else "not a key here",
         )
     return error(
         "RG006",
         key if is_key else value,
         f"'{shown(root, path)}': {_reason(item, is_key)}",
-        _form(item)[1] if item["type"] == "string_pattern_mismatch" else _SCHEMA,
+        _form(item)[1] if item["type"] == "string_pattern_mismatch" else schema,
         label=_input(item),
     )
 

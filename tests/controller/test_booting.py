@@ -223,7 +223,12 @@ def test_a_faulty_value_is_no_missing_one_too(tmp_path):
         load_cell(path)
     found = fault.value.diagnostics
     assert [(d.code, d.span.line) for d in found] == [("RG006", 2), ("RG006", 4)]
+    assert "`rapidgen schema --cell` has all keys" in found[0].help
     assert "begin with a letter" in found[1].help
+    path.write_text("- doGrip\n")
+    with pytest.raises(DiagnosticError, match="a cell file is a mapping of keys") as fault:
+        load_cell(path)
+    assert "`rapidgen schema --cell`" in fault.value.diagnostics[0].help
 
 
 def test_dialogs_of_a_guessed_cell_get_their_default_and_then_each_choice_in_turn(tmp_path):
