@@ -33,6 +33,7 @@ class Client:
 
     def send(self, data: bytes) -> None:
         """Send bytes. ConnectionError: the program has closed the connection."""
+        _bytes("send", data)
         left = data
         while left:
             try:
@@ -49,6 +50,7 @@ class Client:
         What comes behind is kept. b"" when the program has closed the connection and nothing is
         left; TimeoutError, with where the tasks stand, when it does not come.
         """
+        _bytes("receive until", until)
         ended = False
 
         def there() -> bool:
@@ -86,3 +88,8 @@ class Client:
         if not came:
             faults = [f"{t.name}: {t.fault}" for t in controller.tasks.values() if t.fault]
             raise TimeoutError("\n".join([why, *faults, *controller.where()]))
+
+
+def _bytes(what: str, data: bytes) -> None:
+    if isinstance(data, str):
+        raise TypeError(f"{what} bytes, not a text: {data.encode()!r}")

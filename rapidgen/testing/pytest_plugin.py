@@ -59,7 +59,11 @@ def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
     if mark is None or "virtual_seed" not in metafunc.fixturenames:
         return
     chosen = metafunc.config.getoption("--virtual-seed")
-    seeds = range(*mark.args) if chosen is None else (chosen,)
+    if len(mark.args) != 1 or mark.kwargs or not isinstance(mark.args[0], int):
+        given = ", ".join([*map(repr, mark.args), *(f"{k}={v!r}" for k, v in mark.kwargs.items())])
+        what = f"{metafunc.definition.nodeid}: {MARK}({given}) is no number of seeds"
+        pytest.fail(f"{what}: write @pytest.mark.{MARK}(50)", pytrace=False)
+    seeds = range(mark.args[0]) if chosen is None else (chosen,)
     metafunc.parametrize("virtual_seed", seeds, ids=lambda seed: f"seed{seed}", indirect=True)
 
 

@@ -4,6 +4,11 @@ import re
 import subprocess
 import sys
 from importlib.metadata import entry_points
+from types import SimpleNamespace
+
+import pytest
+
+from rapidgen.testing import pytest_plugin
 
 PLUGIN = "rapidgen.testing.pytest_plugin"
 
@@ -110,6 +115,13 @@ def test_picks(virtual_controller, virtual_cell, virtual_client, program):
     assert controller.task("T_ROB1")["picker:picked"] == 1
     assert recorder.recording(0.05).actual[-1][0] == pytest.approx(math.radians(30))
 
+def test_texts_are_no_bytes(virtual_controller, virtual_cell, virtual_client, program):
+    client = virtual_client(virtual_controller(program, cell=virtual_cell(CELL)), 5000)
+    with pytest.raises(TypeError, match="send bytes, not a text: b'PICK'"):
+        client.send("PICK")
+    with pytest.raises(TypeError, match="receive until bytes"):
+        client.receive(until=";")
+
 def test_nothing_comes_in_a_cell_without_gripper(
     virtual_controller, virtual_cell, virtual_client, program
 ):
@@ -147,9 +159,21 @@ def test_a_program_with_its_cell_client_and_faults(pytester) -> None:
     plugins = ("-p", "no:cacheprovider", *(() if installed else ("-p", PLUGIN)))
     # A process of its own: numpy is not imported twice.
     result = pytester.runpytest_subprocess(*plugins, "-q")
-    assert result.parseoutcomes() == {"passed": 5}, result.stdout.str()
+    assert result.parseoutcomes() == {"passed": 6}, result.stdout.str()
 
 
 def test_the_plugin_imports_no_controller() -> None:
     code = f"import sys, {PLUGIN}; sys.exit('rapidgen.controller.controller' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+
+
+@pytest.mark.parametrize("given", [(), ("5",), (2.5,), (1, 5)])
+def test_what_is_no_number_of_seeds_is_told(given) -> None:
+    mark = pytest.mark.virtual_seeds(*given).mark
+    test = SimpleNamespace(
+        definition=SimpleNamespace(nodeid="test_a.py::test_b", get_closest_marker=lambda _: mark),
+        fixturenames=["virtual_seed"],
+        config=SimpleNamespace(getoption=lambda _: None),
+    )
+    with pytest.raises(pytest.fail.Exception, match=r"write @pytest.mark.virtual_seeds\(50\)"):
+        pytest_plugin.pytest_generate_tests(test)
