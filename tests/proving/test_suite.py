@@ -140,8 +140,8 @@ DEFECTS = {
     ),
     "leaves-moving": (
         "ROS_motionServer",
-        "ROS_end_session ROS_REASON_CLIENT_LOST;\n        ROS_await_halt;\n    ENDPROC",
-        "ENDPROC",
+        "IF NOT (taken_over AND ROS_active()) ROS_end_session ROS_REASON_CLIENT_LOST;",
+        "",
     ),
 }
 
