@@ -44,6 +44,27 @@ def test_message_says_what_was_met_expected_and_what_is_open():
 
 
 @pytest.mark.parametrize(
+    ("body", "mend"),
+    [
+        (
+            "MoveL p1 v100, fine, tool0;",
+            "a ',' stands between two arguments: perhaps before 'v100'",
+        ),
+        ("a := Offs(p, 1 2, 3);", "a ',' stands between two arguments: perhaps before '2'"),
+        ('TPWrite "a" "b";', "a ',' stands between two arguments: perhaps before '\"b\"'"),
+        ("a := [1 [2]];", "a ',' stands between two arguments: perhaps before '['"),
+        # At the beginning of a line it is more likely the semicolon.
+        ("Foo 1\nBar 2;", "perhaps the one before has none"),
+        ("a := 1\nb := 2;", "perhaps the one before has none"),
+        ("a := 1 b := 2;", "perhaps the one before has none"),
+    ],
+)
+def test_a_missing_comma_is_told_apart_from_a_missing_semicolon(body, mend):
+    (found,) = parse(routine(body)).diagnostics
+    assert mend in found.help
+
+
+@pytest.mark.parametrize(
     "body",
     [
         "a = 1;",

@@ -118,16 +118,19 @@ def unexpected(
         "RG201",
         span,
         f"met {met(source, kinds, at)}, expected {expected}",
-        help or _mend(kinds[at], expected),
+        help or _mend(source, kinds, at, expected),
         label=f"expected {expected}",
         notes=(note,) if note else (),
         related=related,
     )
 
 
-def _mend(kind: str, expected: str) -> str:
-    if kind == "=" and "':='" in expected:
+def _mend(source: Source, kinds: Sequence[str], at: int, expected: str) -> str:
+    if kinds[at] == "=" and "':='" in expected:
         return "write `:=` where a value is given; `=` compares"
+    begins = kinds[at] in (lexer.NAME, lexer.NUMBER, lexer.STRING, "[")
+    if begins and "','" in expected and source.line(at) == source.line(at - 1):
+        return f"a ',' stands between two arguments: perhaps before {met(source, kinds, at)}"
     if "';'" in expected:
         return "a statement or declaration ends with ';': perhaps the one before has none"
     return f"write {expected} here, or take out what stands here"
