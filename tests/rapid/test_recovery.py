@@ -46,6 +46,39 @@ def test_message_says_what_was_met_expected_and_what_is_open():
 @pytest.mark.parametrize(
     ("body", "mend"),
     [
+        ("IF a == 1 a := 2;", "compares with one `=`"),
+        ("WHILE a == 1 DO\nENDWHILE", "compares with one `=`"),
+        ("a += 1;", "RAPID has no `+=`: write a := a + ...;"),
+        ("a++;", "Incr a;"),
+        ("a--;", "Decr a;"),
+        ("// told", "a comment begins with `!`"),
+        ("/* told */", "a comment begins with `!`"),
+        ("# told", "a comment begins with `!`"),
+        ("s := 'text';", "double quotes"),
+        ("b := a && c;", "RAPID writes AND"),
+        ("b := a || c;", "RAPID writes OR"),
+        ("a := b ^ 2;", "Pow(a, b)"),
+        ("IF a != 1 THEN\nENDIF", "RAPID's unequal is `<>`"),
+        ("IF a = 1 THEN\nELSE IF a = 2 THEN\nENDIF", "ELSEIF is one word"),
+    ],
+)
+def test_habits_of_other_languages_are_told_in_rapid(body, mend):
+    assert any(mend in found.help for found in parse(routine(body)).diagnostics)
+
+
+@pytest.mark.parametrize(
+    "body", ["a := b / ;", "a := 1 + + 2;", "IF a = 1 THEN\nELSE\nIF a = 2 THEN\nENDIF"]
+)
+def test_what_is_no_habit_is_told_as_before(body):
+    found = parse(routine(body)).diagnostics
+    assert found
+    for one in found:
+        assert not any(word in one.help for word in ("RAPID", "comment", "one word"))
+
+
+@pytest.mark.parametrize(
+    ("body", "mend"),
+    [
         (
             "MoveL p1 v100, fine, tool0;",
             "a ',' stands between two arguments: perhaps before 'v100'",

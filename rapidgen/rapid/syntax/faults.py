@@ -5,8 +5,11 @@ from typing import Final
 
 from rapidgen.diagnostics import Diagnostic, Label, Span, error
 from rapidgen.rapid.syntax import lexer
+from rapidgen.rapid.syntax.habits import habit, second_if
 from rapidgen.rapid.syntax.source import Source
 
+_LOOKED_BACK: Final = 2_000
+"""Tokens in which an ELSE IF is looked for: texts may be long, and errors many."""
 Block = tuple[str, int]
 """Keyword of an open block and the index of its token."""
 
@@ -112,6 +115,7 @@ def unexpected(
     lexical = _LEXICAL.get(kinds[at])
     if lexical:
         code, message, mend = lexical
+        mend = mend or habit(source, at)
         return error(code, span, f"{message}: {met(source, kinds, at)}", mend)
     related, note = still_open(source, blocks)
     return error(
@@ -128,6 +132,9 @@ def unexpected(
 def _mend(source: Source, kinds: Sequence[str], at: int, expected: str) -> str:
     if kinds[at] == "=" and "':='" in expected:
         return "write `:=` where a value is given; `=` compares"
+    meant = habit(source, at)
+    if meant:
+        return meant
     begins = kinds[at] in (lexer.NAME, lexer.NUMBER, lexer.STRING, "[")
     if begins and "','" in expected and source.line(at) == source.line(at - 1):
         return f"a ',' stands between two arguments: perhaps before {met(source, kinds, at)}"
@@ -143,11 +150,13 @@ def unclosed(
     inner = blocks[len(blocks) - missing :]
     closers = " and ".join(CLOSER[keyword] for keyword, _ in reversed(inner[-3:]))
     related, note = still_open(source, blocks)
+    split = any(second_if(source, i) for i in range(max(inner[0][1], at - _LOOKED_BACK), at))
     return error(
         "RG202",
         place(source, at),
         f"met {met(source, kinds, at)}, but {closers} is missing before it",
-        f"add {closers} before this place",
+        f"add {closers} before this place"
+        + ("; ELSE IF begins a second IF, ELSEIF is one word" if split else ""),
         label=f"expected {CLOSER[inner[-1][0]]}",
         notes=(note,),
         related=related,
