@@ -27,18 +27,19 @@ from rapidgen.client import (
 )
 from rapidgen.client.core import checks as checks_module
 from rapidgen.wire.simple_message import spec
-from rapidgen.wire.simple_message.spec import Reason, TrajectoryState
+from rapidgen.wire.simple_message.spec import Feature, Reason, TrajectoryState
 
 NOT_IN_TIME = 59901
 """Event of the virtual controller: a move took longer than was programmed."""
 
 
 @contextmanager
-def streamed(*, control=True, timeouts=None, state_period=0.1, pace=1, **options):
+def streamed(*, control=True, timeouts=None, state_period=0.1, pace=1, latencies=None, **options):
     """A connected robot, under the calls of a Robot, and its driver."""
     driver = SimulatedDriver(
         StreamModel(**options), control=control, state_period=state_period, pace=pace
     )
+    driver.latencies = latencies or {}
     target = AsyncRobot("127.0.0.1", timeouts=timeouts)
     with Simulated(target, SimulatedLoop(driver)) as robot:
         yield robot, driver
@@ -454,6 +455,17 @@ def test_no_heartbeats_where_nobody_wants_them():
         with robot.stream() as stream:
             stream.append([0, 3], [[0.0] * 6, [0.1] * 6])
         assert driver.model.heartbeats == []
+
+
+@pytest.mark.parametrize(
+    ("port", "period"),
+    [(SimulatedDriver.CONTROL, 0.1), (SimulatedDriver.STATE, 0.9)],
+    ids=["control", "state"],
+)
+def test_a_busy_machine_that_answers_late_is_no_other_driver(port, period):
+    with streamed(latencies={port: 2.0}, state_period=period) as (robot, _):
+        assert Feature.CONTROL in robot.driver.features
+        assert robot.driver.cannot == ()
 
 
 def test_a_control_port_that_falls_silent_stops_the_motion():

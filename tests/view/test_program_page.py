@@ -162,7 +162,8 @@ def test_the_pendant_and_the_debugger_pause_the_same_and_time_is_stepped(page):
     page.get_by_label("Length of a time step").select_option(label="1 s")
     pendant.get_by_role("button", name="Time step").click()
     after = until(page, halted_at, lambda time: time and time > before)
-    assert after == pytest.approx(before + 1, abs=1e-6)
+    # A statement that has begun is executed whole.
+    assert 1 - 1e-6 < after - before < 1.05
     page.get_by_role("tab", name="Program").click()
     until(page, HALTED, lambda text: text and "time step" in text)
     page.locator("#panel-program").get_by_role("button", name="Go on").click()

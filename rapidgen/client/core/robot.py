@@ -72,7 +72,8 @@ class Timeouts:
 
     connect: float = 5.0
     hello: float = 1.0
-    """How long a driver may take to answer HELLO before it counts as plain simple_message."""
+    """For this long, and for four states, a driver may leave HELLO without an answer before it
+    counts as plain simple_message."""
     state: float = 5.0
     """First state after connecting; also the next one, where no other time is given."""
     ready: float = 1.0

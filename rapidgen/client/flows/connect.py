@@ -19,6 +19,8 @@ from rapidgen.wire.simple_message.spec import MAX_JOINTS, PROTOCOL_VERSION, Feat
 
 _RETRY = 0.5
 """s between two attempts to connect again."""
+_SILENT_STATES = 4
+"""So many joints without an answer to HELLO among them come from a plain driver."""
 
 
 def connect(core: Core) -> Flow[None]:
@@ -49,6 +51,15 @@ def _open(core: Core) -> Flow[None]:
     if not core.plain:
         left = max(0.0, asked + limits.hello - core.clock())
         yield Wait(lambda: state_port.hello is not None or not core.state_open, left)
+        # Where states come late the answer does, too: a driver tells it between two of them.
+        yield Wait(
+            lambda: (
+                state_port.hello is not None
+                or not core.state_open
+                or state_port.samples >= _SILENT_STATES
+            ),
+            limits.state,
+        )
     _meet(core, state_port.hello)
     told = state_port.driver.hello
     who = f"rapidgen {state_port.driver.version}, build {told.build_id}" if told else "plain"
@@ -68,7 +79,7 @@ def _meet_control(core: Core) -> Flow[None]:
         control = core.ports[Port.CONTROL]
         pending = control.request(HELLO.number)
         yield Send(Port.CONTROL, core.hello(subscribe=False), core.timeouts.send)
-        yield Wait(lambda: pending.reply is not None or not control.is_open, core.timeouts.hello)
+        yield Wait(lambda: pending.reply is not None or not control.is_open, core.timeouts.reply)
         known, told = core.state_port.hello, pending.reply
         assert isinstance(known, messages.HelloReply)
         if isinstance(told, messages.HelloReply) and told.same_driver(known):
