@@ -197,7 +197,10 @@ def _run(
 
 
 def _mend(fault: "FatalError", cell: str) -> str:
-    """What to do about a name that nothing declares; of other errors the program knows more."""
+    """What to do about a name that nothing declares, a dialog that nobody answers and a place that
+    another posture reaches; of other errors the program knows more."""
+    from rapidgen.runtime.motion_faults import NOT_COMPATIBLE
+
     if "ERR_REFUNKDAT" in fault.arguments:
         declared = "or load the module that declares it"
         if cell:
@@ -207,6 +210,16 @@ def _mend(fault: "FatalError", cell: str) -> str:
         )
     if {"ERR_REFUNKPRC", "ERR_REFUNKFUN"} & set(fault.arguments):
         return "load the module that declares it"
+    if "ERR_TP_NO_CLIENT" in fault.arguments:
+        return (
+            "`--answers FILE` answers dialogs (`rapidgen explain RG420`), `--cell guess` tries "
+            "their choices"
+        )
+    if fault.event == NOT_COMPATIBLE:
+        return (
+            "`--start` lets the robot begin elsewhere; a program asks for the configuration that "
+            "is reached, or for none with ConfL \\Off and ConfJ \\Off"
+        )
     return ""
 
 

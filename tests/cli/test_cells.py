@@ -78,11 +78,17 @@ def test_what_is_out_of_reach_is_told_with_place_axis_and_robot(capsys, tmp_path
         ("SetDO do1, 1;", [], "`--cell guess` makes signals"),
         ("x := y;", ["--cell", "guess"], "`rapidgen schema --cell`"),
         ("foo;", [], "load the module that declares it"),
+        ('TPReadNum n, "how many";', [], "`--answers FILE` answers dialogs"),
+        ("MoveL other, v100, fine, tool0;", [], "for none with ConfL \\Off"),
     ],
 )
-def test_a_name_that_nothing_declares_has_a_mend(tmp_path, capsys, statement, words, mend):
+def test_what_ends_a_program_has_a_mend(tmp_path, capsys, statement, words, mend):
     path = tmp_path / "a.mod"
-    path.write_text(f"MODULE a\nPROC main()\n{statement}\nENDPROC\nENDMODULE\n")
+    path.write_text(
+        "MODULE a\nCONST robtarget other := [[300,0,400],[0,0,1,0],[0,2,-2,1],"
+        "[9E9,9E9,9E9,9E9,9E9,9E9]];\n"
+        f"PROC main()\nVAR num n;\n{statement}\nENDPROC\nENDMODULE\n"
+    )
     assert main(["run", str(path), *words]) == 1
     told = capsys.readouterr().err
     assert mend in told[told.index("error[RG407]") :]

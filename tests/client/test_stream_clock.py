@@ -468,6 +468,14 @@ def test_a_busy_machine_that_answers_late_is_no_other_driver(port, period):
         assert robot.driver.cannot == ()
 
 
+@pytest.mark.parametrize(("period", "seconds"), [(0.1, 1.0), (0.9, 2.7), (4.0, 6.0)])
+def test_a_driver_that_never_answers_is_a_plain_one(period, seconds):
+    """After 1 s and four states, and 5 s more at most."""
+    with streamed(latencies={SimulatedDriver.STATE: 1e6}, state_period=period) as (robot, driver):
+        assert robot.driver.hello is None
+        assert driver.loop.time() == pytest.approx(seconds, abs=0.05)
+
+
 def test_a_control_port_that_falls_silent_stops_the_motion():
     with streamed() as (robot, driver):
         stream = robot.stream()

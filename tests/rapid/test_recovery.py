@@ -43,6 +43,11 @@ def test_message_says_what_was_met_expected_and_what_is_open():
     assert found[0].related[0].span.line == 3
 
 
+def test_nothing_can_be_taken_out_at_the_end_of_a_file():
+    (found,) = parse("MODULE m\n").diagnostics
+    assert found.help == "write ENDMODULE here"
+
+
 @pytest.mark.parametrize(
     ("body", "mend"),
     [

@@ -83,7 +83,7 @@ class Timeouts:
     send: float = 5.0
     """Without a byte taken by the controller for so long, a trajectory is given up."""
     reply: float = 5.0
-    """Reply to the end frame; 20 ms more for each point."""
+    """Reply to the end frame; 20 ms more for each point. Also to HELLO on the control port."""
     stop: float = 5.0
     """Reply to STOP, and again until the robot stands."""
     heartbeat: float = 2.0

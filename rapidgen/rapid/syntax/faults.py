@@ -140,6 +140,8 @@ def _mend(source: Source, kinds: Sequence[str], at: int, expected: str) -> str:
         return f"a ',' stands between two arguments: perhaps before {met(source, kinds, at)}"
     if "';'" in expected:
         return "a statement or declaration ends with ';': perhaps the one before has none"
+    if kinds[at] == lexer.EOF:
+        return f"write {expected} here"
     return f"write {expected} here, or take out what stands here"
 
 
