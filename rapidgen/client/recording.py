@@ -72,9 +72,10 @@ class JointRecording:
         return np.array(rows, dtype=np.float64).reshape(len(rows), len(self.group.names))
 
     def trajectory(self) -> Trajectory:
-        """What was recorded, as a trajectory. Messages that came together are one point."""
+        """What was recorded, as a trajectory. Of messages that came together the last is kept:
+        what the robot did last must not be missing."""
         times = self.times
-        keep = np.concatenate([[True], np.diff(times) > 0]) if len(times) else np.zeros(0, bool)
+        keep = np.diff(times, append=np.inf) > 0
         return Trajectory(times[keep], self.positions[keep], self.group.names)
 
     def to_csv(self, path: Path) -> None:
@@ -91,7 +92,8 @@ class CsvWriter:
     def __init__(self, path: Path, group: Group) -> None:
         self.count = 0
         self._began = 0.0
-        self._last = -1.0
+        self._newest: tuple[float, tuple[float, ...]] | None = None
+        """Held back: the next one may have come together with it."""
         units = ["rad" if joint.kind == "revolute" else "m" for joint in group.joints]
         pairs = [f"{name} {unit}" for name, unit in zip(group.names, units, strict=True)]
         self._file = path.open("w", encoding="utf-8", newline="")
@@ -99,17 +101,28 @@ class CsvWriter:
         self._file.write(",".join(["time", *group.names]) + "\n")
 
     def write(self, state: State | Feedback) -> None:
-        """Add one, unless it came together with the one before."""
-        if not self.count:
+        """Add one. Of those that came together the last is kept."""
+        newest = self._newest
+        if newest is None:
             self._began = state.time
         time = state.time - self._began
-        if time > self._last:
-            self._file.write(",".join([f"{time:.6f}", *(f"{v:.9g}" for v in state.joints)]) + "\n")
+        if newest is not None and time < newest[0]:
+            return
+        if newest is None or time > newest[0]:
+            self._flush()
             self.count += 1
-            self._last = time
+        self._newest = time, state.joints
+
+    def _flush(self) -> None:
+        if self._newest is not None:
+            time, joints = self._newest
+            self._file.write(",".join([f"{time:.6f}", *(f"{v:.9g}" for v in joints)]) + "\n")
 
     def __enter__(self) -> Self:
         return self
 
     def __exit__(self, *_: object) -> None:
-        self._file.close()
+        try:
+            self._flush()
+        finally:
+            self._file.close()

@@ -11,6 +11,9 @@ from hypothesis import strategies as st
 from rapidgen.client import InvalidTrajectory, Trajectory
 from rapidgen.client.core.checks import check_trajectory
 from rapidgen.client.core.group import Group
+from rapidgen.client.core.state import Feedback
+from rapidgen.client.core.state_port import Sample
+from rapidgen.client.recording import CsvWriter, JointRecording
 from rapidgen.config import load_config
 
 HOME = [0.0] * 6
@@ -105,6 +108,32 @@ def test_a_recording_of_a_simulator_is_told_from_a_text(tmp_path):
     assert found.help == (
         f"it is a recording: `rapidgen view {path} --csv FILE.csv` writes its positions"
     )
+
+
+CAME = [(5.0, 0.0), (5.0, 0.1), (5.5, 0.2), (6.0, 0.3), (6.0, 0.4), (6.0, 0.5)]
+"""When messages came, s, and where the robot was, rad: some were read at once."""
+KEPT = [0.1, 0.2, 0.5]
+
+
+def test_of_messages_that_came_together_a_recording_keeps_the_last(irb120, tmp_path):
+    recording = JointRecording(irb120)
+    for time, place in CAME:
+        recording.add(Sample(time, (place,) * 10))
+    recording.to_csv(tmp_path / "r.csv")
+    again = Trajectory.from_csv(tmp_path / "r.csv")
+    assert again.times.tolist() == pytest.approx([0, 0.5, 1])
+    expected = [irb120.from_wire((place,) * 10)[0] for place in KEPT]
+    assert again.positions[:, 0].tolist() == pytest.approx(expected)
+
+
+def test_of_messages_that_came_together_a_file_keeps_the_last(irb120, tmp_path):
+    with CsvWriter(tmp_path / "r.csv", irb120) as writer:
+        for time, place in [*CAME, (5.9, 0.6)]:  # a clock that goes back tells nothing
+            writer.write(Feedback(irb120.names, (place,) * 6, HOME, time, time, 1))
+    again = Trajectory.from_csv(tmp_path / "r.csv")
+    assert len(again) == writer.count == len(KEPT)
+    assert again.times.tolist() == pytest.approx([0, 0.5, 1])
+    assert again.positions[:, 0].tolist() == pytest.approx(KEPT)
 
 
 def test_missing_file(tmp_path):
