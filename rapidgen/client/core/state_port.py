@@ -92,7 +92,8 @@ class StatePort:
         self._group: Group | None = None
         self._splitter = FrameSplitter()
         self._recent: deque[Sample] = deque(maxlen=KEPT_STATES)
-        self._times: deque[float] = deque(maxlen=_RATE_WINDOW)
+        self._arrivals: deque[tuple[Sample, int]] = deque(maxlen=_RATE_WINDOW)
+        """The newest joints of each read, and how many had come: what was held up comes at once."""
         self._status: messages.StatusReport | None = None
         self._log: deque[tuple[float, Frame | str]] = deque(maxlen=KEPT_MESSAGES)
         self._state: State | None = None
@@ -103,7 +104,7 @@ class StatePort:
         self.hello = None
         self.progress = None
         self.driver = Driver()
-        self._times.clear()
+        self._arrivals.clear()
         self._status = None
         self.samples = 0
         self.event_count = 0
@@ -142,7 +143,9 @@ class StatePort:
                 if self.samples == 1:
                     self._first = now
                 self._recent.append(sample)
-                self._times.append(now)
+                if self._arrivals and self._arrivals[-1][0].time == now:
+                    self._arrivals.pop()
+                self._arrivals.append((sample, self.samples))
                 for listener in self.listeners:
                     listener.add(sample)
             case messages.StatusReport():
@@ -217,9 +220,11 @@ class StatePort:
 
     @property
     def rate(self) -> float:
-        """Joint messages per second over the last ones; 0 before two have come."""
-        span = self._times[-1] - self._times[0] if len(self._times) > 1 else 0.0
-        return (len(self._times) - 1) / span if span > 0 else 0.0
+        """Joint messages per second over the last reads; 0 before the second."""
+        if len(self._arrivals) < 2:
+            return 0.0
+        (first, before), (last, number) = self._arrivals[0], self._arrivals[-1]
+        return (number - before) / (last.time - first.time)
 
     @property
     def pace(self) -> float | None:
@@ -233,7 +238,7 @@ class StatePort:
             return 1.0
         if self.samples < _PACED:
             return None
-        span = self._times[-1] - self._first
+        span = self._arrivals[-1][0].time - self._first
         whole = (self.samples - 1) / span if span > 0 else 0.0
         # It may have been slower when it began.
         return max(whole, self.rate) * period or None
@@ -292,14 +297,13 @@ class StatePort:
         )
 
     def _velocity(self) -> tuple[float, ...]:
-        """Over up to three intervals: single ones jitter with the network."""
+        """Over up to three reads: single ones jitter with the network."""
         assert self._group is not None
-        last = self._recent[-1]
-        window = list(self._recent)[-4:]
-        first = next((s for s in window if s.time < last.time), last)
-        span = last.time - first.time
-        if span <= 0:
+        window = [sample for sample, _ in self._arrivals][-4:]
+        if len(window) < 2:
             return (0.0,) * len(self._group.names)
+        first, last = window[0], window[-1]
+        span = last.time - first.time
         now, then = self._group.from_wire(last.joints), self._group.from_wire(first.joints)
         return tuple((a - b) / span for a, b in zip(now, then, strict=True))
 
