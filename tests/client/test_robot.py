@@ -34,7 +34,8 @@ from rapidgen.wire.simple_message.spec import Mode, Port, Reason, TrajectoryStat
 GOAL = [0.2, 0.1, 0.0, -0.1, 0.0, 0.3]
 PATH = Trajectory.from_points([[0.0] * 6, [0.1] * 6, GOAL], seconds=0.1)
 LONG = Trajectory.from_points([[0.0] * 6, [0.1] * 6, GOAL], seconds=2.0)
-LOOP = Trajectory.from_points([[0.0] * 6, [0.1] * 6, [0.0] * 6], seconds=0.15)
+LOOP = Trajectory.from_points([[0.0] * 6, [0.1] * 6, [0.0] * 6], seconds=0.6)
+"""A thread of a busy machine may be held up for half of it."""
 
 
 @pytest.fixture(params=[True, False], ids=["rapidgen", "plain"])
@@ -65,7 +66,7 @@ def test_executes_to_the_end(connected, rapidgen):
         result = execution.result()
         assert result.points == 3
         assert result.deviation < 1e-6
-        assert result.seconds > 0.15
+        assert result.seconds > 0
         assert execution.progress.state is TrajectoryState.DONE
         assert execution.progress.fraction == 1.0
         assert execution.stopped_position == pytest.approx(GOAL)
@@ -80,12 +81,12 @@ def test_executes_to_the_end(connected, rapidgen):
 def test_a_loop_is_not_done_before_it_was_run(connected, rapidgen):
     # A path that ends where it begins
     with connected(rapidgen=rapidgen) as (robot, _):
-        assert robot.execute(LOOP).result().seconds > 0.2
+        assert robot.execute(LOOP).result().seconds > 0.6
 
 
 def test_a_driver_that_never_says_moving_is_judged_by_time_too(connected):
     with connected(rapidgen=False, status={"in_motion": 0}) as (robot, _):
-        assert robot.execute(LOOP).result().seconds > 0.2
+        assert robot.execute(LOOP).result().seconds > 0.6
 
 
 def test_a_robot_that_never_moves_has_not_arrived(connected):
