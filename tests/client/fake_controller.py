@@ -116,6 +116,8 @@ class FakeController:
         self.progress = [0, 0, 0, 0, 0, 0, -1, 0]
         self.extra = b""
         """Sent once behind the next state to a client that said HELLO."""
+        self.repeated = b""
+        """Sent behind each state to a client that said HELLO."""
         self._plan = None
         self._started = 0.0
         self._moving = False
@@ -358,7 +360,7 @@ class FakeController:
                 out += joint_frame(self.position)
                 out += status_frame(**{"in_motion": int(moving), **script.status})
                 if subscribed:
-                    out += progress + self.extra
+                    out += progress + self.extra + self.repeated
                     self.extra = b""
                 if subscribed and script.feedback:
                     told += 1

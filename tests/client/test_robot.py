@@ -249,7 +249,7 @@ def test_a_controller_that_cannot_stop(fake, client, control):
 
 
 def test_a_stop_that_is_not_seen(connected):
-    with connected(coasts=True, hasty={"stop": 0.3}) as (robot, controller):
+    with connected(coasts=True, hasty={"stop": 2}) as (robot, controller):
         robot.execute(LONG)
         robot.wait_until(lambda s: s.is_moving, timeout=60)
         with pytest.raises(StopFailed, match="not seen to stand"):
@@ -259,7 +259,7 @@ def test_a_stop_that_is_not_seen(connected):
 
 
 def test_silence_during_a_motion_stops_it(connected, comes):
-    with connected(silent_after=0.1, hasty={"silence": 0.4}) as (robot, controller):
+    with connected(silent_after=0.1, hasty={"silence": 1.5}) as (robot, controller):
         execution = robot.execute(LONG)
         with pytest.raises(RobotTimeout, match="no state"):
             execution.result()

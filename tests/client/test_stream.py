@@ -271,7 +271,7 @@ def test_a_control_port_that_nobody_knows(fake, client):
 @pytest.mark.parametrize("heard", [True, False])
 def test_stop_goes_over_the_control_port_alone_unless_that_is_silent(connected, heard):
     script = {**streams(speed=1), "control_hears_stop": heard}
-    with connected(**script, hasty={} if heard else {"stop": 0.5}) as (robot, controller):
+    with connected(**script, hasty={} if heard else {"stop": 3}) as (robot, controller):
         stream = robot.stream()
         stream.append([0, 30], [[0.0] * 6, [0.3] * 6])
         robot.stop()
@@ -317,13 +317,16 @@ def test_feedback(fake, client, comes):
     with client(controller.address, feedback=True) as robot:
         controller.extra = told(999.5)
         assert comes(lambda: robot._core.state_port.feedbacks == 1)
-        controller.extra = told(0.5)
+        controller.repeated = told(0.5)
         feedback = robot.next_feedback()
         # where the wire's clock began again, this one goes on
         assert feedback.time == pytest.approx(1000.5)
         assert feedback.joints == pytest.approx([0.1] * 6)
         assert feedback.velocity == pytest.approx([0.2] * 6)
         assert feedback.names == robot.group.names
+        controller.repeated = b""
+        seen = robot.next_state().number
+        robot.wait_until(lambda state: state.number > seen + 1, timeout=60)
         with pytest.raises(RobotTimeout):
             robot.next_feedback(0.05)
 

@@ -227,7 +227,9 @@ class SftpTransport:
             raise
         except (EOFError, TimeoutError, ConnectionError) as error:
             self.close()
-            raise TransportFault("lost", f"{place}: {error or 'connection closed'}") from None
+            late = isinstance(error, TimeoutError)
+            reason = str(error) or ("timed out" if late else "the connection was closed")
+            raise TransportFault("lost", f"{place}: {reason}") from None
         except OSError as error:
             text = redact(error.strerror or str(error), self._login)
             if "closed" in text.lower():
