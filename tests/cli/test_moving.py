@@ -132,6 +132,13 @@ def test_what_was_executed_is_drawn_and_recorded_in_radians(cell, capsys, tmp_pa
     assert (tmp_path / "p.png").read_bytes().startswith(b"\x89PNG")
 
 
+@pytest.fixture
+def patient(monkeypatch):
+    """A busy machine may be silent for longer than the hand of who jogs may."""
+    monkeypatch.setattr("rapidgen.client.flows.program._DEAD_MAN", 20.0)
+
+
+@pytest.mark.usefixtures("patient")
 def test_jog(cell, capsys):
     path, sim = cell
     at_home(cell, capsys)
@@ -140,6 +147,7 @@ def test_jog(cell, capsys):
     assert positions(sim) == pytest.approx(wanted, abs=1e-5)
 
 
+@pytest.mark.usefixtures("patient")
 def test_jog_of_the_tool(cell, capsys):
     path, _ = cell
     at_home(cell, capsys)

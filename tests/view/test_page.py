@@ -9,7 +9,7 @@ from PIL import Image
 
 from rapidgen._data import data_folder
 from rapidgen.axes.kinematics import Kinematics
-from rapidgen.client import Robot, Trajectory
+from rapidgen.client import Robot, Timeouts, Trajectory
 from rapidgen.config import load_config
 from tests.view.bench import STATE, until
 
@@ -27,7 +27,7 @@ def picture(page):
 def move(ready, goal=GOAL, time=1.0):
     ports = ready["ports"]["rob1"]
     address = "127.0.0.1:{motion},{state},{control}".format(**ports)
-    with Robot("irb120", address=address) as robot:
+    with Robot("irb120", address=address, timeouts=Timeouts(silence=20)) as robot:
         start = robot.state.joints
         robot.execute(Trajectory([0.0, time], [start, goal])).result()
 

@@ -29,7 +29,13 @@ class Watched:
             with self._ready:
                 self._ready.wait_for(lambda: self._queue)
                 function = self._queue.pop(0)
+            if function is None:
+                return
             function()
+
+    def end(self):
+        self.post(None)
+        self._thread.join(60)
 
     def post(self, function):
         with self._ready:
@@ -66,6 +72,7 @@ def page(tmp_path, monkeypatch):
     page_parts = urlsplit(page.url)
     yield page_parts.port, page_parts.fragment.removeprefix("token="), watched
     page.close()
+    watched.end()
 
 
 def ask(port, method, path, body=None, **headers):
