@@ -20,7 +20,7 @@ from rapidgen.diagnostics import DiagnosticError
 OLD, NEW = "aaaaaaaaaaaa", "bbbbbbbbbbbb"
 FTP = ("pyftpdlib", "vsftpd", "proftpd", "pure-ftpd")
 LONG = bool(os.environ.get("RAPIDGEN_LONG"))
-pytestmark = [pytest.mark.server, pytest.mark.timeout(1200 if LONG else 120)]
+pytestmark = [pytest.mark.server, pytest.mark.timeout(1200 if LONG else 300)]
 
 
 class Proxy:
