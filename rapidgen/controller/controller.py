@@ -200,7 +200,11 @@ class VirtualController:
         self.recovered = self.log.recovered
         self.operation: Operation = Operation(self)
         signals = SystemSignals(self, self.operation)
-        self._thread = ControllerThread(self.scheduler, f"virtual controller {system.name}")
+        self._thread = ControllerThread(
+            self.scheduler,
+            f"virtual controller {system.name}",
+            lambda: self.scheduler.close_processes(self.rapid_tasks.values()),
+        )
         self.rapid_tasks: dict[str, Task] = {
             spec.name: Task(self.scheduler, spec, self, self.shared) for spec in system.tasks
         }
@@ -536,7 +540,7 @@ class VirtualController:
     def close(self) -> None:
         """Stop and give everything back: thread, sockets, files."""
         # In one go: nothing may run between the tasks' end and the thread's.
-        self._thread.close(lambda: self.scheduler.close_processes(self.rapid_tasks.values()))
+        self._thread.close()
         for name in self.rapid_tasks:
             self.sockets.close_task(name)
         self.network.shut_down()

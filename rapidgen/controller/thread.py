@@ -1,5 +1,6 @@
 """A thread in which a controller runs by itself, on the real clock."""
 
+import atexit
 import threading
 from collections.abc import Callable
 from queue import SimpleQueue
@@ -10,6 +11,8 @@ from rapidgen.machine.scheduler import CLOSED, Scheduler
 _T = TypeVar("_T")
 _LOOK = 0.1
 """s between two looks whether the thread is still there to answer."""
+_LEAVING = 2.0
+"""s that a thread has to end with the program: a callback may hold it for ever."""
 
 
 class ControllerThread:
@@ -19,13 +22,16 @@ class ControllerThread:
     stopped it stands, and what is asked is carried out by whoever asks.
     """
 
-    def __init__(self, scheduler: Scheduler, name: str) -> None:
+    def __init__(self, scheduler: Scheduler, name: str, last: Callable[[], None]) -> None:
+        """`last` is what the thread does as its last."""
         self._scheduler = scheduler
         self._name = name
+        self._last = last
         self._thread: threading.Thread | None = None
         self._stopping = False
         self._stands = threading.Event()
-        self._going_on: SimpleQueue[Callable[[], None] | None] = SimpleQueue()
+        self._going_on: SimpleQueue[bool] = SimpleQueue()
+        """Whether it goes on, or ends."""
 
     @property
     def begun(self) -> bool:
@@ -44,18 +50,29 @@ class ControllerThread:
         self._scheduler.rebase()
         if self._thread is not None:
             self._stands.clear()
-            self._going_on.put(None)
+            self._going_on.put(True)
             return
         self._thread = threading.Thread(target=self._run, name=self._name, daemon=True)
         self._thread.start()
+        # The interpreter ends with a crash where greenlets of another thread still run.
+        atexit.register(self._leave)
 
     def _run(self) -> None:
-        last = None
-        while last is None:
+        goes_on = True
+        while goes_on:
             self._scheduler.advance(stop=lambda: self._stopping)
             self._stands.set()
-            last = self._going_on.get()
-        last()
+            goes_on = self._going_on.get()
+        self._last()
+
+    def _leave(self) -> None:
+        """End with the program, which has closed nothing."""
+        thread = self._thread
+        if thread is not None and thread.is_alive():
+            self._scheduler.post(self._stand)
+            if self._stands.wait(_LEAVING):
+                self._going_on.put(False)
+                thread.join(_LEAVING)
 
     def stop(self) -> None:
         """Let the thread stand; it can be started again."""
@@ -63,21 +80,22 @@ class ControllerThread:
         if thread is None or self._stands.is_set():
             return
 
-        def stand() -> None:
-            self._stopping = True
-
-        self.call(stand)
+        self.call(self._stand)
         while not self._rests(thread):
             self._stands.wait(_LOOK)
 
-    def close(self, last: Callable[[], None]) -> None:
-        """End the thread; `last` is what it does as its last."""
+    def _stand(self) -> None:
+        self._stopping = True
+
+    def close(self) -> None:
+        """End the thread, or do here what it does as its last."""
         self.stop()
+        atexit.unregister(self._leave)
         thread = self._thread
         if thread is None or not thread.is_alive():
-            last()
+            self._last()
             return
-        self._going_on.put(last)
+        self._going_on.put(False)
         thread.join()
         self._thread = None
 

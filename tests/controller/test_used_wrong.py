@@ -1,5 +1,7 @@
 """The public face used wrong: it says so, and nothing hangs."""
 
+import subprocess
+import sys
 import threading
 from concurrent.futures import ThreadPoolExecutor
 
@@ -263,3 +265,25 @@ def test_files_that_are_none(files):
 def test_overrides_that_are_no_list():
     with pytest.raises(TypeError, match=r"a list, or a mapping .*: \['ports.motion=5000'\]"):
         VirtualController.from_config("irb120", overrides="ports.motion=5000")
+
+
+LEFT_OPEN = """\
+import atexit
+import subprocess
+import sys
+import threading
+
+# What is registered first comes last.
+atexit.register(lambda: print("threads", [t.name for t in threading.enumerate()][1:]))
+from rapidgen.controller import VirtualController
+
+controller = VirtualController.from_config("irb120", clock="real", ports="auto")
+controller.start()
+raise SystemExit(3)
+"""
+
+
+def test_a_controller_that_nobody_closes_ends_with_the_program():
+    """Else greenlets run in a thread while the interpreter goes: one of twenty crashed."""
+    done = subprocess.run([sys.executable, "-c", LEFT_OPEN], capture_output=True, text=True)
+    assert (done.returncode, done.stdout) == (3, "threads []\n"), done.stderr
