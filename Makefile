@@ -9,7 +9,7 @@ export TIMEFORMAT = %U s of CPU, %R s
 # Where it is set, each of the hundreds of processes of a gate compiles all modules that it imports.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: demo test lint types contract unit wheel page driver-hours site release-lint changelog room picture foreign campaigns clean
+.PHONY: demo test lint types contract unit held-up wheel page driver-hours site release-lint changelog room picture foreign campaigns clean
 
 # Needs no more than rapidgen itself, which comes with a line every few seconds; `make test` adds the rest.
 RUNS := $(VENV)/.runs
@@ -93,6 +93,13 @@ changelog: $(STAMP)
 unit: export PYTEST_XDIST_AUTO_NUM_WORKERS ?= $(shell echo $$(( $$(getconf _NPROCESSORS_ONLN) * 3 / 2 )))
 unit: $(STAMP) $(PAGE)
 	$(BIN)/python -m pytest -n auto
+
+# The tests of a room, or all, in processes that are held up at HELD_UP of their calls: what is red is red by chance.
+held-up: export PYTHONPATH = $(CURDIR)/tests/held_up
+held-up: export HELD_UP ?= 0.05
+held-up: export SEED ?= 1
+held-up: $(STAMP) $(PAGE)
+	$(BIN)/python -m pytest -n 6 tests/$(ROOM)
 
 # The pictures of docs/develop/architecture.md (rooms, a trajectory's life) and docs/start/robots.md, drawn again from the code.
 picture: $(STAMP)
