@@ -198,7 +198,7 @@ def _run(
 
 def _mend(fault: "FatalError", cell: str) -> str:
     """What to do about a name that nothing declares, a dialog that nobody answers and a place that
-    another posture reaches; of other errors the program knows more."""
+    the robot, or this posture, does not reach; of other errors the program knows more."""
     from rapidgen.runtime.motion_faults import NOT_COMPATIBLE
 
     if "ERR_REFUNKDAT" in fault.arguments:
@@ -214,6 +214,11 @@ def _mend(fault: "FatalError", cell: str) -> str:
         return (
             "`--answers FILE` answers dialogs (`rapidgen explain RG420`), `--cell guess` tries "
             "their choices"
+        )
+    if {"ERR_OUTSIDE_REACH", "ERR_ROBLIMIT"} & set(fault.arguments):
+        return (
+            "look at the target, its tool and its work object; `--robot` takes the robot that "
+            "the program was written for"
         )
     if fault.event == NOT_COMPATIBLE:
         return (

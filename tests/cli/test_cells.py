@@ -80,6 +80,8 @@ def test_what_is_out_of_reach_is_told_with_place_axis_and_robot(capsys, tmp_path
         ("foo;", [], "load the module that declares it"),
         ('TPReadNum n, "how many";', [], "`--answers FILE` answers dialogs"),
         ("MoveL other, v100, fine, tool0;", [], "for none with ConfL \\Off"),
+        ("MoveL Offs(other,2000,0,0), v100, fine, tool0;", [], "`--robot` takes the robot"),
+        ("MoveAbsJ [[180,0,0,0,0,0],other.extax], v100, fine, tool0;", [], "`--robot` takes"),
     ],
 )
 def test_what_ends_a_program_has_a_mend(tmp_path, capsys, statement, words, mend):

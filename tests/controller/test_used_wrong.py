@@ -269,8 +269,6 @@ def test_overrides_that_are_no_list():
 
 LEFT_OPEN = """\
 import atexit
-import subprocess
-import sys
 import threading
 
 # What is registered first comes last.
@@ -287,3 +285,24 @@ def test_a_controller_that_nobody_closes_ends_with_the_program():
     """Else greenlets run in a thread while the interpreter goes: one of twenty crashed."""
     done = subprocess.run([sys.executable, "-c", LEFT_OPEN], capture_output=True, text=True)
     assert (done.returncode, done.stdout) == (3, "threads []\n"), done.stderr
+
+
+def test_a_callback_that_never_ends_does_not_hold_up_the_end_of_the_program(files, monkeypatch):
+    monkeypatch.setattr("rapidgen.controller.thread._LEAVING", 0.05)
+    held, ended = threading.Event(), threading.Event()
+
+    def hold():
+        held.set()
+        ended.wait(60)
+
+    with VirtualController.from_files(files, clock="real") as controller:
+        controller.start()
+        holder = threading.Thread(target=controller.call, args=(hold,))
+        holder.start()
+        try:
+            assert held.wait(60)
+            controller._thread._leave()
+            assert not controller._thread._stands.is_set()
+        finally:
+            ended.set()
+            holder.join()

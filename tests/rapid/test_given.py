@@ -64,6 +64,16 @@ def test_a_slip_in_a_lone_file_is_a_warning(body, code, suggestion):
     assert suggestion in diagnostics[0].help
 
 
+def test_what_has_another_type_is_not_meant():
+    frame = "[[0,0,0],[1,0,0,0]]"
+    data = f'VAR robtarget p1;\nPERS wobjdata wCamera := [FALSE,TRUE,"",{frame},{frame}];'
+    tool = f"\nPERS tooldata tCamera := [TRUE,{frame},[1,[0,0,1],[1,0,0,0],0,0,0]];"
+    move = "MoveL p1, v100, fine, Camera \\WObj:=wCamera;"
+    assert found(module("a", move, data)) == [("info", "RG302")]
+    (slip,) = check(module("a", move, data + tool))
+    assert (slip.severity, slip.help) == (Severity.WARNING, "did you mean 'tCamera'?")
+
+
 def test_siblings_of_a_slip_are_no_slips():
     text = module("a", "MoveJ p20, v100, fine, tool0;", "VAR robtarget p10;")
     assert found(text) == [("info", "RG302")]

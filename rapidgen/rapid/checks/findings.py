@@ -16,6 +16,7 @@ from rapidgen.rapid.binding import (
     Scope,
     Symbol,
 )
+from rapidgen.rapid.binding.types import AGGREGATE, element, equal
 from rapidgen.rapid.builtins import signatures
 from rapidgen.rapid.checks.given import Given, closest
 from rapidgen.rapid.syntax.nodes import Node
@@ -139,7 +140,7 @@ class Findings:
         if options and key[1] in signatures.option_names(options):
             return
         self._unknown.add(key)
-        likely = closest(name, self._candidates(kinds))
+        likely = closest(name, self._candidates(kinds, wanted))
         help = f"did you mean '{likely}'?" if likely else ""
         if self.given.knows_all and wanted != "mecunit":
             self.report(code, f"there is no {role} '{name}'", node, label="not declared", help=help)
@@ -163,7 +164,8 @@ class Findings:
                 severity=Severity.INFO,
             )
 
-    def _candidates(self, kinds: frozenset[str]) -> Iterable[str]:
+    def _candidates(self, kinds: frozenset[str], wanted: str | None) -> Iterable[str]:
+        """Names that could stand there; of data those of another type could not."""
         task = self.module.task
         for symbols in (
             self.locals,
@@ -173,7 +175,7 @@ class Findings:
             task.configured,
         ):
             for symbol in symbols.values():
-                if symbol.kind in kinds:
+                if symbol.kind in kinds and self._may_be(symbol, wanted):
                     yield symbol.name
         if kinds is ROUTINES:
             yield from signatures.routine_names()
@@ -182,3 +184,9 @@ class Findings:
         else:
             for datum in signatures.predefined().values():
                 yield datum.name
+
+    def _may_be(self, symbol: Symbol, wanted: str | None) -> bool:
+        if wanted is None or wanted in ("anytype", AGGREGATE) or not isinstance(symbol, DataSymbol):
+            return True
+        found = self.module.type_of(symbol)
+        return found is None or equal(element(found), element(wanted))
