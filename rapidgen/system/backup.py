@@ -26,6 +26,8 @@ _TASK_LINE = re.compile(rb">>TASK(\d+):\s*\(\s*([^,()\s]+)")
 _TASK_MODULES = re.compile(rb">>TASK(\d+):[^\r\n]*([^>]*)")
 _LISTED = re.compile(rb"^(?:PROG|SYS)MOD[\\/]([^\r\n]+?) @", re.M | re.I)
 _VERSIONS = (
+    # RobotWare 7 lists its parts in any order: 7.6 has a RobotOS 5.0, 7.18 a RobotOS 16.0.
+    re.compile(rb"RobotControl[^0-9\r\n]{0,40}(\d+)\.(\d+)", re.I),
     re.compile(rb"RobotWare[^0-9\r\n]{0,40}(\d+)\.(\d+)", re.I),
     re.compile(rb">>PRODUCTS_ID:\s*\D{0,80}?(\d+)\.(\d+)", re.I),
 )

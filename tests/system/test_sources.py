@@ -152,6 +152,29 @@ def test_only_the_modules_that_backinfo_lists_were_loaded(backup):
     assert left.severity is Severity.INFO
 
 
+@pytest.mark.parametrize(
+    ("parts", "media", "robotware"),
+    [
+        ("RobotControl Version: 7.6.1\nRobotOS Version: 5.0.1\n", "", (7, 6)),
+        ("RobotOS Version: 5.0.1\nRobotControl Version: 7.6.1\n", "", (7, 6)),
+        ("RobotOS Version: 16.0.0\nRobotControl Version: 7.18.1\n", "", (7, 18)),
+        (
+            "",
+            '<Media path="C:/ABB/RobotWare/RobotOS_5.0.1" name="RobotOS" version="5.0.1+0"/>\n'
+            '<Media path="C:/ABB/RobotWare/RobotControl_7.6.1" name="RobotControl"/>\n',
+            (7, 6),
+        ),
+    ],
+)
+def test_robotware_7_is_the_release_of_its_robotcontrol(backup, parts, media, robotware):
+    """[backup 7.6.1 GoFa, rparak; 7.18.1 IRB 1300, Wlups] The order of the parts differs."""
+    put(backup / "BACKINFO/backinfo.txt", f">>SYSTEM_ID:\ncell\n\n>>PRODUCTS_ID:\n{parts}\n")
+    put(backup / "system.xml", f"<SystemProperties>\n{media}</SystemProperties>\n")
+    notes = []
+    assert read_backup(backup, notes=notes).robotware == robotware
+    assert "RG713" not in [n.code for n in notes]
+
+
 def test_a_backup_without_version_says_so(backup):
     os.remove(backup / "BACKINFO/backinfo.txt")
     notes = []
