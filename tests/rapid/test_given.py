@@ -74,6 +74,21 @@ def test_what_has_another_type_is_not_meant():
     assert (slip.severity, slip.help) == (Severity.WARNING, "did you mean 'tCamera'?")
 
 
+@pytest.mark.parametrize(
+    ("call", "meant"),
+    [
+        ("MoveL p1, zMax, fine, tool0;", "vmax"),
+        ("MoveL p1, v100, zMax, tool0;", None),
+        ("WaitTime fines;", None),
+        ("SetDO do1, edges;", "edge"),
+    ],
+)
+def test_what_is_predefined_is_meant_where_its_type_fits(call, meant):
+    (told,) = check(module("a", call, "VAR robtarget p1;\nVAR signaldo do1;"))
+    assert told.help == (f"did you mean '{meant}'?" if meant else ""), told
+    assert told.severity == (Severity.WARNING if meant else Severity.INFO)
+
+
 def test_siblings_of_a_slip_are_no_slips():
     text = module("a", "MoveJ p20, v100, fine, tool0;", "VAR robtarget p10;")
     assert found(text) == [("info", "RG302")]

@@ -175,7 +175,7 @@ class Findings:
             task.configured,
         ):
             for symbol in symbols.values():
-                if symbol.kind in kinds and self._may_be(symbol, wanted):
+                if symbol.kind in kinds and _fits(self.module.type_of(symbol), wanted):
                     yield symbol.name
         if kinds is ROUTINES:
             yield from signatures.routine_names()
@@ -183,10 +183,12 @@ class Findings:
             yield from signatures.type_names()
         else:
             for datum in signatures.predefined().values():
-                yield datum.name
+                if _fits(self.module.base(datum.type), wanted):
+                    yield datum.name
 
-    def _may_be(self, symbol: Symbol, wanted: str | None) -> bool:
-        if wanted is None or wanted in ("anytype", AGGREGATE) or not isinstance(symbol, DataSymbol):
-            return True
-        found = self.module.type_of(symbol)
-        return found is None or equal(element(found), element(wanted))
+
+def _fits(found: str | None, wanted: str | None) -> bool:
+    """Whether a datum may stand where `wanted` is; also where either type is not known."""
+    if found is None or wanted is None or wanted in ("anytype", AGGREGATE):
+        return True
+    return equal(element(found), element(wanted))
