@@ -180,7 +180,13 @@ def _run(
     where = tuple(controller.where())
     if ended == "deadlock":
         found.append(
-            error("RG405", None, "deadlock: every task waits and nothing is ahead", notes=where)
+            error(
+                "RG405",
+                None,
+                "deadlock: every task waits and nothing is ahead",
+                "let another task, or a device in the file of `--cell`, do what is waited for",
+                notes=where,
+            )
         )
     elif ended != "finished":
         limit = f"{max_time:g} s" if ended == "time" else f"{max_statements} statements"

@@ -87,6 +87,7 @@ def test_deadlock(capsys, program: Path) -> None:
     assert code == 1
     assert "RG405" in err
     assert "demo.mod:25 (locked)" in err
+    assert "a device in the file of `--cell`" in err
 
 
 def test_limits_of_time_and_statements(capsys, program: Path) -> None:
