@@ -1,11 +1,13 @@
 """move, stop, monitor, record and plot as a user calls them."""
 
 import io
+import itertools
 import json
 import re
 import struct
 from datetime import datetime, timezone
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -182,6 +184,14 @@ def test_the_live_table(controller):
         assert max(map(len, text.splitlines())) <= width
 
 
+@pytest.fixture
+def a_second_in_twenty_looks(monkeypatch):
+    """However long a state takes on this machine."""
+    looks = SimpleNamespace(monotonic=itertools.count(0, 0.05).__next__)
+    monkeypatch.setattr("rapidgen.cli.record.time", looks)
+
+
+@pytest.mark.usefixtures("a_second_in_twenty_looks")
 def test_record(controller, tmp_path):
     out = tmp_path / "r.csv"
     words = ["record", "irb120", "--to", controller.address, "--seconds", "0.3", "-o", str(out)]
@@ -191,7 +201,7 @@ def test_record(controller, tmp_path):
     assert names == ",".join(["time", *JOINTS])
     assert first.startswith("0.000000,0,")
     recorded = Trajectory.from_csv(out)
-    assert 5 < len(recorded) < 60
+    assert len(recorded) == 5
     assert (recorded.times[1:] > recorded.times[:-1]).all()
 
 
@@ -309,8 +319,6 @@ def test_monitor_tells_what_a_stream_is_at(streaming, capsys):
 
 
 def test_words_of_a_monitor():
-    from types import SimpleNamespace
-
     from rapidgen.client import Event, Status
     from rapidgen.view.live import Watcher
     from rapidgen.wire.simple_message.spec import EventType, TrajectoryState
@@ -327,13 +335,14 @@ def test_words_of_a_monitor():
     assert watcher.event == "50024 Corner path failure"
 
 
+@pytest.mark.usefixtures("a_second_in_twenty_looks")
 def test_record_with_the_controllers_time(streaming, tmp_path):
     out = tmp_path / "r.csv"
     words = ["record", streaming.address, "--feedback", "--seconds", "0.3", "-o", str(out)]
     streaming.script.feedback = True
     assert main(words) == 0
     recorded = Trajectory.from_csv(out)
-    assert len(recorded.times) > 1
+    assert len(recorded) == 5
     # of a clock that runs twice as fast as this one; on a busy machine a message may be left out
     periods = np.diff(recorded.times) / 0.02
     assert periods == pytest.approx(np.maximum(np.round(periods), 1), abs=5e-3)
@@ -346,8 +355,6 @@ def test_stop_over_the_control_port_when_the_motion_port_is_dead(streaming, caps
 
 
 def test_in_a_pipe_a_line_tells_how_far_it_is(monkeypatch, capsys):
-    from types import SimpleNamespace
-
     from rapidgen.cli import following
     from rapidgen.cli.loudness import set_up
     from rapidgen.client import RobotTimeout, TrajectoryState

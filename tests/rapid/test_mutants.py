@@ -1,9 +1,14 @@
 """Conformance files are red for defects: a sample; all in benchmarks/conformance_mutants.py."""
 
+import gc
+import signal
+import time
 from dataclasses import replace
+from types import SimpleNamespace
 
 import pytest
 
+from tests.rapid import campaign as trials
 from tests.rapid.campaign import BROAD, Campaign
 from tests.rapid.conformance_files import all_files
 from tests.rapid.mutants import NoProgram, of_builtins, of_functions, of_tables
@@ -42,3 +47,39 @@ def test_a_mutant_is_taken_back(kind):
         except NoProgram:
             continue
     assert [file.path.name for file in SAMPLE if file.found() != file.expected] == []
+
+
+def busy(*seconds):
+    """A file that takes so much CPU time, trial by trial, and finds what it announces."""
+    left = list(seconds)
+
+    def found():
+        end = time.process_time() + left.pop(0)
+        while time.process_time() < end:
+            pass
+        return "as announced"
+
+    return SimpleNamespace(found=found, expected="as announced")
+
+
+def test_a_file_that_is_held_up_once_does_not_hang(monkeypatch):
+    monkeypatch.setattr(trials, "SECONDS", (0.05, 60.0))
+    assert trials.red(busy(0.2, 0)) is False
+
+
+def test_a_file_that_hangs_is_neither_green_nor_red(monkeypatch):
+    monkeypatch.setattr(trials, "SECONDS", (0.02, 0.04))
+    assert trials.red(busy(60, 60)) is None
+
+
+def test_time_that_is_up_when_a_file_is_judged_is_nothing(monkeypatch):
+    def late(which, *seconds):
+        setitimer(which, *seconds)
+        if not seconds[0]:
+            signal.raise_signal(signal.SIGVTALRM)
+
+    setitimer = signal.setitimer
+    before = signal.getsignal(signal.SIGVTALRM), gc.isenabled(), gc.callbacks[:]
+    monkeypatch.setattr(signal, "setitimer", late)
+    assert trials.red(busy(0)) is False
+    assert (signal.getsignal(signal.SIGVTALRM), gc.isenabled(), gc.callbacks[:]) == before
