@@ -38,6 +38,7 @@ def build(
     """The model, or None when `report` holds errors; `path` is the file it is named after."""
     _check_controller(configuration, report)
     _check_network(configuration, report)
+    _check_signals(configuration, report)
     _check_profile(configuration, report)
     if not (configuration.groups or report.is_faulty(("groups",)) or report.is_faulty(("model",))):
         report.error(
@@ -164,6 +165,10 @@ def _check_network(configuration: schema.ConfigurationKeys, report: DraftFinding
         else:
             help = "the address of one machine, such as 192.168.1.10, as the controller writes it"
         report.error("RG006", f"'{address}' is not the IPv4 address of a machine", path, help=help)
+
+
+def _check_signals(configuration: schema.ConfigurationKeys, report: DraftFindings) -> None:
+    seen: dict[str, str] = {}
     for name, signal in configuration.signals.items():
         if signal.access == "write" and signal.kind.endswith("I"):
             report.error(
@@ -172,6 +177,15 @@ def _check_network(configuration: schema.ConfigurationKeys, report: DraftFinding
                 ("signals", name, "access"),
                 "",
                 "RAPID sets outputs only: DO, GO, AO",
+            )
+        first = seen.setdefault(name.casefold(), name)
+        if first != name:
+            report.error(
+                "RG014",
+                f"'{name}' and '{first}' are one name to RAPID",
+                ("signals", name),
+                help="keep one of the two",
+                key=True,
             )
 
 

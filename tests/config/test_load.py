@@ -315,6 +315,7 @@ def test_what_the_schema_cannot_say_is_checked(tmp_path):
         "model: irb120\njoints: {joint_2: {axis: rax_1}}\n",
         "model: irb120\njoints: {joint_1: {axis: rax_2}, joint_2: {axis: rax_1}}\n",
         "model: irb120\nkeep: [eax_a]\n",
+        "model: irb120\nsignals: {part: {kind: DI}, Part: {kind: DO}}\n",
         "model: irb120\npositioners: {TABLE: [{joint: joint_1}]}\n",
         "model: irb120\nchain: [{joint: joint_9}, {joint: joint_1, axis: [0, 0, 0]}]\n",
     ],
