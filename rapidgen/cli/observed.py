@@ -31,7 +31,7 @@ class Outputs:
     trace: bool = False
     profile: str = ""
     coverage: tuple[Path, ...] = ()
-    plot: Path | None = None
+    plots: tuple[Path, ...] = ()
 
     @property
     def tracing(self) -> bool:
@@ -41,10 +41,10 @@ class Outputs:
     def refuse_unwritable(self) -> None:
         """Refuse, before anything runs, a file that cannot be written behind it."""
         files = list(self.coverage)
-        if self.plot is not None:
+        if self.plots:
             from rapidgen.view.plotting import files_of
 
-            files += files_of(self.plot)
+            files += [file for plot in self.plots for file in files_of(plot)]
         if self.profile not in ("", "-"):
             files.append(Path(self.profile))
         twice = next((file for file in files if files.count(file) > 1), None)
@@ -72,7 +72,7 @@ class Observed:
             self._profile = Profile(self.controller)
         if self.wanted.coverage:
             self._coverage = Coverage(self.controller)
-        if self.wanted.plot is not None:
+        if self.wanted.plots:
             self._recorders = self.controller.record()
 
     def write(self) -> None:
@@ -84,10 +84,10 @@ class Observed:
                 page = path.suffix.lower() in (".html", ".htm")
                 text = _page(self.controller, self._coverage) if page else self._coverage.lcov()
                 write_whole(path, text.encode("utf-8", "replace"))
-        if self.wanted.plot is not None:
-            self._draw(self.wanted.plot)
+        if self.wanted.plots:
+            self._draw(self.wanted.plots)
 
-    def _draw(self, plot: Path) -> None:
+    def _draw(self, plots: tuple[Path, ...]) -> None:
         from rapidgen.motion.recorder import PERIOD
         from rapidgen.view import plot as draw
         from rapidgen.view.plotting import files_of
@@ -97,8 +97,9 @@ class Observed:
         for group, recorder in self._recorders.items():
             title = f"{self.controller.system.name}, {group}"
             made = draw(recorder.recording(period), title=title)
-            for path in files_of(plot.with_stem(f"{plot.stem}_{group}") if several else plot):
-                made.save(path)
+            for plot in plots:
+                for path in files_of(plot.with_stem(f"{plot.stem}_{group}") if several else plot):
+                    made.save(path)
 
 
 @contextmanager
@@ -108,13 +109,13 @@ def observing(cabinet: "Cabinet", wanted: Outputs) -> "Iterator[None]":
     now = Observed(cabinet.controller, wanted)
 
     def before() -> None:
-        number = cabinet.restarts + 1
         now.wanted = replace(
-            wanted,
-            coverage=tuple(path.with_stem(f"{path.stem}-{number}") for path in wanted.coverage),
-            plot=wanted.plot and wanted.plot.with_stem(f"{wanted.plot.stem}-{number}"),
+            wanted, coverage=numbered(wanted.coverage), plots=numbered(wanted.plots)
         )
         now.write()
+
+    def numbered(paths: tuple[Path, ...]) -> tuple[Path, ...]:
+        return tuple(path.with_stem(f"{path.stem}-{cabinet.restarts + 1}") for path in paths)
 
     def again() -> None:
         nonlocal now

@@ -49,8 +49,10 @@ Coverage = Annotated[
     ),
 ]
 Plot = Annotated[
-    Path | None,
-    typer.Option("--plot", metavar="F", help="What the robots did: .html, .png, .svg."),
+    list[Path] | None,
+    typer.Option(
+        "--plot", metavar="F", help="What the robots did: .html, .png, .svg; may be repeated."
+    ),
 ]
 Entry = Annotated[str, typer.Option("--entry", help="Procedure that tasks start in, not main.")]
 Release = Annotated[

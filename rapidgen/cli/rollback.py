@@ -58,11 +58,14 @@ def rollback(
         user, secrets, identity, known_hosts, ask=True, fingerprint=fingerprint, agree=agree()
     )
     if list_backups:
-        rows = [
-            {"target": target.shown, "id": past.id, "time": past.time, "build_id": past.build_id}
-            for target in targets
-            for past in history(target, access, name)
-        ]
+        rows = []
+        for target in targets:
+            kept = history(target, access, name)
+            if not kept:
+                typer.echo(f"{target.shown}  no backup of {name}", err=True)
+            for past in kept:
+                found = {"id": past.id, "time": past.time, "build_id": past.build_id}
+                rows.append({"target": target.shown, **found})
         if as_json:
             typer.echo(json.dumps(rows))
         for row in () if as_json else rows:

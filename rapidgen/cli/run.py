@@ -86,7 +86,7 @@ def run(
     from rapidgen.machine.operator import read_answers
 
     _limits(max_time, max_statements)
-    wanted = Outputs(trace, profile, tuple(coverage or ()), plot)
+    wanted = Outputs(trace, profile, tuple(coverage or ()), tuple(plot or ()))
     wanted.refuse_unwritable()
     _no_configuration(files)
     found = chosen(

@@ -112,7 +112,7 @@ def sim(
 
     if ports is not None and port_offset:
         raise typer.BadParameter("either --port-offset or --ports auto")
-    wanted = Outputs(coverage=tuple(coverage or ()), plot=plot)
+    wanted = Outputs(coverage=tuple(coverage or ()), plots=tuple(plot or ()))
     wanted.refuse_unwritable()
     found = chosen(
         targets or (),

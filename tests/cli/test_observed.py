@@ -55,8 +55,10 @@ def test_a_plot_of_what_the_robot_did(program, tmp_path):
     assert main(["run", str(program), "--plot", str(tmp_path / "motion")]) == 0
     assert (tmp_path / "motion.png").read_bytes().startswith(b"\x89PNG")
     assert "joint_1" in (tmp_path / "motion.html").read_text()
-    assert main(["run", str(program), "--plot", str(tmp_path / "other.svg")]) == 0
-    assert "<svg" in (tmp_path / "other.svg").read_text()
+    other, third = tmp_path / "other.svg", tmp_path / "third.png"
+    assert main(["run", str(program), "--plot", str(other), "--plot", str(third)]) == 0
+    assert "<svg" in other.read_text()
+    assert third.read_bytes().startswith(b"\x89PNG")
 
 
 def test_what_cannot_be_written_is_refused_before_anything_runs(capsys, program, tmp_path):

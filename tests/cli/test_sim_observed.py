@@ -17,7 +17,7 @@ TEXT = (
 def test_what_was_reached_is_written_at_the_end_and_before_a_restart(tmp_path):
     path = tmp_path / "m.mod"
     path.write_text(TEXT)
-    wanted = Outputs(coverage=(tmp_path / "c.lcov",), plot=tmp_path / "p.png")
+    wanted = Outputs(coverage=(tmp_path / "c.lcov",), plots=(tmp_path / "p.png",))
     found = load_target([path])
     with Cabinet.boot(found, tracing=wanted.tracing) as cabinet, observing(cabinet, wanted):
         cabinet.run(lambda: cabinet.controller.now > 2)
@@ -31,4 +31,4 @@ def test_what_was_reached_is_written_at_the_end_and_before_a_restart(tmp_path):
 
 def test_one_file_for_two_things_is_refused(tmp_path):
     with pytest.raises(DiagnosticError, match="written twice"):
-        Outputs(coverage=(tmp_path / "a.png",), plot=tmp_path / "a.png").refuse_unwritable()
+        Outputs(coverage=(tmp_path / "a.png",), plots=(tmp_path / "a.png",)).refuse_unwritable()

@@ -214,6 +214,8 @@ def test_rollback_lists_and_restores_and_uninstall_saves_edits(
     monkeypatch.chdir(tmp_path)
     url = f"dir://{home}"
     run("deploy", built(OLD), "--to", url, "--yes")
+    code, out, err = run("rollback", built(OLD), "--to", url, "--list")
+    assert (code, out, err) == (0, "", f"{url}  no backup of cell1\n")
     code, _, err = run("rollback", built(OLD), "--to", url, "--yes")
     assert (code, "RG528" in err) == (1, True)
     run("deploy", built(NEW), "--to", url, "--yes")
