@@ -173,11 +173,10 @@ def _serve(
     ended = False
 
     def end(*_: object) -> None:
-        def now() -> None:
-            nonlocal ended
-            ended = True
-
-        cabinet.post(now)
+        # Here, since nothing can be posted while it restarts; what is posted wakes it.
+        nonlocal ended
+        ended = True
+        cabinet.post(lambda: None)
 
     before = {s: signal.signal(s, end) for s in (signal.SIGINT, signal.SIGTERM)}
 

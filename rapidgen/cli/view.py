@@ -88,17 +88,21 @@ def _serve(viewed: "Viewed", host: str, port: int, files: "Mapping[str, bytes]")
     """Serve the page until a signal comes; the exit code."""
     import json
     import signal
-    import threading
+    from queue import SimpleQueue
 
     from rapidgen.view.server import serve_page
 
-    ended = threading.Event()
-    before = {s: signal.signal(s, lambda *_: ended.set()) for s in (signal.SIGINT, signal.SIGTERM)}
+    # Not an Event: `wait` holds a lock for a moment, and a handler in it would wait for that.
+    ended = SimpleQueue[int]()
+    before = {
+        s: signal.signal(s, lambda number, _: ended.put(number))
+        for s in (signal.SIGINT, signal.SIGTERM)
+    }
     try:
         page = serve_page(viewed, host, port, files)
         try:
             typer.echo(f"ready {json.dumps({'view': page.url})}")
-            ended.wait()
+            ended.get()
         finally:
             page.close()
     finally:

@@ -70,7 +70,8 @@ class Cabinet:
         self._before = 0
         self._restart_asked = False
         self._restored: Restored | None = None
-        self._lock = threading.Lock()
+        # Of a signal's handler, too, which comes whatever its thread is at.
+        self._lock = threading.RLock()
         self._up = True
         self._thread: threading.Thread | None = None
         self._ended = False
