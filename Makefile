@@ -9,7 +9,7 @@ export TIMEFORMAT = %U s of CPU, %R s
 # Where it is set, each of the hundreds of processes of a gate compiles all modules that it imports.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: demo test lint types contract unit held-up wheel page driver-hours site release-lint changelog room picture foreign campaigns clean
+.PHONY: demo test lint types contract unit held-up stopped wheel page driver-hours site release-lint changelog room picture foreign campaigns clean
 
 # Needs no more than rapidgen itself, which comes with a line every few seconds; `make test` adds the rest.
 RUNS := $(VENV)/.runs
@@ -100,6 +100,11 @@ held-up: export HELD_UP ?= 0.05
 held-up: export SEED ?= 1
 held-up: $(STAMP) $(PAGE)
 	$(BIN)/python -m pytest -n 6 tests/$(ROOM)
+
+# The same in processes that are stopped for moments, anywhere; another SEED, other moments.
+stopped: SEED ?= 1
+stopped: $(STAMP) $(PAGE)
+	$(BIN)/python tests/held_up/stopped.py --seed $(SEED) $(BIN)/python -m pytest -n 6 tests/$(ROOM)
 
 # The pictures of docs/develop/architecture.md (rooms, a trajectory's life) and docs/start/robots.md, drawn again from the code.
 picture: $(STAMP)
