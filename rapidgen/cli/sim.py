@@ -165,20 +165,18 @@ def _serve(
     """Run until a signal comes; the exit code."""
     import json
     import os
-    import signal
 
     from rapidgen._running import Simulator, published
+    from rapidgen.cli.ending import on_signal
     from rapidgen.cli.readiness import PATIENCE, Readiness
 
     ended = False
 
-    def end(*_: object) -> None:
-        # Here, since nothing can be posted while it restarts; what is posted wakes it.
+    def end() -> None:
+        # At once, since nothing can be posted while it restarts; what is posted wakes it.
         nonlocal ended
         ended = True
         cabinet.post(lambda: None)
-
-    before = {s: signal.signal(s, end) for s in (signal.SIGINT, signal.SIGTERM)}
 
     def follow() -> None:
         cabinet.controller.log.subscribe(lambda event: typer.echo(event, err=True))
@@ -193,7 +191,7 @@ def _serve(
     controller = cabinet.controller
     scheduler = controller.scheduler
     scheduler.rebase()
-    try:
+    with on_signal(end):
         readiness = Readiness(controller, target)
         patience = scheduler.now + round(PATIENCE * speed * 1e9)
         scheduler.advance(patience, lambda: ended or readiness.decided)
@@ -217,9 +215,6 @@ def _serve(
         with published(own):
             typer.echo(f"ready {json.dumps(found)}")
             cabinet.run(lambda: ended)
-    finally:
-        for number, handler in before.items():
-            signal.signal(number, handler)
     return 0
 
 

@@ -87,27 +87,19 @@ def _is_recording(target: str) -> bool:
 def _serve(viewed: "Viewed", host: str, port: int, files: "Mapping[str, bytes]") -> int:
     """Serve the page until a signal comes; the exit code."""
     import json
-    import signal
-    from queue import SimpleQueue
+    import threading
 
+    from rapidgen.cli.ending import on_signal
     from rapidgen.view.server import serve_page
 
-    # Not an Event: `wait` holds a lock for a moment, and a handler in it would wait for that.
-    ended = SimpleQueue[int]()
-    before = {
-        s: signal.signal(s, lambda number, _: ended.put(number))
-        for s in (signal.SIGINT, signal.SIGTERM)
-    }
-    try:
+    ended = threading.Event()
+    with on_signal(ended.set):
         page = serve_page(viewed, host, port, files)
         try:
             typer.echo(f"ready {json.dumps({'view': page.url})}")
-            ended.get()
+            ended.wait()
         finally:
             page.close()
-    finally:
-        for number, handler in before.items():
-            signal.signal(number, handler)
     return 0
 
 

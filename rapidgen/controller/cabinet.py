@@ -70,8 +70,7 @@ class Cabinet:
         self._before = 0
         self._restart_asked = False
         self._restored: Restored | None = None
-        # Of a signal's handler, too, which comes whatever its thread is at.
-        self._lock = threading.RLock()
+        self._lock = threading.Lock()
         self._up = True
         self._thread: threading.Thread | None = None
         self._ended = False

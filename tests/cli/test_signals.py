@@ -1,10 +1,8 @@
-"""Signals end what serves, whatever it is at when they come."""
+"""Signals end what serves, whatever it is at when they come and whichever thread gets them."""
 
-import os
 import signal
 import sys
 import threading
-from contextlib import nullcontext
 from types import SimpleNamespace
 
 import pytest
@@ -13,9 +11,24 @@ from rapidgen.cli import sim, view
 from rapidgen.controller.booting import load_target
 from rapidgen.controller.cabinet import Cabinet
 
+PROGRAM = "MODULE m\n PROC main()\n  WaitTime 100;\n ENDPROC\nENDMODULE\n"
 
-def after_lines(count, then):
-    """A tracer of functions that are called from now on; `then` once so many lines are reached."""
+
+@pytest.fixture(autouse=True)
+def spared():
+    """A signal that comes too late is nothing."""
+    before = signal.signal(signal.SIGTERM, signal.SIG_IGN)
+    yield
+    signal.signal(signal.SIGTERM, before)
+
+
+def come():
+    """To the thread that calls it."""
+    signal.raise_signal(signal.SIGTERM)
+
+
+def after_lines(count):
+    """A tracer of functions called from now on: it comes once so many lines are reached."""
 
     def traced(frame, event, argument):
         nonlocal count
@@ -23,50 +36,72 @@ def after_lines(count, then):
             count -= 1
             if count == 0:
                 sys.settrace(None)
-                then()
+                come()
         return traced
 
     return traced
 
 
-@pytest.mark.timeout(60)
-def test_view_ends_by_a_signal_as_it_begins_to_wait(monkeypatch):
-    def come():
-        signal.raise_signal(signal.SIGTERM)
+@pytest.fixture
+def viewed(monkeypatch):
+    """Serves nothing; what to call once it has said that it is ready."""
 
-    closed = []
-    page = SimpleNamespace(url="", close=lambda: closed.append(sys.settrace(None)))
-    monkeypatch.setattr("rapidgen.view.server.serve_page", lambda *_: page)
-    for line in range(1, 16):
-        monkeypatch.setattr(
-            view.typer, "echo", lambda _, n=line: sys.settrace(after_lines(n, come))
-        )
-        later = threading.Timer(0.1, os.kill, (os.getpid(), signal.SIGTERM))
-        later.start()  # where so many lines are not reached
-        before = signal.getsignal(signal.SIGTERM)
-        signal.signal(signal.SIGTERM, signal.SIG_IGN)  # comes it late, it is nothing
-        try:
-            assert view._serve(None, "127.0.0.1", 0, {}) == 0
-        finally:
-            later.cancel()
-            later.join()
-            signal.signal(signal.SIGTERM, before)
-    assert len(closed) == 15
+    def serve(then):
+        page = SimpleNamespace(url="", close=lambda: sys.settrace(None))
+        monkeypatch.setattr("rapidgen.view.server.serve_page", lambda *_: page)
+        monkeypatch.setattr(view.typer, "echo", lambda _: then())
+        return view._serve(None, "127.0.0.1", 0, {})
+
+    return serve
 
 
-@pytest.mark.timeout(60)
-@pytest.mark.parametrize("locked", [False, True])
-def test_sim_ends_by_a_signal_during_a_restart(tmp_path, locked):
+@pytest.mark.timeout(60, method="thread")
+@pytest.mark.parametrize("line", range(1, 13))
+def test_view_ends_by_a_signal_as_it_begins_to_wait(viewed, line):
+    other = threading.Timer(0.2, come)  # where there are fewer lines until it waits
+
+    def begin():
+        other.start()
+        sys.settrace(after_lines(line))
+
+    assert viewed(begin) == 0
+    other.cancel()
+    other.join()
+
+
+@pytest.mark.timeout(60, method="thread")
+def test_view_ends_by_a_signal_that_another_thread_gets(viewed):
+    other = threading.Timer(0.05, come)
+    assert viewed(other.start) == 0
+    other.join()
+
+
+@pytest.fixture
+def cabinet(tmp_path):
     path = tmp_path / "m.mod"
-    path.write_text("MODULE m\n PROC main()\n  WaitTime 100;\n ENDPROC\nENDMODULE\n")
+    path.write_text(PROGRAM)
     found = load_target([path])
     with Cabinet.boot(found, clock="real") as cabinet:
+        cabinet.serve = lambda: sim._serve(cabinet, found, "127.0.0.1", 1.0, {})
+        yield cabinet
 
-        def come():
-            with cabinet._lock if locked else nullcontext():
-                signal.raise_signal(signal.SIGTERM)
 
-        cabinet.on_restart.append(come)
-        cabinet.ask_restart()
-        assert sim._serve(cabinet, found, "127.0.0.1", 1.0, {}) == 0
-        assert cabinet.restarts == 1
+@pytest.mark.timeout(60, method="thread")
+def test_sim_ends_by_a_signal_during_a_restart(cabinet):
+    cabinet.on_restart.append(come)
+    cabinet.ask_restart()
+    assert cabinet.serve() == 0
+    assert cabinet.restarts == 1
+
+
+@pytest.mark.timeout(60, method="thread")
+def test_sim_ends_by_a_signal_that_another_thread_gets(cabinet, monkeypatch):
+    other = threading.Timer(0.05, come)
+
+    def told(text, **_):
+        if str(text).startswith("ready"):
+            other.start()
+
+    monkeypatch.setattr(sim.typer, "echo", told)
+    assert cabinet.serve() == 0
+    other.join()

@@ -1,0 +1,40 @@
+"""Signals that end what serves."""
+
+import signal
+import socket
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+_SIGNALS = (signal.SIGINT, signal.SIGTERM)
+
+
+@contextmanager
+def on_signal(end: Callable[[], None]) -> Iterator[None]:
+    """`end()` is called, in a thread of its own, whenever Ctrl-C or SIGTERM comes.
+
+    Not in a handler: there every lock may be held by what it has interrupted. And a handler runs in
+    the main thread, which goes on waiting where the system gave the signal to another one; the
+    descriptor that Python writes to is told of any (docs of signal.set_wakeup_fd).
+    """
+    told, tells = socket.socketpair()
+    tells.setblocking(False)
+
+    def watch() -> None:
+        while number := told.recv(1):
+            if number[0] in _SIGNALS:
+                end()
+
+    watcher = threading.Thread(target=watch, name="signals", daemon=True)
+    other = signal.set_wakeup_fd(tells.fileno(), warn_on_full_buffer=False)
+    before = {number: signal.signal(number, lambda *_: None) for number in _SIGNALS}
+    watcher.start()
+    try:
+        yield
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+        signal.set_wakeup_fd(other)
+        tells.close()
+        watcher.join()
+        told.close()
