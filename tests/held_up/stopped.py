@@ -48,22 +48,24 @@ def main(command, longest, every, seed):
     dice = random.Random(seed)
     running = subprocess.Popen(command)
     due, stopped, processes, listed = {}, {}, [], 0.0
-    while running.poll() is None:
-        now = time.monotonic()
-        if now > listed + LISTED:
-            processes, listed = descendants(running.pid), now
-        for process in [process for process, end in stopped.items() if now >= end]:
+    try:
+        while running.poll() is None:
+            now = time.monotonic()
+            if now > listed + LISTED:
+                processes, listed = descendants(running.pid), now
+            for process in [process for process, end in stopped.items() if now >= end]:
+                send(process, signal.SIGCONT)
+                del stopped[process]
+            for process in processes:
+                begin = due.setdefault(process, now + dice.expovariate(1 / every))
+                if process not in stopped and now >= begin:
+                    send(process, signal.SIGSTOP)
+                    stopped[process] = now + dice.uniform(0.1, 1) * longest
+                    due[process] = stopped[process] + dice.expovariate(1 / every)
+            time.sleep(LOOKS)
+    finally:  # given up, too: nothing is left standing
+        for process in stopped:
             send(process, signal.SIGCONT)
-            del stopped[process]
-        for process in processes:
-            begin = due.setdefault(process, now + dice.expovariate(1 / every))
-            if process not in stopped and now >= begin:
-                send(process, signal.SIGSTOP)
-                stopped[process] = now + dice.uniform(0.1, 1) * longest
-                due[process] = stopped[process] + dice.expovariate(1 / every)
-        time.sleep(LOOKS)
-    for process in stopped:
-        send(process, signal.SIGCONT)
     return running.returncode
 
 
