@@ -212,8 +212,14 @@ def _keys_at(kind: type, path: Path) -> tuple[str, ...]:
     return tuple(f.name for f in dataclasses.fields(model)) if model else ()
 
 
+_POINT_LIMIT = ("max_points", "point_limit", "max_traj_length")
+"""What else the limit is called; the last in abb_driver (ROS_common, MAX_TRAJ_LENGTH)."""
+
+
 def _belongs(name: str, given: Path) -> str:
     """Where a key stands that was given at another path; empty if nowhere, or at several places."""
+    if name.lower() in _POINT_LIMIT:
+        return "the limit of points is `capacity:` in `trajectory:`"
     if given and name in TOP_KEYS:
         return f"`{name}:` stands at the top of the file"
     if given and name in GROUP_KEYS:

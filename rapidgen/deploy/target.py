@@ -35,11 +35,19 @@ def parse_target(url: str) -> Target:
     """
     scheme, colon, rest = url.partition("://")
     if not colon:
-        mend = f"for a controller: rws://{url} or ftp://{url}; for a folder here: dir://{url}"
-        raise _bad(url, "there is no scheme", mend)
+        scheme, _, rest = url.partition(":")
+        if scheme not in SCHEMES or not rest:
+            _refuse_password(url)
+            mend = f"for a controller: rws://{url} or ftp://{url}; for a folder here: dir://{url}"
+            raise _bad(url, "there is no scheme", mend)
+        if SCHEMES[scheme].port:
+            _refuse_password(rest)
+            rest = rest.lstrip("/")
+        raise _bad(url, "there is no '://'", f"write {scheme}://{rest}")
     if scheme in SCHEMES and not SCHEMES[scheme].port:
         folder = Path(os.path.abspath(os.path.expanduser(unquote(rest) or ".")))
         return Target(scheme, "", 0, str(folder))
+    _refuse_password(rest)
     if scheme not in SCHEMES:
         known = ", ".join(f"{name}://" for name in SCHEMES)
         meant = suggest(scheme, list(SCHEMES)) or f"there are {known}"
@@ -49,20 +57,25 @@ def parse_target(url: str) -> Target:
         host, port = parts.hostname or "", parts.port
     except ValueError as fault:
         raise _bad("--to", str(fault)) from None
-    if parts.password is not None:
-        raise refusal(
-            "RG510",
-            None,
-            f"a password stands in the URL of {host}",
-            "URLs end in histories and logs: use --secrets FILE, RAPIDGEN_PASSWORD, "
-            "or wait for the prompt",
-        )
     path = unquote(parts.path).rstrip("/")
     if not host or parts.query or parts.fragment:
         raise _bad(url, "expected ftp://[USER@]HOST[:PORT]/FOLDER")
     if re.search(r"[\x00-\x1f\x7f]", path + host) or ".." in path.split("/"):
         raise _bad(url, "the folder holds '..' or control characters")
     return Target(scheme, host, port or SCHEMES[scheme].port, path, unquote(parts.username or ""))
+
+
+def _refuse_password(place: str) -> None:
+    """Refuse USER:PASSWORD@HOST before anything shows the URL. Raises DiagnosticError RG510."""
+    found = re.match(r"/*[^/@]*:[^/@]*@([^/:?#]*)", place)
+    if found is not None:
+        raise refusal(
+            "RG510",
+            None,
+            f"a password stands in the URL of {found[1]}",
+            "URLs end in histories and logs: use --secrets FILE, RAPIDGEN_PASSWORD, "
+            "or wait for the prompt",
+        )
 
 
 def connect(target: Target, access: Access) -> Transport:

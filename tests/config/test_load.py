@@ -54,6 +54,7 @@ def test_five_faults_are_five_findings_with_their_places(tmp_path):
 @pytest.mark.parametrize(
     ("text", "mend"),
     [
+        ("max_points: 500", "the limit of points is `capacity:` in `trajectory:`"),
         ("robotware: 6.15", "`robotware:` stands in `controller:`"),
         ("state: {rate: 10, capacity: 5}", "`capacity:` stands in `trajectory:`"),
         ("groups: {rob1: {profile: basic}}", "`profile:` stands at the top of the file"),

@@ -322,12 +322,27 @@ def test_a_file_for_sftp_that_is_not_there_is_no_fault_of_the_line(
         ("ftp://h/a%0d%0aDELE%20x", "RG509"),
         ("ftp://h/?x=1", "RG509"),
         ("ftp://user:s3cret@h/", "RG510"),
+        ("ftp://user:s3cret@h:99999/", "RG510"),
+        ("ftp://user:@h/", "RG510"),
+        ("ftp:/user:s3cret@h/", "RG510"),
+        ("ftpp://user:s3cret@h/", "RG510"),
+        ("user:s3cret@h", "RG510"),
+        ("sftp:user@h", "RG509"),
     ],
 )
 def test_bad_urls(url, code):
     (found,) = refusal(parse_target, url).diagnostics
     assert found.code == code
     assert "s3cret" not in str(found)
+
+
+@pytest.mark.parametrize(
+    ("url", "meant"),
+    [("ftp:/h/HOME", "ftp://h/HOME"), ("sftp:me@h", "sftp://me@h"), ("dir:/x", "dir:///x")],
+)
+def test_a_url_with_too_few_slashes(url, meant):
+    (found,) = refusal(parse_target, url).diagnostics
+    assert (found.code, found.help) == ("RG509", f"write {meant}")
 
 
 def test_secrets_come_from_a_tight_file_or_the_environment_and_are_not_shown(tmp_path, monkeypatch):
