@@ -126,11 +126,11 @@ def _loose(targets: Sequence[Source], wishes: Wishes) -> System:
     by_task = {task: list(names) for task, names in wishes.tasks.items()}
     only = Path(targets[0]) if len(targets) == 1 and not by_task else None
     if only is not None and only.is_dir() and (folders := files.task_folders(only)):
-        return _read(folders, only.name, wishes)
+        return _read(folders, only.resolve().name, wishes)
     if targets:
         own = by_task.pop("T_ROB1", [])
         by_task = {"T_ROB1": [*own, *targets], **by_task}
-    name = Path(next(names[0] for names in by_task.values() if names)).stem
+    name = Path(next(names[0] for names in by_task.values() if names)).resolve().stem
     return _read(by_task, name, wishes)
 
 

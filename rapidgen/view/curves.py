@@ -106,9 +106,7 @@ def _joint_curves(trajectory: Trajectory, label: str) -> JointCurves:
 def _of_simulation(recording: Recording) -> Iterator[JointCurves]:
     """Joints, the tool, and how far program and robot were in the moves."""
     times = recording.time - recording.time[:1]
-    order: dict[str, int] = {}
-    for move in (*recording.program_pointer, *recording.motion_pointer):
-        order.setdefault(move, len(order))
+    order = _order(recording)
     for label, joints, moves in (
         ("commanded", recording.commanded, recording.program_pointer),
         ("actual", recording.actual, recording.motion_pointer),
@@ -119,6 +117,20 @@ def _of_simulation(recording: Recording) -> Iterator[JointCurves]:
             columns.append(recording.tcp[:, :3])
             names += ["x", "y", "z"]
         yield JointCurves(label, tuple(names), times, np.hstack(columns))
+
+
+def _order(recording: Recording) -> dict[str, int]:
+    """Moves by the order in which they were reached. One that the program reached and left between
+    two samples comes behind the one that the robot had executed before it."""
+    reached = list(dict.fromkeys(recording.program_pointer))
+    known = set(reached)
+    before = ""
+    for move in recording.motion_pointer:
+        if move not in known:
+            known.add(move)
+            reached.insert(reached.index(before) + 1 if before in known else 0, move)
+        before = move
+    return {move: number for number, move in enumerate(reached)}
 
 
 def _told_apart(layers: list[JointCurves]) -> list[JointCurves]:

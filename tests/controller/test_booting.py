@@ -355,3 +355,11 @@ def test_what_tells_its_release_is_not_given_another(program):
     assert load_target([program]).system.robotware == UNTOLD
     with pytest.raises(DiagnosticError, match="'crb15000' tells its RobotWare"):
         load_target(["crb15000"], Wishes(robotware=(7, 6)))
+
+
+def test_the_folder_one_is_in_has_a_name(tmp_path, monkeypatch):
+    folder = tmp_path / "wall"
+    folder.mkdir()
+    (folder / "m.mod").write_text("MODULE m\n PROC main()\n ENDPROC\nENDMODULE\n")
+    monkeypatch.chdir(folder)
+    assert load_target(["."]).name == "wall"

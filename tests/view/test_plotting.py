@@ -115,6 +115,19 @@ def test_a_recording_of_a_simulation_shows_tool_and_moves(tmp_path):
     assert "moves" in headings[1]
 
 
+def test_a_move_that_the_program_left_between_two_samples_comes_behind_the_one_before():
+    from rapidgen.motion.recorder import Recording
+
+    joints = np.zeros((6, 1))
+    reached = ("", "p1", "p3", "p4", "p5", "p5")
+    under_way = ("", "", "p1", "p2", "p3", "p5")
+    made = plot(Recording(("a",), np.arange(6) * 0.1, joints, joints, None, reached, under_way))
+    (moves,) = [chart for chart in made.charts if chart.heading.startswith("moves")]
+    program, robot = (curve.values.tolist() for curve in moves.curves)
+    assert program == [0, 1, 3, 4, 5, 5]
+    assert robot == [0, 0, 1, 2, 3, 5]
+
+
 def test_a_page_has_all_curves_on_one_time(built, tmp_path, irb120):
     commanded = Trajectory(TIMES, wave(irb120), irb120.names)
     made = plot(commanded, recorded(irb120, feedback=True))
