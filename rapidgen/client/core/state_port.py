@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import Protocol, TypedDict
 
 from rapidgen.client.core.group import Group
+from rapidgen.client.core.pace import PaceMeter
 from rapidgen.client.core.state import (
     Driver,
     Event,
@@ -32,8 +33,6 @@ KEPT_STATES = 16
 _RATE_WINDOW = 16
 _NOISE = 1e-4
 """rad or m"""
-_PACED = 6
-"""States that tell the pace of a driver's clock."""
 _NAMES = {message.number: message.name for message in messages.MESSAGES}
 
 
@@ -76,7 +75,7 @@ class StatePort:
         self.hello: messages.HelloReply | messages.HelloRefusal | None = None
         self.samples = 0
         self.progresses = 0
-        self._first = 0.0
+        self._pace = PaceMeter()
         self.events: deque[Event] = deque(maxlen=KEPT_EVENTS)
         """The last entries of the controller's log, oldest first."""
         self.event_count = 0
@@ -105,6 +104,7 @@ class StatePort:
         self.progress = None
         self.driver = Driver()
         self._arrivals.clear()
+        self._pace = PaceMeter()
         self._status = None
         self.samples = 0
         self.event_count = 0
@@ -140,8 +140,7 @@ class StatePort:
             case messages.JointPosition():
                 sample = Sample(now, content.joints)
                 self.samples += 1
-                if self.samples == 1:
-                    self._first = now
+                self._pace.took(now, self.samples)
                 self._recent.append(sample)
                 if self._arrivals and self._arrivals[-1][0].time == now:
                     self._arrivals.pop()
@@ -236,12 +235,8 @@ class StatePort:
         period = self.driver.hello.state_period if self.driver.hello is not None else 0.0
         if period <= 0:
             return 1.0
-        if self.samples < _PACED:
-            return None
-        span = self._arrivals[-1][0].time - self._first
-        whole = (self.samples - 1) / span if span > 0 else 0.0
-        # It may have been slower when it began.
-        return max(whole, self.rate) * period or None
+        rate = self._pace.rate
+        return None if rate is None else rate * period
 
     @property
     def state(self) -> State | None:
