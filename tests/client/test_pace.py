@@ -1,5 +1,7 @@
 """The speed of a driver's clock on a machine that is held up; `rapidgen.client.core.pace`."""
 
+import random
+
 import pytest
 
 from rapidgen.client.core.pace import PaceMeter
@@ -50,6 +52,21 @@ def test_a_controller_behind_a_tunnel_that_was_held_up_is_no_simulation(pieces):
     stall = [(1.0, pieces[0]), *((0.001, count) for count in pieces[1:])]
     rates = told(*even(0.1, 10), *stall, *even(0.1, 40))
     assert max(rate for rate in rates if rate is not None) * 0.1 < 1.2
+
+
+def test_no_stall_of_a_tunnel_makes_a_controller_seem_a_simulation():
+    """1.2 is where the client would give a simulation three times as long (`_SIMULATION`)."""
+    for seed in range(1500):
+        dice, meter, free = random.Random(seed), PaceMeter(), 0.0
+        stalls = [(dice.uniform(0, 6), dice.uniform(0.05, 1)) for _ in range(dice.randint(1, 3))]
+        for number in range(1, 61):
+            now = number * 0.1 + dice.uniform(0, 0.004)
+            for begin, length in stalls:
+                if begin <= now < begin + length:
+                    now = begin + length
+            free = max(now, free + dice.choice([0, 0.0005, 0.002]))
+            meter.took(free, number)
+            assert (meter.rate or 0) * 0.1 <= 1.2, (seed, number)
 
 
 def test_another_speed_is_measured_again():

@@ -7,10 +7,15 @@ _READS = 6
 """Reads with states that tell a pace, at least, ..."""
 _KEPT = 16
 """... and at most."""
-_EVEN = 2.0
-"""Where one read took longer than so many average ones, or brought more, somebody was held up."""
+_LASTS = 0.04
+"""s that they last at least: less may be one read of a tunnel that was held up, in pieces."""
+_EVEN = 1.8
+"""By how much one read may differ from the average: in time both ways, lest a clock that was held
+up seems faster, and in how many states it brought."""
 _ANYHOW = 2.0
-"""s after which the average since the first state counts, if they never came evenly."""
+"""s after which the average since the first states counts, if they never came evenly."""
+_LATER = 0.3
+"""s between the two reads since which it is taken: the lower counts, as for a controller."""
 
 
 class PaceMeter:
@@ -25,12 +30,16 @@ class PaceMeter:
         self._reads: deque[tuple[float, int]] = deque(maxlen=_KEPT)
         """When something was read, and how many states had come by then."""
         self._first: tuple[float, int] | None = None
+        self._later = (0.0, 0)
         self._measured: float | None = None
 
     def took(self, now: float, number: int) -> None:
         """The state `number` was read at `now` s; several of one read have the same moment."""
-        if self._first is None:
-            self._first = now, number
+        # What was held up before it is read at once: the later of the two counts without it.
+        if self._first is None or self._first[0] == now:
+            self._first = self._later = now, number
+        elif self._later[0] in (now, self._first[0]) and now > self._first[0] + _LATER:
+            self._later = now, number
         if self._reads and self._reads[-1][0] == now:
             self._reads.pop()
         self._reads.append((now, number))
@@ -43,7 +52,9 @@ class PaceMeter:
         if self._measured is not None or self._first is None:
             return self._measured
         last = self._reads[-1]
-        return _rate(self._first, last) if last[0] - self._first[0] >= _ANYHOW else None
+        if last[0] - self._later[0] < _ANYHOW:
+            return None
+        return min(_rate(self._first, last), _rate(self._later, last))
 
     @property
     def _is_even(self) -> bool:
@@ -51,9 +62,11 @@ class PaceMeter:
         if steps < _READS - 1:
             return False
         (first, before), (last, number) = self._reads[0], self._reads[-1]
-        longest, most = _EVEN * (last - first) / steps, _EVEN * (number - before) / steps
+        if last - first < _LASTS:
+            return False
+        usual, most = (last - first) / steps, _EVEN * (number - before) / steps
         return all(
-            later - sooner <= longest and more - fewer <= most
+            usual / _EVEN <= later - sooner <= _EVEN * usual and more - fewer <= most
             for (sooner, fewer), (later, more) in pairwise(self._reads)
         )
 
