@@ -1,5 +1,6 @@
 """AsyncRobot against our own driver, both on the virtual clock: nothing waits in real time."""
 
+import asyncio
 import functools
 import itertools
 import json
@@ -9,7 +10,7 @@ from dataclasses import replace
 import numpy as np
 from both_clients import Simulated
 
-from rapidgen.client import AsyncRobot, Trajectory
+from rapidgen.client import AsyncRobot, Trajectory, aio
 from rapidgen.client.address import Address
 from rapidgen.config import load_config
 from rapidgen.controller.controller import VirtualController
@@ -60,6 +61,19 @@ def driven(name="irb120", *, group=0, seed=0, signals=(), overrides=None, module
     target = robot_of(config, config.groups[group], **options)
     with controller, Simulated(target, VirtualLoop(controller)) as robot:
         yield robot, controller
+
+
+def caller_comes_late(monkeypatch, seconds):
+    """From now on a call goes on so many s after what it waited for, as in a thread that gets no
+    time, while everything else goes on."""
+    prompt = aio.Loop._perform
+
+    async def late(loop, effect):
+        outcome = await prompt(loop, effect)
+        await asyncio.sleep(seconds)
+        return outcome
+
+    monkeypatch.setattr(aio.Loop, "_perform", late)
 
 
 def complaints(peer):

@@ -328,7 +328,7 @@ def test_wrong_lengths(fake, client, length):
 
 
 def test_unknown_messages_are_skipped(fake, client):
-    controller = fake()
+    controller = fake(state_period=0.5)  # few others, so that it is kept for long
     controller._hello_unchanged = controller._hello
     controller._hello = lambda: (
         status_frame()[:-4].replace(b"\x28\0\0\0\x0d", b"\x24\0\0\0\x63")

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from driven import BENT, complaints, driven, moved, wiggle
+from driven import BENT, caller_comes_late, complaints, driven, moved, wiggle
 
 from rapidgen.client import (
     InvalidProgram,
@@ -128,6 +128,13 @@ CELL_MODULE = b"""MODULE cell
     ENDPROC
 ENDMODULE
 """
+
+
+@pytest.fixture(autouse=True, params=[0.0, 0.3], ids=["prompt", "late"])
+def caller(request, monkeypatch):
+    """Whatever a routine does may be over before the call hears that it was taken."""
+    if request.param:
+        caller_comes_late(monkeypatch, request.param)
 
 
 def with_routines():

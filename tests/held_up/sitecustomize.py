@@ -50,6 +50,8 @@ def _after(kind, name):
 for _name in ("recv", "recv_into", "send", "sendall", "connect", "close"):
     _before(socket.socket, _name)
 _before(threading.Thread, "run")
+# A thread that gets no time while the others of its process go on.
+_before(threading.Condition, "__enter__")
 _after(socket.socket, "accept")
 _after(selectors.DefaultSelector, "select")
 _after(threading.Condition, "wait")

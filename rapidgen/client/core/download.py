@@ -5,14 +5,19 @@ where it began, or crosses its end, is not done early, and a robot that never mo
 arrived.
 """
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from rapidgen.client.core.checks import CheckedTrajectory
 from rapidgen.client.core.group import Group
-from rapidgen.client.core.motion import CommandedMotion, Phase
-from rapidgen.client.core.state import Progress, State, trajectory_state
+from rapidgen.client.core.motion import CommandedMotion, Phase, place_of, refused
+from rapidgen.client.core.request_port import PendingReply
+from rapidgen.client.core.state import Progress, trajectory_state
 from rapidgen.client.core.state_port import StatePort
 from rapidgen.client.errors import MotionFailed, MotionStopped, fault
+from rapidgen.wire.simple_message import messages
+from rapidgen.wire.simple_message.declaration import Content
 from rapidgen.wire.simple_message.spec import TrajectoryState, TriState
 
 GOAL_TOLERANCE = 0.01
@@ -41,15 +46,29 @@ class Download(CommandedMotion):
         # A plain driver gives no sign of getting on at all.
         self.planned_seconds = self.longest = plan.total
         self.goal = plan.wire[-1].tolist()
+        self._pending: PendingReply | None = None
         self._first_duration = float(plan.durations[0])
         self._was_in_error = state_port.status.in_error is TriState.TRUE
-        self._start = state_port.state
+        self._start = state_port.wire_joints
+        self._looked_at = 0
+        """Joint messages when one was looked at last."""
         self._seen_moving = False
         self._stood_since: float | None = None
         self._is_still = bool(np.ptp(plan.trajectory.positions, axis=0).max() < _MOVED)
 
+    def asked(self, pending: PendingReply) -> None:
+        """The end frame goes out now, and the robot may begin to move; `pending` is its reply."""
+        self._pending = pending
+        self._looked_at = self._state_port.samples
+
     def step(self) -> None:
-        """Look at the newest state; without PROGRESS at where the robot is."""
+        """Take the reply, and look at the newest state; without PROGRESS at where the robot is."""
+        pending = self._pending
+        if pending is None:
+            return
+        self._look()
+        if self.phase is Phase.SENDING and pending.reply is not None:
+            self._answered(pending.reply)
         super().step()
         state_port = self._state_port
         if (
@@ -59,13 +78,31 @@ class Download(CommandedMotion):
         ):
             self._by_position()
 
+    def _look(self) -> None:
+        """At each of the joint messages: many may come at once, and before the reply."""
+        for sample in self._state_port.samples_since(self._looked_at):
+            self._seen_moving = self._seen_moving or self._has_moved(sample.joints)
+        self._looked_at = self._state_port.samples
+
+    def _answered(self, reply: Content) -> None:
+        match reply:
+            case messages.Accepted():
+                self.accepted(reply.trajectory)
+            case messages.Acknowledged():
+                self.accepted(None)
+            case messages.Refused():
+                place = place_of(self._group, reply.point, reply.joint)
+                told = reply.reason, place, reply.point, reply.joint
+                self.failed(refused(self._state_port, *told))
+            case _:
+                self.failed(refused(self._state_port, None))
+
     def _by_position(self) -> None:
         state = self._state_port.state
         assert state is not None
         now, status = state.time, state.status
         moving = status.in_motion is TriState.TRUE
-        if moving or self._has_moved(state):
-            self._seen_moving = True
+        self._seen_moving = self._seen_moving or moving
         if self.stopping:
             # A STOP whose sender did not wait: it is over when the robot stands.
             if not moving and now - self._began > _EARLY:
@@ -110,10 +147,10 @@ class Download(CommandedMotion):
             return f"the controller reports an error ({text})"
         return ""
 
-    def _has_moved(self, state: State) -> bool:
+    def _has_moved(self, joints: Sequence[float]) -> bool:
         if self._start is None:
             return False
-        pairs = zip(state.joints, self._start.joints, strict=True)
+        pairs = zip(joints, self._start, strict=True)
         return any(abs(a - b) > _MOVED for a, b in pairs)
 
     @property

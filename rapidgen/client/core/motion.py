@@ -61,6 +61,8 @@ class CommandedMotion(ABC):
         self.phase = Phase.SENDING
         self.result: Result | None = None
         self.error: RobotError | None = None
+        self.is_taken = False
+        """Whether the controller took it: from then on `result` tells how it ends."""
         self.stopping = False
         """Somebody asked for a STOP: nothing more of this is sent."""
         self.number: int | None = None
@@ -82,6 +84,8 @@ class CommandedMotion(ABC):
         self._group = group
         self._state_port = state_port
         self._silence = silence
+        self.events_before = state_port.event_count
+        """Entries of the controller's log that had come before it."""
         self._before = state_port.progress
         self._began = state_port.clock()
         self._first_sample = state_port.samples
@@ -110,6 +114,7 @@ class CommandedMotion(ABC):
         self._note(f"{self.total} {self.noun}s by {self.way} were taken")
         self._state_port.taken()
         self.phase = Phase.MOVING
+        self.is_taken = True
         self.number = number
         self._began = self._state_port.clock()
         self._first_sample = self._state_port.samples

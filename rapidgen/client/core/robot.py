@@ -23,7 +23,6 @@ from rapidgen.client.core.checks import (
 from rapidgen.client.core.download import Download
 from rapidgen.client.core.group import PLAIN_CAPACITY, Group
 from rapidgen.client.core.heartbeat import HeartbeatSchedule
-from rapidgen.client.core.motion import place_of, refused
 from rapidgen.client.core.program_checks import CheckedProgram, check_program, require_program
 from rapidgen.client.core.request_port import PendingReply, RequestPort
 from rapidgen.client.core.state_port import Evidence, StatePort
@@ -538,23 +537,6 @@ class Core:
             reply=self.timeouts.reply,
         )
         return motion
-
-    def answered(self, run: Download, reply: Content) -> None:
-        """The reply to the end frame has come: accepted, or TrajectoryRefused is raised."""
-        if isinstance(reply, messages.Accepted):
-            run.accepted(reply.trajectory)
-            return
-        if isinstance(reply, messages.Acknowledged):
-            run.accepted(None)
-            return
-        if isinstance(reply, messages.Refused):
-            place = place_of(self.known_group, reply.point, reply.joint)
-            told = reply.reason, place, reply.point, reply.joint
-            error = refused(self.state_port, *told)
-        else:
-            error = refused(self.state_port, None)
-        run.failed(error)
-        raise error
 
     def request_stop(self, port: Port) -> PendingReply:
         """A STOP is about to be sent on this connection."""

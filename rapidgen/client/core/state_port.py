@@ -211,6 +211,10 @@ class StatePort:
         """The newest joints as the wire has them, None before the first."""
         return self._recent[-1].joints if self._recent else None
 
+    def samples_since(self, number: int) -> list[Sample]:
+        """The joint messages behind the `number`th, as far as they are kept, oldest first."""
+        return list(self._recent)[-(self.samples - number) :] if self.samples > number else []
+
     def is_still(self, count: int) -> bool:
         """Whether the last `count` joint messages are the same but for a sensor's noise."""
         last = list(self._recent)[-count:]

@@ -2,7 +2,6 @@
 
 from rapidgen.client.core.checks import CheckedTrajectory
 from rapidgen.client.core.job import Job
-from rapidgen.client.core.request_port import PendingReply
 from rapidgen.client.core.robot import Core
 from rapidgen.client.errors import RobotError
 from rapidgen.client.flows.effects import INTERRUPTIONS, Flow, Send, Wait
@@ -34,7 +33,6 @@ class Sending:
     def __init__(self, core: Core, checked: CheckedTrajectory) -> None:
         self._core = core
         self._data = encode_trajectory(checked.wire, checked.durations)
-        self._pending: PendingReply | None = None
         self.motion = core.begin(checked)
 
     def points(self) -> Flow[None]:
@@ -43,7 +41,7 @@ class Sending:
 
     def end(self) -> Flow[None]:
         """Send the end frame: the controller may begin to move."""
-        self._pending = self._core.ports[Port.MOTION].request(JOINT_TRAJ_PT.number)
+        self.motion.asked(self._core.ports[Port.MOTION].request(JOINT_TRAJ_PT.number))
         yield self._send(self._data[-FRAME_BYTES:])
 
     def _send(self, data: bytes) -> Send:
@@ -51,20 +49,17 @@ class Sending:
 
     def accepted(self) -> Flow[None]:
         """Wait for the controller's word on the whole trajectory."""
-        core, motion, pending = self._core, self.motion, self._pending
-        assert pending is not None
+        core, motion = self._core, self.motion
         patience = core.timeouts.reply + PER_POINT * motion.frames
-        yield Wait(lambda: pending.reply is not None or motion.is_over, patience)
-        if pending.reply is not None:
-            core.answered(motion, pending.reply)
+        yield Wait(lambda: motion.is_taken or motion.is_over, patience)
+        if motion.is_taken:
+            return
         if motion.error is not None:
             raise motion.error
-        if pending.reply is None:
-            raise core.state_port.late(
-                f"the controller did not answer within {patience:.1f} s whether it took the "
-                "trajectory",
-                "a STOP was sent; look at the robot",
-            )
+        raise core.state_port.late(
+            f"the controller did not answer within {patience:.1f} s whether it took the trajectory",
+            "a STOP was sent; look at the robot",
+        )
 
     def job(self) -> Job:
         """What is under way."""

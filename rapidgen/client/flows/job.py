@@ -134,18 +134,25 @@ def cancel(job: Job) -> Flow[State | None]:
 
 
 def taken(core: Core, stream: PointStream) -> Flow[None]:
-    """Until the controller took the first points, or the whole program, or refused them."""
-    yield from _until(core, stream, lambda: stream.number is not None)
+    """Until the controller took the first points, or the whole program, or refused them.
+
+    A caller that comes late may find it over already: then its result tells how it ended.
+    """
+    yield from _until(core, stream, lambda: stream.is_taken)
+    if stream.error is not None and not stream.is_taken:
+        raise stream.error
 
 
 def _going_on(core: Core, stream: PointStream) -> Flow[None]:
     """Until there is not too much that waits; after a refusal until the motion has ended."""
     ahead = _AHEAD * stream.batch
     yield from _until(core, stream, lambda: stream.refusal is None and stream.backlog <= ahead)
+    if stream.error is not None:
+        raise stream.error
 
 
 def _until(core: Core, stream: PointStream, condition: Callable[[], bool]) -> Flow[None]:
-    """Until the condition holds; the error of a stream that is over is raised."""
+    """Until the condition holds or the stream is over; it fails when nothing happens."""
     if not (yield from until(core, stream, condition)):
         stream.failed(
             core.state_port.late(
@@ -153,5 +160,3 @@ def _until(core: Core, stream: PointStream, condition: Callable[[], bool]) -> Fl
                 "a STOP was sent; look at the robot",
             )
         )
-    if stream.error is not None:
-        raise stream.error

@@ -150,7 +150,6 @@ def call(
     job = yield from run(core, Program().call(routine, *arguments, timeout=limit), None)
     motion = job.motion
     assert motion is not None
-    since = core.clock()
     motion.longest = _ANY if timeout is None else timeout + _GRACE
     deadline = core.clock() + motion.longest
     told = yield from _told(core)
@@ -165,7 +164,7 @@ def call(
         yield from result(job, max(0.0, deadline - core.clock()))
     except MotionFailed as failed:
         if failed.reason is Reason.PROGRAM_STOPPED:
-            yield from _why_it_stopped(core, routine, since, failed)
+            yield from _why_it_stopped(core, routine, motion.events_before, failed)
         if failed.reason is not Reason.ROUTINE:
             raise
         told = yield from _told(core)
@@ -186,15 +185,13 @@ def call(
     return (yield from _results(core, own, told))
 
 
-def _why_it_stopped(core: Core, routine: str, since: float, failed: MotionFailed) -> Flow[None]:
+def _why_it_stopped(core: Core, routine: str, before: int, failed: MotionFailed) -> Flow[None]:
     """Raise RoutineFailed with the event of the error that has stopped the program of the robot,
-    where the driver tells one."""
+    where the driver tells one; `before` events had come when the motion began."""
 
     def told() -> Event | None:
-        errors = (
-            e for e in core.state_port.events if e.time >= since and e.type is EventType.ERROR
-        )
-        return next(errors, None)
+        events = core.state_port.events
+        return next((e for e in events if e.number > before and e.type is EventType.ERROR), None)
 
     yield Wait(lambda: told() is not None, _TOLD)
     event = told()
