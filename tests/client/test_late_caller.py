@@ -1,11 +1,18 @@
 """The caller's thread gets no time while the robot moves, or nobody reads what it tells."""
 
+from dataclasses import replace
+from types import SimpleNamespace
+
 import pytest
 from driven import caller_comes_late, complaints, driven
 
-from rapidgen.client import MotionFailed, Trajectory
+from rapidgen.client import MotionFailed, StopFailed, Trajectory
 from rapidgen.client.core.robot import Core
-from rapidgen.wire.simple_message.spec import Port, Reason
+from rapidgen.client.core.state import Progress
+from rapidgen.client.core.state_port import StatePort
+from rapidgen.client.flows.motion import until
+from rapidgen.client.flows.stop import _until_standing
+from rapidgen.wire.simple_message.spec import Port, Reason, TrajectoryState, TriState
 
 LATE = 2.5
 """s after which all is over."""
@@ -53,3 +60,40 @@ def test_the_result_tells_how_it_ended_whenever_the_caller_looks(monkeypatch, wa
         with pytest.raises(MotionFailed) as failed:
             robot._run(execution.result())
         assert failed.value.reason is Reason.EMERGENCY_STOP
+
+
+def test_a_robot_that_stood_behind_a_stop_is_not_lost_when_another_one_moves_it(monkeypatch):
+    with driven() as (robot, _):
+        core = robot._core
+        waiting = _until_standing(core)
+        wait = next(waiting)
+        robot.sleep(1)
+        assert wait.until()
+        moving = replace(core.state_port.status, in_motion=TriState.TRUE)
+        monkeypatch.setattr(StatePort, "status", moving)
+        monkeypatch.setattr(StatePort, "is_still", lambda *_: False)
+        with pytest.raises(StopIteration) as end:
+            waiting.send(True)
+        assert end.value.value.joints == robot.state.joints
+        # Without a connection nobody knows.
+        unseen = _until_standing(core)
+        next(unseen)
+        core.state_open = False
+        with pytest.raises(StopFailed):
+            unseen.send(True)
+
+
+def test_what_stirs_and_is_as_before_when_the_caller_looks_has_stirred():
+    """As a stream that starves, by a state that is older than the controller's last reply."""
+    motion = SimpleNamespace(is_over=False, longest=1.0, mark=1)
+    motion.progress = Progress(TrajectoryState.MOVING, total=1)
+    waiting = until(SimpleNamespace(override=1.0), motion, lambda: False)
+    wait = next(waiting)
+    motion.mark = 2
+    assert wait.until()
+    motion.mark = 1
+    wait = waiting.send(True)
+    assert not wait.until()
+    with pytest.raises(StopIteration) as end:
+        waiting.send(False)
+    assert end.value.value is False

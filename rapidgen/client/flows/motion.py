@@ -44,10 +44,11 @@ def until(
             return holds()
         while True:
             mark = motion.mark
-            yield Wait(partial(stirs, mark), patience(core, motion))
+            # The mark may be the same again before this goes on: what the wait has seen counts.
+            stirred = yield Wait(partial(stirs, mark), patience(core, motion))
             if holds():
                 return True
-            if motion.mark == mark and motion.progress.state is not TrajectoryState.PAUSED:
+            if not stirred and motion.progress.state is not TrajectoryState.PAUSED:
                 return False
     except INTERRUPTIONS:
         yield from stop(core)

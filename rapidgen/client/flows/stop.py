@@ -130,9 +130,10 @@ def _until_standing(core: Core) -> Flow[State]:
         still = state_port.samples >= seen + _STILL_SAMPLES and state_port.is_still(_STILL_SAMPLES)
         return state_port.status.in_motion is not TriState.TRUE or still
 
-    yield Wait(lambda: stands() or not core.state_open, core.timeouts.stop)
+    came = yield Wait(lambda: stands() or not core.state_open, core.timeouts.stop)
     state = state_port.state
-    if not stands() or state is None:
+    # It may move again, for somebody else, before this goes on.
+    if state is None or not came or not (core.state_open or stands()):
         raise _not_stopped(core, "STOP was answered, and the robot was not seen to stand")
     state_port.note("stands behind STOP", logging.INFO)
     return state
