@@ -34,6 +34,7 @@ def carry_out(job: "FleetJob", plans: "Sequence[Plan]", *, as_json: bool = False
     the table when somebody has given up."""
     from dataclasses import replace
 
+    from rapidgen.cli.ending import on_signal
     from rapidgen.deploy.fleet import GivingUp
     from rapidgen.deploy.session import apply_all
     from rapidgen.deploy.show import outcomes_json, table
@@ -42,7 +43,8 @@ def carry_out(job: "FleetJob", plans: "Sequence[Plan]", *, as_json: bool = False
         typer.echo(line, err=True)
 
     giving_up = GivingUp(say)
-    outcomes = apply_all(replace(job, giving_up=giving_up), plans, say)
+    with on_signal(giving_up.begin):
+        outcomes = apply_all(replace(job, giving_up=giving_up), plans, say)
     if as_json:
         typer.echo(json.dumps(outcomes_json(outcomes), indent=2))
     else:

@@ -1,4 +1,4 @@
-"""Signals that end what serves."""
+"""Signals that end what serves, or what is carried out."""
 
 import signal
 import socket

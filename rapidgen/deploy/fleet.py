@@ -46,7 +46,10 @@ def parse_targets(urls: Iterable[str]) -> tuple[Target, ...]:
 
 
 class GivingUp:
-    """Ctrl-C while work is under way: no other is begun, and `say` hears of it, each time."""
+    """Ctrl-C while work is under way: no other is begun, and `say` hears of it, each time.
+
+    `begin` is for a thread or an exception, not for a signal's handler: it takes a lock.
+    """
 
     def __init__(self, say: Callable[[str], None] = lambda _: None) -> None:
         self._event = threading.Event()
@@ -58,7 +61,7 @@ class GivingUp:
     def begin(self) -> None:
         """Somebody has given up."""
         self._event.set()
-        self._say("Ctrl-C: what is being switched is switched first, nothing else is begun")
+        self._say("given up: what is being switched is switched first, nothing else is begun")
 
 
 def on_all(
@@ -70,8 +73,8 @@ def on_all(
 ) -> list[T | DiagnosticError | None]:
     """`work` on each target, `parallel` at a time; None for those that were not begun.
 
-    After the first DiagnosticError no further target is begun; those under way end. So it is with
-    Ctrl-C, which is raised then, where nobody is `giving_up`.
+    After the first DiagnosticError no further target is begun; those under way end. So it is where
+    somebody is `giving_up`, and with KeyboardInterrupt, which is raised then.
     """
     stop = threading.Event()
     given_up = GivingUp() if giving_up is None else giving_up
@@ -86,14 +89,13 @@ def on_all(
             return fault
 
     with ThreadPoolExecutor(max_workers=max(1, min(parallel, len(targets)))) as pool:
-        futures = [pool.submit(guarded, target) for target in targets]
-        while not all(future.done() for future in futures):
-            try:
-                wait(futures)
-            except KeyboardInterrupt:
-                given_up.begin()
-    if given_up and giving_up is None:
-        raise KeyboardInterrupt
+        try:
+            futures = [pool.submit(guarded, target) for target in targets]
+            wait(futures)
+        except KeyboardInterrupt:
+            # Wherever it came: leaving the pool waits for what is under way, and begins the rest.
+            given_up.begin()
+            raise
     return [future.result() for future in futures]
 
 

@@ -124,7 +124,8 @@ def _check_data(wanted: DriverSet, backup: Path) -> None:
 def apply_all(job: FleetJob, plans: Sequence[Plan], say: Say) -> list[TargetOutcome]:
     """Carry the plans out; a controller that has changed since refuses (RG522).
 
-    Ctrl-C begins nothing more and is raised by nobody: see the outcomes, and `giving_up`.
+    Where somebody is giving up nothing more is begun: see the outcomes. KeyboardInterrupt does the
+    same, and nobody hears of the outcomes.
     """
     by_target = dict(zip(job.targets, plans, strict=True))
     giving_up = job.giving_up

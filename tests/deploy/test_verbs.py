@@ -5,6 +5,7 @@ import json
 import re
 import signal
 import threading
+from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 import typer
@@ -16,7 +17,7 @@ from rapidgen.cli.rollback import rollback
 from rapidgen.cli.uninstall import uninstall
 from rapidgen.deploy import TransportFault, parse_target
 from rapidgen.deploy.driverset import NEW as STAGED
-from rapidgen.deploy.fleet import GivingUp, parse_targets
+from rapidgen.deploy.fleet import GivingUp, on_all, parse_targets
 from rapidgen.deploy.secrets import Credentials, Secret, find_password, redact
 from rapidgen.deploy.transports.folder import FolderTransport
 from rapidgen.deploy.transports.transport import FILE_LIMIT
@@ -166,19 +167,23 @@ def test_what_became_of_controllers_is_json_where_that_was_asked_for(run, built,
     assert told["controllers"][0]["errors"] == told["errors"]
 
 
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_ctrl_c_ends_before_files_are_switched_and_tells_what_stands(
-    run, built, kit, tmp_path, monkeypatch
+    run, built, kit, tmp_path, monkeypatch, number
 ):
     """The first controller is done, the second as it was, the third not begun."""
     homes = [tmp_path / f"c{n}" for n in range(3)]
     for home in homes:
         home.mkdir()
     heard, whole, begin = threading.Event(), FolderTransport.write, GivingUp.begin
+    handled = []
 
     def write(self, path, data):
         whole(self, path, data)
         if path.endswith(STAGED) and self._root == homes[1] and not heard.is_set():
-            signal.pthread_kill(threading.main_thread().ident, signal.SIGINT)
+            # What is raised anywhere in the main thread may be raised between two waits.
+            handled.append(signal.getsignal(number))
+            signal.pthread_kill(threading.main_thread().ident, number)
             assert heard.wait(60)
 
     def told(self):
@@ -194,7 +199,34 @@ def test_ctrl_c_ends_before_files_are_switched_and_tells_what_stands(
     assert [list(home.iterdir()) for home in homes[1:]] == [[], []]
     words = [line.split()[1:3] for line in out.splitlines()]
     assert words == [["done", "6"], ["given", "up"], ["not", "begun"]]
-    assert "Ctrl-C: what is being switched is switched first" in err
+    assert "given up: what is being switched is switched first" in err
+    assert len(handled) == 1
+    assert handled[0] not in (signal.default_int_handler, signal.SIG_DFL)
+
+
+def test_an_interruption_begins_nothing_more_wherever_it_comes(monkeypatch):
+    """Leaving a pool begins what was handed in."""
+    begun, told = [], threading.Event()
+    hand_in, begin = ThreadPoolExecutor.submit, GivingUp.begin
+
+    def work(target):
+        begun.append(target)
+        told.wait(30)
+
+    def submit(pool, guarded, target):
+        if target == "third":
+            raise KeyboardInterrupt
+        return hand_in(pool, guarded, target)
+
+    def tells(self):
+        begin(self)
+        told.set()
+
+    monkeypatch.setattr(GivingUp, "begin", tells)
+    monkeypatch.setattr(ThreadPoolExecutor, "submit", submit)
+    with pytest.raises(KeyboardInterrupt):
+        on_all(["first", "second", "third"], work, parallel=1)
+    assert begun == ["first"]
 
 
 def test_nobody_there_to_answer(run, built, home, monkeypatch):
