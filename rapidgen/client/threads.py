@@ -5,6 +5,7 @@ import time
 import warnings
 from collections.abc import Iterable, Iterator, Sequence
 from functools import partial
+from inspect import GEN_CLOSED, getgeneratorstate
 from typing import TypeVar
 
 from rapidgen.client import flows
@@ -42,7 +43,10 @@ class Threads:
         self._reader: Reader | None = None
 
     def run(self, flow: Flow[T]) -> T:
-        """Carry out a flow: effects without the lock, its own steps with it."""
+        """Carry out a flow: effects without the lock, its own steps with it.
+
+        Ctrl-C may come anywhere here, and the flow has to hear of it: it stops the robot.
+        """
         outcome: bool | None = None
         failure: BaseException | None = None
         while True:
@@ -53,12 +57,13 @@ class Threads:
                         effect = flow.send(outcome) if error is None else flow.throw(error)
                     finally:
                         self._pump()
+                outcome = self._perform(effect)
             except StopIteration as end:
                 value: T = end.value
                 return value
-            try:
-                outcome = self._perform(effect)
             except (RobotError, KeyboardInterrupt) as raised:
+                if getgeneratorstate(flow) == GEN_CLOSED:
+                    raise
                 failure = raised
 
     def _pump(self) -> None:

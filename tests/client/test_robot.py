@@ -414,6 +414,26 @@ def test_ctrl_c_stops_the_robot(fake, patient, monkeypatch, comes, way):
         assert comes(lambda: controller.stops)
 
 
+@pytest.mark.parametrize("way", ["download", "stream"])
+@pytest.mark.parametrize("place", ["_pump", "_perform"])
+def test_ctrl_c_between_two_waits_stops_the_robot(fake, patient, monkeypatch, comes, place, way):
+    controller = fake(stream=StreamModel() if way == "stream" else None)
+    with Robot(controller.address, timeouts=patient()) as robot:
+        execution = robot.execute(LONG, way=way)
+        goes_on = getattr(robot._carrier, place)
+
+        def interrupt(*arguments):
+            if threading.current_thread() is not threading.main_thread():
+                return goes_on(*arguments)
+            monkeypatch.setattr(robot._carrier, place, goes_on)
+            raise KeyboardInterrupt
+
+        monkeypatch.setattr(robot._carrier, place, interrupt)
+        with pytest.raises(KeyboardInterrupt):
+            execution.result()
+        assert comes(lambda: controller.stops)
+
+
 def test_cancelling_a_coroutine_stops_the_robot(fake, patient):
     controller = fake()
 
