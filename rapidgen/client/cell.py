@@ -154,11 +154,11 @@ class CellExecution:
     def result(self, timeout: float | None = None) -> dict[str, Result]:
         """Wait for all. The first error stops all others and is raised; so does Ctrl-C."""
         with ThreadPoolExecutor(max(1, len(self.executions))) as pool:
-            futures: dict[str, Future[Result]] = {
-                name: pool.submit(execution.result, timeout)
-                for name, execution in self.executions.items()
-            }
             try:
+                futures: dict[str, Future[Result]] = {
+                    name: pool.submit(execution.result, timeout)
+                    for name, execution in self.executions.items()
+                }
                 done, waiting = wait(futures.values(), return_when=FIRST_EXCEPTION)
             except KeyboardInterrupt:
                 self._cell.stop()

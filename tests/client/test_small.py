@@ -3,6 +3,7 @@
 import asyncio
 import inspect
 import re
+from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
@@ -222,6 +223,21 @@ class TestCells:
                 execution.result()
             assert execution.is_over
             assert controllers[0].stops
+
+    def test_ctrl_c_before_all_are_waited_for_stops_all(self, cell_of, monkeypatch):
+        cell, controllers = cell_of({}, {})
+        hand_in = ThreadPoolExecutor.submit
+
+        def submit(pool, *arguments):
+            monkeypatch.setattr(ThreadPoolExecutor, "submit", hand_in)
+            raise KeyboardInterrupt
+
+        with cell:
+            execution = cell.execute({"0": LONG, "1": LONG})
+            monkeypatch.setattr(ThreadPoolExecutor, "submit", submit)
+            with pytest.raises(KeyboardInterrupt):
+                execution.result()
+            assert [len(c.stops) > 0 for c in controllers] == [True, True]
 
     def test_async(self, fake, patient):
         controllers = [fake(), fake(ends_at=0.02)]
