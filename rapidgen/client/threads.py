@@ -52,15 +52,16 @@ class Threads:
         while True:
             error, failure = failure, None
             try:
-                with self.guard:
-                    try:
-                        effect = flow.send(outcome) if error is None else flow.throw(error)
-                    finally:
-                        self._pump()
+                try:
+                    with self.guard:
+                        try:
+                            effect = flow.send(outcome) if error is None else flow.throw(error)
+                        finally:
+                            self._pump()
+                except StopIteration as end:
+                    value: T = end.value
+                    return value
                 outcome = self._perform(effect)
-            except StopIteration as end:
-                value: T = end.value
-                return value
             except (RobotError, KeyboardInterrupt) as raised:
                 if getgeneratorstate(flow) == GEN_CLOSED:
                     raise

@@ -434,6 +434,12 @@ def test_ctrl_c_between_two_waits_stops_the_robot(fake, patient, monkeypatch, co
         assert comes(lambda: controller.stops)
 
 
+def test_what_a_condition_raises_is_no_end_of_the_call(connected):
+    """A condition of the caller's own is asked where flows are carried out."""
+    with connected() as (robot, _), pytest.raises((StopIteration, RuntimeError)):
+        robot.wait_until(lambda state: next(iter(())), 60)
+
+
 def test_cancelling_a_coroutine_stops_the_robot(fake, patient):
     controller = fake()
 
