@@ -15,6 +15,17 @@ from tests.view.bench import STATE, until
 
 pytestmark = pytest.mark.browser
 SEEN = "rapidgen.panels.program.seen"
+# A page that hears nothing until `hears()`.
+KEPT = """
+let kept = [];
+window.hears = () => { const now = kept; kept = null; now.forEach((take) => take()); };
+const Real = WebSocket;
+window.WebSocket = class extends Real {
+  set onmessage(take) {
+    super.onmessage = (event) => { if (kept) kept.push(() => take(event)); else take(event); };
+  }
+};
+"""
 GOAL = (0.6, 0.3, -0.4, 0.5, 0.7, -1.0)
 
 
@@ -47,6 +58,19 @@ def test_the_robot_moves(irb120, open_page):
     poses = page.evaluate("rapidgen.stage.robots.get('rob1').poses()")
     assert np.allclose(poses["link_7"][12:15], place, atol=1e-6)
     assert page.evaluate("location.hash") == ""
+
+
+def test_no_tab_moves_away_under_the_mouse(irb120, open_page):
+    """Which are there is known with the scene; a click before it went to the next one."""
+    page = open_page(irb120["view"], before=KEPT)
+    tabs = page.get_by_role("tab")
+    page.get_by_role("tablist", include_hidden=True).wait_for(state="attached")
+    assert tabs.count() == 0
+    page.evaluate("hears()")
+    page.get_by_role("tab", name="Program").click()
+    named = ["Pendant", "Program", "Axes", "Signals", "Log", "Path", "Network"]
+    assert tabs.all_inner_texts() == named
+    assert page.get_by_role("tab", selected=True).inner_text() == "Program"
 
 
 def test_from_a_line_to_its_template_and_back(irb120, open_page):

@@ -13,7 +13,8 @@ export class Tabs {
     this.buttons = panels.map((panel) =>
       h("button", {
         type: "button", role: "tab", id: `tab-${panel.id}`, "aria-controls": `panel-${panel.id}`,
-        onclick: () => this.show(panel),
+        // None before it is known which fit: they would move under the mouse.
+        hidden: true, onclick: () => this.show(panel),
       }, panel.title));
     const list = h("div", { role: "tablist", "aria-label": "Panels", onkeydown: (event) => this.key(event) },
       ...this.buttons);
