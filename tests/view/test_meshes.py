@@ -92,3 +92,34 @@ def test_what_stands_in_the_cell_is_drawn_and_robots_stand_where_it_says(tmp_pat
         poses = page.evaluate("rapidgen.stage.robots.get('rob1').poses()")
         np.testing.assert_allclose(poses["base"][12:15], [0, 0.5, 0.25], atol=1e-9)
         page.close()
+
+
+# Meshes that do not come before `come()`.
+LATE = """
+const real = window.fetch;
+let come;
+const coming = new Promise((came) => { come = window.come = came; });
+window.fetch = async (what, ...how) => {
+  if (String(what).startsWith("files/")) await coming;
+  return real(what, ...how);
+};
+"""
+WIDE = b"v 0 0 0\nv 9 0 0\nv 0 9 0\nf 1 2 3\n"
+
+
+@pytest.mark.parametrize("held", [False, True])
+def test_meshes_that_come_late_do_not_turn_the_picture_under_a_hand(tmp_path, open_page, held):
+    config = mesh_files.description(tmp_path, {"link_1": ("wide.obj", WIDE)})
+    with simulator(config) as (ready, _):
+        page = open_page(ready["view"], before=LATE)
+        until(page, STATE)
+        before = page.evaluate("rapidgen.stage.eye()")
+        if held:
+            page.get_by_role("button", name="Drag TCP").click()
+        page.evaluate("come()")
+        parts = "rapidgen.stage.robots.get('rob1').parts()['part_1'][0][0]"
+        until(page, parts, lambda corners: corners == 3)
+        drawn = page.evaluate("rapidgen.stage.drawn.pictures")
+        page.get_by_role("button", name="Clear trail").click()
+        until(page, "rapidgen.stage.drawn.pictures", lambda pictures: pictures > drawn)
+        assert (page.evaluate("rapidgen.stage.eye()") == before) == held

@@ -7,7 +7,7 @@ import pytest
 from rapidgen.controller.booting import Wishes, load_target
 from rapidgen.controller.cabinet import Cabinet
 from rapidgen.view.aspect import Declined
-from rapidgen.view.messages import Jog
+from rapidgen.view.messages import Jog, JogTo
 from rapidgen.view.simulator.motion import MotionAspect
 
 AT_THE_LIMIT = """MODULE Far
@@ -16,6 +16,46 @@ AT_THE_LIMIT = """MODULE Far
   ENDPROC
 ENDMODULE
 """
+WITH_A_TOOL = """MODULE Held
+  PERS tooldata grip := [TRUE, [[0,0,120],[1,0,0,0]], [1,[0,0,60],[1,0,0,0],0,0,0]];
+  CONST robtarget pick := [[10,20,50],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+  PERS wobjdata table := [FALSE, TRUE, "", [[300,0,100],[1,0,0,0]], [[0,0,0],[1,0,0,0]]];
+  PROC main()
+    MoveAbsJ [[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]], v1000, fine, grip;
+    MoveL pick, v500, fine, grip \\WObj:=table;
+    WaitTime 1000;
+  ENDPROC
+ENDMODULE
+"""
+
+
+def test_a_robot_that_is_jogged_keeps_its_tool(tmp_path):
+    """It was that of the flange afterwards: the next jog to a TCP went 120 mm too far."""
+    module = tmp_path / "held.mod"
+    module.write_text(WITH_A_TOOL)
+    target = load_target([str(module)], Wishes(robot="irb120"))
+    with Cabinet.boot(target, clock="virtual") as cabinet:
+        cabinet.controller.run_for(20)
+        cabinet.controller.stop_program()
+        cabinet.controller.run_for(1)
+        aspect = MotionAspect(cabinet)
+        handlers = aspect.handlers()
+        (name,) = cabinet.controller.motion.groups
+
+        def shown():
+            _, positions = aspect.whole()
+            return positions.groups[0]
+
+        axes = list(cabinet.controller.motion.groups[name].positions())
+        axes[0] += 0.1
+        handlers[Jog](Jog(group=name, axes=tuple(axes)))
+        assert shown().tool.position == pytest.approx((0, 0, 0.12))
+        assert shown().work_object.position == pytest.approx((0.3, 0, 0.1))
+        for place in ((0.31, 0.02, 0.15), (0.3, 0.05, 0.16)):
+            tcp = shown().tcp
+            handlers[JogTo](JogTo(group=name, position=place, orientation=tcp.orientation))
+            assert shown().tcp.position == pytest.approx(place)
+            assert shown().tool.position == pytest.approx((0, 0, 0.12))
 
 
 def test_a_robot_that_stands_at_its_limit_is_jogged(tmp_path):

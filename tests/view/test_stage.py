@@ -52,28 +52,69 @@ def test_targets_of_the_program_and_the_frames_of_its_moves_are_drawn(ready, ope
     assert page.locator(".labels").is_hidden()
 
 
-def test_the_tcp_is_dragged_by_the_mouse_and_typed(ready, open_page):
-    page = open_page(ready["view"])
-    until(page, STATE)
-    page.get_by_role("button", name="Stop", exact=True).click()
-    until(page, f"{STATE}.groups[0].standing")
-    until(page, "document.querySelector('header').textContent", lambda text: "Stopped" in text)
-    before = page.evaluate(f"{STATE}.groups[0].tcp")
-    page.get_by_role("button", name="Drag TCP").click()
+# What is dragged is carried out only when the test lets it be.
+SLOW = """() => {
+  const carried = rapidgen.stage.onwanted;
+  window.asked = [];
+  rapidgen.stage.onwanted = (robot, ...place) => new Promise((answered) => {
+    asked.push({ to: place[0], carry: () => carried(robot, ...place).then(answered) });
+  });
+}"""
+
+
+def drag(page, shares=(0.1, 0.2, 0.3, 0.4)):
+    """Drag the handle of the TCP along its x arrow, by shares of that one's length."""
+    # The mouse finds what has been drawn.
+    held = page.get_by_role("button", name="Drag TCP")
+    drawn = held.evaluate("button => { button.click(); return rapidgen.stage.drawn.pictures; }")
+    until(page, "rapidgen.stage.drawn.pictures", lambda pictures: pictures > drawn)
     x, y, reach = page.evaluate("rapidgen.stage.handle()")
     box = page.locator("main canvas").bounding_box()
     page.mouse.move(box["x"] + reach[0], box["y"] + reach[1])
     page.mouse.down()
-    for share in (0.1, 0.2, 0.3, 0.4):
+    for share in shares:
         at = (reach[0] + share * (reach[0] - x), reach[1] + share * (reach[1] - y))
         page.mouse.move(box["x"] + at[0], box["y"] + at[1])
     page.mouse.up()
+
+
+def stopped(page):
+    """Stop the program; the TCP where the robot then stands."""
+    until(page, STATE)
+    page.get_by_role("button", name="Stop", exact=True).click()
+    until(page, f"{STATE}.groups[0].standing")
+    until(page, "document.querySelector('header').textContent", lambda text: "Stopped" in text)
+    return page.evaluate(f"{STATE}.groups[0].tcp")
+
+
+def test_what_is_dragged_while_another_place_is_on_its_way_is_not_lost(ready, open_page):
+    """The handle went back to the robot as it was let go, and the robot was sent back there."""
+    page = open_page(ready["view"])
+    before = stopped(page)["position"]
+    page.evaluate(SLOW)
+    drag(page)
+    first = until(page, "asked", len)[0]["to"]
+    page.evaluate("asked[0].carry()")
+    until(page, f"{STATE}.groups[0].tcp.position", lambda at: np.allclose(at, first, atol=1e-6))
+    last = until(page, "asked", lambda asked: len(asked) == 2)[1]["to"]
+    page.evaluate("asked[1].carry()")
+    until(page, f"{STATE}.groups[0].tcp.position", lambda at: np.allclose(at, last, atol=1e-6))
+    ways = [np.linalg.norm(np.subtract(at, before)) for at in (first, last)]
+    assert ways[0] > 0.001
+    assert ways[1] == pytest.approx(4 * ways[0], rel=0.2)
+
+
+def test_the_tcp_is_dragged_by_the_mouse_and_typed(ready, open_page):
+    page = open_page(ready["view"])
+    before = stopped(page)
+    drag(page)
 
     def moved(tcp):
         return np.linalg.norm(np.subtract(tcp["position"], before["position"])) > 0.005
 
     now = until(page, f"{STATE}.groups[0].tcp", moved)
     # By the handle's x alone: the tool keeps its orientation.
+    assert now["position"][1:] == pytest.approx(before["position"][1:], abs=1e-6)
     np.testing.assert_allclose(now["orientation"], before["orientation"], atol=1e-6)
     page.get_by_role("tab", name="Axes").click()
     page.get_by_label("TCP z of rob1 in mm").fill("200")

@@ -7,6 +7,7 @@ from rapidgen.axes.kinematics import Posture
 from rapidgen.axes.limits import outside
 from rapidgen.controller.cabinet import Cabinet
 from rapidgen.motion.group import MotionGroup
+from rapidgen.motion.moves import Carrier
 from rapidgen.runtime.task.task import Task
 from rapidgen.view.appearance import PLAIN, Appearance
 from rapidgen.view.aspect import Declined, Handler
@@ -26,6 +27,7 @@ class MotionAspect:
         self._groups = tuple(self._controller.motion.groups.values())
         self._drawings = tuple(look.of(group.config) for group in self._groups)
         self._told: tuple[RobotPlace, ...] = ()
+        self._last: dict[str, Carrier] = {}
 
     def whole(self) -> Iterable[ToPage]:
         """What is there and where it is."""
@@ -73,11 +75,18 @@ class MotionAspect:
         )
 
     def _carried(self, group: MotionGroup) -> Carried:
-        move = group.motion.move(self._scheduler.now)
-        if move is None:
+        carrier = self._carrier(group)
+        if carrier is None:
             return Carried.configured(group.config)
-        carrier = move.carrier.at(group.positions())
-        return Carried(carrier.tool, not carrier.stationary, carrier.object)
+        now = carrier.at(group.positions())
+        return Carried(now.tool, not now.stationary, now.object)
+
+    def _carrier(self, group: MotionGroup) -> Carrier | None:
+        """That of the last move, also when its path has been dropped since, as by a jog."""
+        move = group.motion.move(self._scheduler.now)
+        if move is not None:
+            self._last[group.name] = move.carrier
+        return self._last.get(group.name)
 
     def _tasks(self) -> Iterable[Task]:
         return self._controller.rapid_tasks.values()
@@ -112,6 +121,7 @@ class MotionAspect:
             raise Declined(f"{fault.joint.name} would leave its range")
         if any(t.state == "running" and t.spec.motion for t in self._tasks()):
             raise Declined("a program has the robot: stop it first")
+        self._carrier(group)  # Remembered: the path may be dropped.
         try:
             group.jog(axes)
         except ValueError as error:

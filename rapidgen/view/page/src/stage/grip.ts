@@ -6,15 +6,16 @@ import type { Robot } from "./robot";
 
 const SIZE = 0.75;
 export type GripMode = "translate" | "rotate";
+type Dragged = [robot: Robot, position: [number, number, number], orientation: [number, number, number, number]];
 /** Asks for a TCP in the robot's world; resolves when that has been carried out or refused. */
-export type Wanted = (robot: Robot, position: [number, number, number], orientation: [number, number, number, number]) => Promise<void>;
+export type Wanted = (...dragged: Dragged) => Promise<void>;
 
 export class Grip {
   private readonly controls: TransformControls;
   private readonly handle = new THREE.Object3D();
   private robot: Robot | null = null;
   private asked = false;
-  private again = false;
+  private next: Dragged | null = null;
   held = false;
 
   constructor(camera: THREE.Camera, element: HTMLElement, space: THREE.Scene,
@@ -38,14 +39,17 @@ export class Grip {
     if (!robot) return void this.controls.detach();
     this.controls.setMode(mode);
     this.controls.attach(this.handle);
-    this.follow();
+    this.rest(robot);
   }
 
-  /** Be where the TCP is, unless somebody drags. */
+  /** Be where the TCP is, unless somebody drags or what was dragged is not answered yet. */
   follow(): void {
-    if (!this.robot || this.held) return;
-    this.robot.tcp.getWorldPosition(this.handle.position);
-    this.robot.tcp.getWorldQuaternion(this.handle.quaternion);
+    if (this.robot && !this.held && !this.asked) this.rest(this.robot);
+  }
+
+  private rest(robot: Robot): void {
+    robot.tcp.getWorldPosition(this.handle.position);
+    robot.tcp.getWorldQuaternion(this.handle.quaternion);
     this.handle.updateMatrixWorld();
   }
 
@@ -60,22 +64,26 @@ export class Grip {
 
   /** One at a time: while one is on its way, the latest other one is remembered. */
   private async ask(): Promise<void> {
-    if (this.asked) {
-      this.again = true;
-      return;
-    }
+    if (!this.robot) return;
+    this.next = this.dragged(this.robot);
+    if (this.asked) return;
     this.asked = true;
-    do {
-      this.again = false;
-      const robot = this.robot;
-      if (!robot) break;
-      const place = robot.root.matrixWorld.clone().invert().multiply(this.handle.matrixWorld);
-      const position = new THREE.Vector3();
-      const turned = new THREE.Quaternion();
-      place.decompose(position, turned, new THREE.Vector3());
-      await this.wanted(robot, position.toArray(), [turned.w, turned.x, turned.y, turned.z]);
-    } while (this.again);
+    while (this.next) {
+      const latest: Dragged = this.next;
+      this.next = null;
+      await this.wanted(...latest);
+    }
     this.asked = false;
     this.follow();
+  }
+
+  private dragged(robot: Robot): Dragged {
+    // It is drawn there with the next picture only.
+    this.handle.updateMatrixWorld();
+    const place = robot.root.matrixWorld.clone().invert().multiply(this.handle.matrixWorld);
+    const position = new THREE.Vector3();
+    const turned = new THREE.Quaternion();
+    place.decompose(position, turned, new THREE.Vector3());
+    return [robot, position.toArray(), [turned.w, turned.x, turned.y, turned.z]];
   }
 }

@@ -213,6 +213,8 @@ export class Stage {
   /** A handle on a robot's TCP, by which it can be dragged; null: none. */
   hold(name: string | null, mode: GripMode = "translate"): void {
     this.grip.take(name === null ? null : this.robots.get(name) ?? null, mode);
+    // Meshes that come now do not turn the picture under a hand.
+    this.touched = true;
     this.draw();
   }
 
