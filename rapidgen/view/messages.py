@@ -281,20 +281,23 @@ class AnswerQuestion(Spoken):
 
 
 class Jog(Spoken):
-    """Put a standing robot elsewhere: controller axes in wire order."""
+    """Put a standing robot elsewhere: controller axes in wire order; None: where it is."""
 
     do: Literal["jog"] = "jog"
     group: str
-    axes: Annotated[tuple[Finite, ...], Field(max_length=12)]
+    axes: Annotated[tuple[Finite | None, ...], Field(max_length=12)]
 
 
 class JogTo(Spoken):
-    """Put a standing robot where its TCP is at a place (of its world), on the same branch."""
+    """Put a standing robot where its TCP is at a place (of its world), on the same branch.
+
+    None: as it is.
+    """
 
     do: Literal["jog-to"] = "jog-to"
     group: str
-    position: tuple[Finite, Finite, Finite]
-    orientation: tuple[Finite, Finite, Finite, Finite]
+    position: tuple[Finite | None, Finite | None, Finite | None]
+    orientation: tuple[Finite, Finite, Finite, Finite] | None
 
 
 class Copy(Spoken):

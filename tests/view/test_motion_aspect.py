@@ -56,6 +56,15 @@ def test_a_robot_that_is_jogged_keeps_its_tool(tmp_path):
             handlers[JogTo](JogTo(group=name, position=place, orientation=tcp.orientation))
             assert shown().tcp.position == pytest.approx(place)
             assert shown().tool.position == pytest.approx((0, 0, 0.12))
+        # What is not asked for stays.
+        here = shown()
+        position = (here.tcp.position[0], 0.06, here.tcp.position[2])
+        handlers[JogTo](JogTo(group=name, position=(None, 0.06, None), orientation=None))
+        assert shown().tcp.position == pytest.approx(position)
+        assert shown().tcp.orientation == pytest.approx(here.tcp.orientation)
+        here = shown().axes
+        handlers[Jog](Jog(group=name, axes=(None, None, None, None, None, 0.3)))
+        assert shown().axes == pytest.approx((*here[:5], 0.3))
 
 
 def test_a_robot_that_stands_at_its_limit_is_jogged(tmp_path):

@@ -94,6 +94,27 @@ def test_the_pointer_does_not_pass_a_breakpoint(page):
     halted(page, 17)
 
 
+# Where its source stands and how far it is scrolled, whenever the program's pointer has moved.
+STANDS = """() => {
+  const source = document.querySelector(".source"), { link, panels } = rapidgen;
+  const at = [], stands = [];
+  link.on("pointers", () => requestAnimationFrame(() => {
+    const { top } = source.getBoundingClientRect(), now = panels.program.seen.program;
+    if (now === at.at(-1)) return;
+    at.push(now);
+    stands.push(`${top} ${source.shadowRoot.querySelector(".cm-scroller").scrollTop}`);
+  }));
+  window.stood = { at, stands };
+}"""
+
+
+def test_lines_in_view_stay_under_the_mouse(page):
+    """The source was scrolled to where the program was, each time that this went on."""
+    page.evaluate(STANDS)
+    seen = until(page, "stood", lambda stood: len(set(stood["at"])) >= 3 and len(stood["at"]) > 9)
+    assert len(set(seen["stands"])) == 1, seen
+
+
 def test_steps_stack_and_setting_a_value(page):
     set_breakpoint(page, 11)
     halted(page, 11)
@@ -173,3 +194,60 @@ def test_the_pendant_and_the_debugger_pause_the_same_and_time_is_stepped(page):
     for pace in ("0.1", "100", "1"):
         page.get_by_label("Pace of time").select_option(pace)
         until(page, "window.pace", lambda told, wanted=float(pace): told == wanted)
+
+
+FAR = """MODULE first
+  PROC main()
+    WHILE TRUE DO
+      WaitTime 2;
+      deep;
+    ENDWHILE
+  ENDPROC
+ENDMODULE
+"""
+DEEP = f"""MODULE second
+  PROC deep()
+    WaitTime 0.5;
+    {"! Far below." + chr(10) * 96}
+    WaitTime 3;
+  ENDPROC
+ENDMODULE
+"""
+# Sources that are asked for come only after `come()`; `at` is where the program is.
+LATE = """() => {
+  const { link } = rapidgen, ask = link.ask.bind(link);
+  const coming = new Promise((come) => { window.come = come; });
+  link.ask = async (request) => {
+    if (request.do === "source") await coming;
+    return ask(request);
+  };
+  link.on("pointers", ({ tasks }) => { window.at = tasks[0].stack.at(-1); });
+}"""
+IN_VIEW = """(() => {
+  const source = document.querySelector(".source"), frame = source.getBoundingClientRect();
+  const lines = source.shadowRoot.querySelectorAll(".cm-lineNumbers .cm-gutterElement");
+  return [...lines].filter((line) => {
+    const { top, bottom } = line.getBoundingClientRect();
+    return top >= frame.top && bottom <= frame.bottom;
+  }).map((line) => line.textContent);
+})()"""
+
+
+def test_where_the_program_is_by_then_is_shown_when_its_text_comes(tmp_path, open_page):
+    """It was where it had been as the text was asked for."""
+    for name, text in (("first", FAR), ("second", DEEP)):
+        (tmp_path / f"{name}.mod").write_text(text)
+    last = DEEP[: DEEP.index("WaitTime 3")].count("\n") + 1
+    with simulator(str(tmp_path / "first.mod"), str(tmp_path / "second.mod")) as (ready, _):
+        page = open_page(ready["view"])
+        until(page, f"window.rapidgen && {SEEN}.text", lambda text: "MODULE first" in text)
+        page.evaluate(LATE)
+        until(page, "window.at", lambda at: at and at["module"] == "first")
+        page.get_by_role("tab", name="Program").click()
+        until(page, "at", lambda at: (at["module"], at["line"]) == ("second", last))
+        page.locator("#panel-program").get_by_role("button", name="Pause").click()
+        until(page, HALTED)
+        page.evaluate("come()")
+        until(page, f"{SEEN}.text", lambda text: "MODULE second" in text)
+        until(page, IN_VIEW, lambda lines: str(last) in lines)
+        page.close()

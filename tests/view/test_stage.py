@@ -123,3 +123,28 @@ def test_the_tcp_is_dragged_by_the_mouse_and_typed(ready, open_page):
     page.get_by_label("TCP x of rob1 in mm").fill("5000")
     page.get_by_label("TCP x of rob1 in mm").press("Enter")
     page.get_by_text("does not reach").wait_for()
+
+
+# Without letting the page hear anything between them.
+AT_ONCE = """([names, values, event]) => names.forEach((name, i) => {
+  const input = document.querySelector(`input[aria-label="${name}"]`);
+  input.value = values[i];
+  input.dispatchEvent(new Event(event));
+})"""
+
+
+def test_what_is_asked_for_first_stays_when_the_next_one_comes_at_once(ready, open_page):
+    """Each order said where all axes were, and so took the one before it back."""
+    page = open_page(ready["view"])
+    stopped(page)
+    page.get_by_role("tab", name="Axes").click()
+    shown = page.locator(".axes input").evaluate_all("all => all.map(own => own.ariaLabel)")
+    names = [shown[0], shown[3]]
+    page.evaluate(AT_ONCE, [names, [0.2, 0.1], "input"])
+    axes = until(page, f"{STATE}.groups[0].axes", lambda axes: axes[3] == pytest.approx(0.1))
+    assert axes[0] == pytest.approx(0.2)
+    x, y, _ = page.evaluate(f"{STATE}.groups[0].tcp.position")
+    names = [f"TCP {axis} of rob1 in mm" for axis in "xy"]
+    page.evaluate(AT_ONCE, [names, [1000 * x - 10, 1000 * y + 20], "change"])
+    until(page, f"{STATE}.groups[0].tcp.position[1]", lambda at: at == pytest.approx(y + 0.02))
+    assert page.evaluate(f"{STATE}.groups[0].tcp.position[0]") == pytest.approx(x - 0.01)

@@ -97,19 +97,27 @@ class MotionAspect:
         joints = group.config.joints
         if len(request.axes) != len(joints):
             raise Declined(f"{group.name} has {len(joints)} axes")
-        self._put(group, request.axes)
+        here = group.positions()
+        axes = (
+            own if own is not None else now for own, now in zip(request.axes, here, strict=True)
+        )
+        self._put(group, tuple(axes))
         return ""
 
     def _jog_to(self, request: Request) -> str:
         assert isinstance(request, JogTo)
         group = self._group(request.group)
         carried, kinematics = self._carried(group), group.kinematics
-        if kinematics is None or not carried.held:
+        now = carried.tcp(kinematics, group.positions())
+        if kinematics is None or now is None or not carried.held:
             raise Declined(f"{group.name} does not carry its TCP")
-        if not any(request.orientation):
+        turned = request.orientation or now[1]
+        if not any(turned):
             raise Declined("this is no orientation")
-        tcp = (request.position, frames.normalise(request.orientation))
-        flange = frames.compose(tcp, frames.invert(carried.tool))
+        x, y, z = (
+            own if own is not None else at for own, at in zip(request.position, now[0], strict=True)
+        )
+        flange = frames.compose(((x, y, z), frames.normalise(turned)), frames.invert(carried.tool))
         found = kinematics.follow(flange, group.positions())
         if found is None:
             raise Declined("the TCP does not reach that place as the arm is bent now")

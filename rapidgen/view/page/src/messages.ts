@@ -157,19 +157,19 @@ export interface HeldValues {
   readonly watch: readonly SeenValue[];
 }
 
-/** Put a standing robot elsewhere: controller axes in wire order. */
+/** Put a standing robot elsewhere: controller axes in wire order; None: where it is. */
 export interface Jog {
   readonly do: "jog";
   readonly group: string;
-  readonly axes: readonly number[];
+  readonly axes: readonly (number | null)[];
 }
 
-/** Put a standing robot where its TCP is at a place (of its world), on the same branch. */
+/** Put a standing robot where its TCP is at a place (of its world), on the same branch. None: as it is. */
 export interface JogTo {
   readonly do: "jog-to";
   readonly group: string;
-  readonly position: readonly [number, number, number];
-  readonly orientation: readonly [number, number, number, number];
+  readonly position: readonly [number | null, number | null, number | null];
+  readonly orientation: readonly [number, number, number, number] | null;
 }
 
 /** Tell what sockets say from now on, or no more. */

@@ -24,7 +24,6 @@ class RobotAxes {
   private readonly rows: AxisRow[];
   private readonly pose = h("output", { class: "pose" });
   private readonly place: HTMLInputElement[];
-  private state: RobotPlace | undefined;
 
   constructor(private readonly group: SeenRobot, commands: boolean, private readonly view: View) {
     this.rows = group.axes.map((axis, i) => new AxisRow(axis, commands, (value) => this.jog(i, value)));
@@ -45,7 +44,6 @@ class RobotAxes {
 
   show(state: RobotPlace | undefined): void {
     if (!state) return;
-    this.state = state;
     this.rows.forEach((row, i) => row.show(state.axes[i] ?? 0));
     if (state.tcp) {
       const [x, y, z] = state.tcp.position.map((value) => (value * 1000).toFixed(1));
@@ -57,16 +55,15 @@ class RobotAxes {
     }
   }
 
+  // What is not asked for stays as it is when the order arrives, which is not known here yet.
+
   private jogTo(index: number, value: number): void {
-    const tcp = this.state?.tcp;
-    if (!tcp) return;
-    const position = tcp.position.map((own, i) => (i === index ? value : own)) as [number, number, number];
-    this.view.order({ do: "jog-to", group: this.group.name, position, orientation: tcp.orientation });
+    const at = (i: number): number | null => (i === index ? value : null);
+    this.view.order({ do: "jog-to", group: this.group.name, position: [at(0), at(1), at(2)], orientation: null });
   }
 
   private jog(index: number, value: number): void {
-    if (!this.state) return;
-    this.view.order({ do: "jog", group: this.group.name, axes: this.state.axes.with(index, value) });
+    this.view.order({ do: "jog", group: this.group.name, axes: this.rows.map((_, i) => (i === index ? value : null)) });
   }
 
   private async copy(form: Copy["form"], name: string): Promise<void> {

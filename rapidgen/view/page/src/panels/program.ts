@@ -30,6 +30,7 @@ class ProgramPanel {
   private task = "";
   private module = "";
   private template = ""; // instead of the module that it has made
+  private opening = Promise.resolve(); // the text of what is to be read
   private level = -1;
   private visible = false;
   private pointers: Pointers | null = null;
@@ -164,8 +165,13 @@ class ProgramPanel {
     void this.open(names.includes(this.module) ? this.module : names[0] ?? "", true).then(() => this.point(true));
   }
 
-  private async open(module: string, again = false): Promise<void> {
-    if ((module === this.module && !this.template && !again) || !module) return;
+  /** Read a module; resolves when its text is there. */
+  private open(module: string, again = false): Promise<void> {
+    if (module && (module !== this.module || this.template || again)) this.opening = this.opened(module);
+    return this.opening;
+  }
+
+  private async opened(module: string): Promise<void> {
     this.module = this.modules.value = module;
     this.template = "";
     const text = await this.sources.text(this.task, module).catch((why: Error) => `! ${why.message}`);
@@ -214,7 +220,9 @@ class ProgramPanel {
     if (place && this.follow.checked) {
       const go = jump || this.template !== "" || place.module !== this.module || this.debugging?.halt;
       void this.open(place.module).then(() => {
-        if (go || this.editor.seen.program !== place.line) this.editor.go(place.line);
+        // It has gone on, or something else is read, by the time that the text has come.
+        const now = this.place;
+        if (now?.module === this.module && !this.template && (go || this.editor.seen.program !== now.line)) this.editor.go(now.line);
         this.mark();
       });
     } else {

@@ -193,11 +193,14 @@ export class SourceEditor {
     this.view.dispatch({ effects: setMarks.of(marks) });
   }
 
-  /** Bring a line into view, and the cursor into it. */
+  /** Bring a line into view, and the cursor into it. What is in view stays: somebody may point at a line. */
   go(line: number): void {
     const doc = this.view.state.doc;
     const { from } = doc.line(Math.min(Math.max(line, 1), doc.lines));
-    this.view.dispatch({ selection: { anchor: from }, effects: EditorView.scrollIntoView(from, { y: "center" }) });
+    const { top, bottom } = this.view.lineBlockAt(from);
+    const { scrollTop, clientHeight } = this.view.scrollDOM;
+    const inView = top >= scrollTop && bottom <= scrollTop + clientHeight - this.view.documentPadding.top;
+    this.view.dispatch({ selection: { anchor: from }, effects: inView ? [] : EditorView.scrollIntoView(from, { y: "center" }) });
   }
 
   /** For tests: what is written and marked. */
