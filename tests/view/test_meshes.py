@@ -123,3 +123,5 @@ def test_meshes_that_come_late_do_not_turn_the_picture_under_a_hand(tmp_path, op
         page.get_by_role("button", name="Clear trail").click()
         until(page, "rapidgen.stage.drawn.pictures", lambda pictures: pictures > drawn)
         assert (page.evaluate("rapidgen.stage.eye()") == before) == held
+        # Before its simulator goes, which it would tell.
+        page.close()
