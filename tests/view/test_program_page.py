@@ -196,12 +196,11 @@ def test_the_pendant_and_the_debugger_pause_the_same_and_time_is_stepped(page):
         until(page, "window.pace", lambda told, wanted=float(pace): told == wanted)
 
 
-FAR = """MODULE first
+ASKING = """MODULE first
   PROC main()
-    WHILE TRUE DO
-      WaitTime 2;
-      deep;
-    ENDWHILE
+    VAR num key;
+    TPReadFK key, "Go on?", "yes", stEmpty, stEmpty, stEmpty, stEmpty;
+    deep;
   ENDPROC
 ENDMODULE
 """
@@ -209,7 +208,7 @@ DEEP = f"""MODULE second
   PROC deep()
     WaitTime 0.5;
     {"! Far below." + chr(10) * 96}
-    WaitTime 3;
+    WaitTime 1000;
   ENDPROC
 ENDMODULE
 """
@@ -235,16 +234,17 @@ IN_VIEW = """(() => {
 
 def test_where_the_program_is_by_then_is_shown_when_its_text_comes(tmp_path, open_page):
     """It was where it had been as the text was asked for."""
-    for name, text in (("first", FAR), ("second", DEEP)):
+    for name, text in (("first", ASKING), ("second", DEEP)):
         (tmp_path / f"{name}.mod").write_text(text)
-    last = DEEP[: DEEP.index("WaitTime 3")].count("\n") + 1
+    last = DEEP[: DEEP.index("WaitTime 1000")].count("\n") + 1
     with simulator(str(tmp_path / "first.mod"), str(tmp_path / "second.mod")) as (ready, _):
         page = open_page(ready["view"])
-        until(page, f"window.rapidgen && {SEEN}.text", lambda text: "MODULE first" in text)
-        page.evaluate(LATE)
-        until(page, "window.at", lambda at: at and at["module"] == "first")
+        page.get_by_role("button", name="yes").wait_for()
         page.get_by_role("tab", name="Program").click()
-        until(page, "at", lambda at: (at["module"], at["line"]) == ("second", last))
+        until(page, f"{SEEN}.text", lambda text: "MODULE first" in text)
+        page.evaluate(LATE)
+        page.get_by_role("button", name="yes", include_hidden=True).evaluate("own => own.click()")
+        until(page, "window.at", lambda at: at and (at["module"], at["line"]) == ("second", last))
         page.locator("#panel-program").get_by_role("button", name="Pause").click()
         until(page, HALTED)
         page.evaluate("come()")
