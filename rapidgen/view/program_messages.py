@@ -142,9 +142,11 @@ class ReadOrigin(Spoken):
 
 
 class SetBreakpoint(Spoken):
-    """A new one; the reply's text is its number."""
+    """A new one, or another wish for one that is there; the reply's text is its number."""
 
     do: Literal["break"] = "break"
+    number: int = 0
+    """0: a new one."""
     module: Name
     line: Line
     task: Name = ""

@@ -82,6 +82,30 @@ def test_hostile_texts_stay_texts(tmp_path, open_page):
         page.close()
 
 
+ASKS = """MODULE {task}
+  PROC main()
+    VAR num typed;
+    WaitTime {after};
+    TPReadNum typed, "{task}?";
+    WaitTime 1000;
+  ENDPROC
+ENDMODULE
+"""
+
+
+def test_an_answer_that_is_typed_stays_as_another_task_asks(tmp_path, open_page):
+    files = []
+    for task, after in (("one", 0), ("two", 4)):
+        files.append(tmp_path / f"{task}.mod")
+        files[-1].write_text(ASKS.format(task=task, after=after))
+    with simulator(str(files[0]), "--task", f"T_BACK={files[1]}") as (ready, _):
+        page = open_page(ready["view"])
+        page.get_by_label("one?").fill("42")
+        page.get_by_label("two?").wait_for()
+        assert page.get_by_label("one?").input_value() == "42"
+        page.close()
+
+
 def test_a_simulator_that_comes_back_is_found_again(open_page, monkeypatch):
     token = {"RAPIDGEN_VIEW_TOKEN": "0123456789abcdef-test"}
     with simulator("irb120", environment=token) as (ready, process):

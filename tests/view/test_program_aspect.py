@@ -71,12 +71,29 @@ def test_sources_pointers_and_a_breakpoint(viewer):
     assert [v["text"] for v in viewer.told["held"]["watch"]] == ["8", "(nobody is not known here)"]
 
 
+def test_a_breakpoint_of_which_something_else_is_wanted_stays_the_same_one(viewer):
+    """It was taken away and set anew, so that a wish that is refused lost it."""
+    assert viewer.ask("break", module="work", line=17, log="here") == "1"
+    viewer.pass_time(10)
+    (point,) = viewer.told["debugging"]["breakpoints"]
+    assert (point["number"], point["log"], point["count"] > 0) == (1, "here", True)
+    assert "no number of passes" in viewer.ask("break", number=1, module="work", line=17, hits="?")
+    viewer.hub.look()
+    assert viewer.told["debugging"]["breakpoints"] == [point]
+    asked = viewer.ask("break", number=1, module="work", line=17, condition="n > 1000", log="far")
+    assert asked == "1"
+    viewer.pass_time(10)
+    (now,) = viewer.told["debugging"]["breakpoints"]
+    assert now == {**point, "condition": "n > 1000", "log": "far", "count": 0}
+
+
 @pytest.mark.parametrize(
     ("do", "request_", "error"),
     [
         ("break", {"module": "work", "line": 900}, "no statement begins there"),
         ("break", {"module": "nobody", "line": 1}, "no statement begins there"),
         ("break", {"module": "work", "line": 10, "hits": "often"}, "no number of passes"),
+        ("break", {"module": "work", "line": 10, "number": 7}, "has been taken away"),
         ("break", {"module": "work", "line": 0}, "not understood"),
         ("break", {"module": "x" * 300, "line": 1}, "not understood"),
         ("drive", {"how": "resume"}, "nothing is paused"),

@@ -168,6 +168,27 @@ def test_a_condition_a_hover_and_a_log_point(page):
     )
 
 
+def test_what_is_typed_at_a_breakpoint_stays_while_its_passes_are_counted(page):
+    set_breakpoint(page, 11)
+    halted(page, 11)
+    condition, passes = page.get_by_placeholder("Condition"), page.get_by_placeholder("Pass")
+    page.get_by_placeholder("Tell, do not pause").fill("{i}")
+    page.get_by_role("button", name="Go on").click()
+    condition.press_sequentially("i < ")
+    reached = "document.querySelector('.points small').textContent"
+    before = page.evaluate(reached)
+    until(page, reached, lambda text: text != before)
+    condition.press_sequentially("0")
+    assert condition.input_value() == "i < 0"
+    condition.press("Tab")
+    until(page, reached, lambda text: text == "reached 0 ×")
+    passes.press_sequentially("often")
+    passes.press("Enter")
+    page.get_by_text("no number of passes").wait_for()
+    assert page.evaluate(f"{SEEN}.breakpoints") == [11]
+    assert condition.input_value() == "i < 0"
+
+
 def test_lines_are_counted(page):
     page.get_by_text("Count how often lines are reached").click()
     page.locator(".cm-covered .cm-reached").first.wait_for()

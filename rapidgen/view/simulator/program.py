@@ -188,7 +188,12 @@ class ProgramAspect:
             request.log,
         )
         try:
-            placed = self._debugger.add(asked)
+            if request.number:
+                placed = self._debugger.change(request.number, asked)
+            else:
+                placed = self._debugger.add(asked)
+        except KeyError as error:
+            raise Declined("that breakpoint has been taken away") from error
         except ValueError as error:
             raise Declined(str(error)) from error
         if not placed.line:

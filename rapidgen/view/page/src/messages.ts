@@ -440,9 +440,10 @@ export interface SeenValue {
   readonly settable: boolean;
 }
 
-/** A new one; the reply's text is its number. */
+/** A new one, or another wish for one that is there; the reply's text is its number. */
 export interface SetBreakpoint {
   readonly do: "break";
+  readonly number: number;
   readonly module: string;
   readonly line: number;
   readonly task: string;

@@ -4,6 +4,7 @@ import { Asked } from "../asked";
 import { h, say, section } from "../dom";
 import type { Act, Afflict, ShownSocket, SpokenLine } from "../messages";
 import type { MakePanel, View } from "../panel";
+import { Rows, type Row } from "../rows";
 
 const FAULTS: readonly (readonly [Act["action"], string])[] =
   [["e-stop", "Emergency stop"], ["motors-off", "Motors off"], ["stop", "Program stop"], ["power-loss", "Power failure"]];
@@ -14,7 +15,9 @@ const MOST = 1000; // lines that are kept
 
 export const connectionsPanel: MakePanel = (view) => {
   const body = h("tbody", {});
-  view.link.on("connections", ({ sockets }) => body.replaceChildren(...sockets.map((socket) => row(socket, view))));
+  const rows = new Rows<ShownSocket>(body,
+    ({ number, task, local, peer, status }) => JSON.stringify([number, task, local, peer, status]), (socket) => row(socket, view));
+  view.link.on("connections", ({ sockets }) => rows.show(sockets));
   const faults = FAULTS.map(([action, text]) =>
     h("button", { type: "button", onclick: () => view.order({ do: "act", action }) }, text));
   const log = new ProtocolLog(view);
@@ -28,18 +31,20 @@ export const connectionsPanel: MakePanel = (view) => {
   };
 };
 
-function row(socket: ShownSocket, { order }: View): HTMLElement {
-  const ill: HTMLSelectElement = h("select", { "aria-label": `How ${socket.peer} fares`,
-    onchange: () => order({ do: "afflict", number: socket.number, ailment: ill.value as Afflict["ailment"] }) },
-    ...AILMENTS.map(([value, text]) => h("option", { value, selected: value === socket.ailment }, text)));
-  return h("tr", {},
+function row(socket: ShownSocket, view: View): Row<ShownSocket> {
+  const ill: HTMLSelectElement = h("select", { "aria-label": `How ${socket.peer} fares`, onchange: () =>
+    void fares.ask({ do: "afflict", number: socket.number, ailment: ill.value as Afflict["ailment"] }) },
+    ...AILMENTS.map(([value, text]) => h("option", { value }, text)));
+  const fares = new Asked<Afflict["ailment"]>(view, (ailment) => { ill.value = ailment; });
+  const element = h("tr", {},
     h("th", { scope: "row" }, socket.peer || `${socket.status} on ${socket.local}`,
       h("small", {}, `${socket.task}${socket.peer ? ` · ${socket.local}` : ""}`)),
     h("td", {}, socket.peer ? h("div", { class: "row commands" }, ill,
-      h("button", { type: "button", onclick: () => order({ do: "cut", number: socket.number }) }, "Cut")) : null));
+      h("button", { type: "button", onclick: () => view.order({ do: "cut", number: socket.number }) }, "Cut")) : null));
+  return { element, show: (now) => fares.tell(now.ailment) };
 }
 
-interface Row {
+interface Said {
   line: SpokenLine;
   count: number;
 }
@@ -80,8 +85,8 @@ class ProtocolLog {
   /** The latest first; what comes again and again is one row. */
   private draw(): void {
     const wanted = this.words.value.trim().toLowerCase();
-    const rows: Row[] = [];
-    const runs = new Map<string, { way: string; rows: Map<string, Row> }>();
+    const rows: Said[] = [];
+    const runs = new Map<string, { way: string; rows: Map<string, Said> }>();
     for (const line of this.lines) {
       if (wanted && !`${line.name} ${line.text} ${line.task} ${line.peer}`.toLowerCase().includes(wanted)) continue;
       const who = `${line.task} ${line.peer}`;

@@ -4,6 +4,7 @@ import { Asked } from "../asked";
 import { Choice, h, say, section } from "../dom";
 import type { Act, Dialog, PanelState } from "../messages";
 import type { MakePanel } from "../panel";
+import { Rows } from "../rows";
 
 const STEPS = [[0.004, "4 ms"], [0.024, "24 ms"], [0.1, "0.1 s"], [1, "1 s"]] as const;
 const PACES = [0.1, 0.25, 0.5, 1, 2, 5, 10, 50, 100];
@@ -53,6 +54,9 @@ export const pendantPanel: MakePanel = (view) => {
   const tasks = h("tbody", {});
   const rows = h("pre", { class: "screen", "aria-label": "Operator window", tabindex: 0 });
   const dialogs = h("div", { class: "dialogs", "aria-live": "polite" });
+  const questions = new Rows<Dialog>(dialogs, (question) => JSON.stringify(question), (question) => ({
+    element: dialog(question, (value) => order({ do: "answer", number: question.number, value })),
+  }));
 
   link.on("panel", (now) => {
     status = now;
@@ -68,8 +72,7 @@ export const pendantPanel: MakePanel = (view) => {
   });
   link.on("screen", (screen) => say(rows, screen.rows.join("\n")));
   link.on("dialogs", ({ waiting }) => {
-    dialogs.replaceChildren(...waiting.map((question) => dialog(question, (value) =>
-      order({ do: "answer", number: question.number, value }))));
+    questions.show(waiting);
   });
 
   const element = h("div", { class: "panel" },

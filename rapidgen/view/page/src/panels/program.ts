@@ -2,10 +2,11 @@
 
 import { Asked } from "../asked";
 import { h, say, section } from "../dom";
-import type { Debugging, Proceed, Pointers, SeenBreakpoint, SeenPlace, SeenValue } from "../messages";
+import type { Debugging, Proceed, Pointers, SeenPlace, SeenValue } from "../messages";
 import type { MakePanel, View } from "../panel";
 import { SourceEditor } from "../program/editor";
 import { Origins } from "../program/origin";
+import { Points } from "../program/points";
 import { Sources } from "../program/sources";
 
 const REASONS = { breakpoint: "At a breakpoint", step: "Stepped", cursor: "At the cursor", error: "Error", pause: "Paused", time: "Paused after a time step" };
@@ -64,12 +65,13 @@ class ProgramPanel {
   private readonly stack = h("ol", { class: "stack" });
   private readonly variables = h("table", { class: "values" });
   private readonly watch = h("table", { class: "values" });
-  private readonly points = h("ul", { class: "points" });
+  private readonly points: Points;
   private readonly output = h("pre", { class: "screen", "aria-label": "Log points", tabindex: 0 });
 
   constructor(private readonly view: View) {
     const { link } = view;
     this.pauses = new Asked(view, (errors) => { this.errors.value = errors; });
+    this.points = new Points(view);
     this.sources = new Sources(link);
     this.origins = new Origins(link, this.sources, {
       module: (name, line) => void this.read(name, line),
@@ -96,7 +98,7 @@ class ProgramPanel {
       section("Call stack", this.stack),
       live(section("Values", this.variables)),
       section("Watch list", this.watch, live(add)),
-      live(section("Breakpoints", this.points, h("div", { class: "row" }, this.errors),
+      live(section("Breakpoints", this.points.element, h("div", { class: "row" }, this.errors),
         h("label", { class: "row" }, this.counts, "Count how often lines are reached"))),
       live(section("Log points", this.output)),
       live(h("p", { class: "soft" }, "Everything pauses, time and robots included. A step does not enter traps, event routines and " +
@@ -252,11 +254,7 @@ class ProgramPanel {
     if (this.template) return this.view.notice("Breakpoints are set in modules, not in templates", "fault");
     const there = this.debugging?.breakpoints.find((point) => point.line === line && point.module === this.module);
     if (there) this.view.order({ do: "unbreak", number: there.number });
-    else this.set({ module: this.module, line });
-  }
-
-  private set(point: { module: string; line: number; task?: string; condition?: string; hits?: string; log?: string }): void {
-    this.view.order({ do: "break", task: "", condition: "", hits: "", log: "", ...point });
+    else this.view.order({ do: "break", number: 0, task: "", module: this.module, line, condition: "", hits: "", log: "" });
   }
 
   private watchAll(expressions: readonly string[]): void {
@@ -276,7 +274,7 @@ class ProgramPanel {
       if (halt.task && halt.task !== this.task && halt !== before?.halt) this.choose(halt.task);
     }
     this.pauses.tell(debugging.errors);
-    this.points.replaceChildren(...debugging.breakpoints.map((point) => this.pointRow(point)));
+    this.points.show(debugging.breakpoints);
     say(this.output, debugging.output.join("\n"));
     this.point();
   }
@@ -309,26 +307,5 @@ class ProgramPanel {
       : h("span", { class: "soft" }, value.text);
     return h("tr", {}, h("th", { scope: "row", title: value.kind }, value.name), h("td", {}, text),
       remove ? h("td", { class: "live" }, h("button", { type: "button", class: "quiet", "aria-label": `Do not watch ${value.name}`, onclick: remove }, "×")) : null);
-  }
-
-  private pointRow(point: SeenBreakpoint): HTMLElement {
-    const field = (name: "condition" | "hits" | "log", hint: string): HTMLInputElement => {
-      const input: HTMLInputElement = h("input", {
-        type: "text", value: point[name], placeholder: hint, "aria-label": `${hint} of line ${point.line}`,
-        onchange: () => {
-          this.view.order({ do: "unbreak", number: point.number });
-          this.set({ module: point.module, line: point.line, task: point.task, condition: point.condition,
-            hits: point.hits, log: point.log, [name]: input.value });
-        },
-      });
-      return input;
-    };
-    return h("li", {},
-      h("div", { class: "row" }, h("b", {}, `${point.module}, line ${point.line}`), h("small", { class: "soft" }, `reached ${point.count} ×`),
-        h("span", { class: "space" }),
-        h("button", { type: "button", class: "quiet", "aria-label": `Remove the breakpoint of line ${point.line}`,
-          onclick: () => this.view.order({ do: "unbreak", number: point.number }) }, "×")),
-      h("div", { class: "row" }, field("condition", "Condition"), field("hits", "Pass"), field("log", "Tell, do not pause")),
-      point.doubt ? h("p", { class: "soft" }, point.doubt) : null);
   }
 }
