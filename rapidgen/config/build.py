@@ -211,6 +211,10 @@ def _group(
     kept = kept_axes(draft, dict(keys.keep.items()), path, report)
     names = {joint.name for joint in draft.joints}
     _check_ceiling(keys.tcp_speed_limit, (*path, "tcp_speed_limit"), report)
+    if report.is_faulty((*path, "joints")):
+        # Which joints there are was not understood: no chain is held against them.
+        report.mute((*path, "chain"))
+        report.mute((*path, "positioners"))
     _chain(draft.chain, (*path, "chain"), names, "`joints`", report)
     external = {joint.name for joint in joints if joint.axis.startswith("eax")}
     for unit, chain in list(draft.positioners.items()):

@@ -460,6 +460,13 @@ def test_an_axis_of_length_0_turns_nothing(tmp_path):
     assert places(faults(tmp_path, text)) == [("RG014", 3, 20), ("RG014", 3, 46)]
 
 
+@pytest.mark.parametrize("joints", ["[{name: joint_1}]", "6"])
+def test_joints_that_are_no_mapping_are_one_fault(tmp_path, joints):
+    """Each step of the model's chain was one more, in a file that is not the user's."""
+    (found,) = faults(tmp_path, f"model: irb120_track\njoints: {joints}\n")
+    assert (found.code, found.message) == ("RG006", "'joints': must be a mapping")
+
+
 def test_data_have_one_name_each_and_need_the_control_port(tmp_path):
     text = (
         "model: irb120\n"
