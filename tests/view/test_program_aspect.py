@@ -85,6 +85,11 @@ def test_a_breakpoint_of_which_something_else_is_wanted_stays_the_same_one(viewe
     viewer.pass_time(10)
     (now,) = viewer.told["debugging"]["breakpoints"]
     assert now == {**point, "condition": "n > 1000", "log": "far", "count": 0}
+    # Where its statement has gone, too: a module was loaded anew without it.
+    assert viewer.ask("break", number=1, module="work", line=900, log="far") == "1"
+    viewer.hub.look()
+    (now,) = viewer.told["debugging"]["breakpoints"]
+    assert (now["number"], now["doubt"]) == (1, "no statement begins there")
 
 
 @pytest.mark.parametrize(

@@ -189,9 +189,10 @@ class ProgramAspect:
         )
         try:
             if request.number:
-                placed = self._debugger.change(request.number, asked)
-            else:
-                placed = self._debugger.add(asked)
+                self._debugger.change(request.number, asked)
+                self._keep()
+                return str(request.number)
+            placed = self._debugger.add(asked)
         except KeyError as error:
             raise Declined("that breakpoint has been taken away") from error
         except ValueError as error:
