@@ -189,6 +189,36 @@ def test_what_is_typed_at_a_breakpoint_stays_while_its_passes_are_counted(page):
     assert condition.input_value() == "i < 0"
 
 
+# What is asked of breakpoints goes out only after `go()`.
+HELD = """() => {
+  const { link } = rapidgen, ask = link.ask.bind(link);
+  const going = new Promise((go) => { window.go = go; });
+  link.ask = async (request) => {
+    if (request.do === "break") await going;
+    return ask(request);
+  };
+}"""
+
+
+def test_older_news_do_not_take_back_what_is_asked_of_a_breakpoint(page):
+    set_breakpoint(page, 11)
+    halted(page, 11)
+    condition = page.get_by_placeholder("Condition")
+    page.get_by_placeholder("Tell, do not pause").fill("{i}")
+    page.get_by_role("button", name="Go on").click()
+    reached = "document.querySelector('.points small').textContent"
+    until(page, f"{SEEN}.halted", lambda at: at is None)
+    page.evaluate(HELD)
+    condition.fill("i < 0")
+    condition.press("Tab")
+    before = page.evaluate(reached)
+    until(page, reached, lambda text: text != before)
+    assert condition.input_value() == "i < 0"
+    page.evaluate("go()")
+    until(page, reached, lambda text: text == "reached 0 ×")
+    assert condition.input_value() == "i < 0"
+
+
 def test_lines_are_counted(page):
     page.get_by_text("Count how often lines are reached").click()
     page.locator(".cm-covered .cm-reached").first.wait_for()

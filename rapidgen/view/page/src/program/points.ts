@@ -1,5 +1,6 @@
 // Breakpoints: where they lie, how often they were reached, and what may be asked of each.
 
+import { Asked } from "../asked";
 import { h, say } from "../dom";
 import type { SeenBreakpoint } from "../messages";
 import type { View } from "../panel";
@@ -24,13 +25,15 @@ class PointRow implements Row<SeenBreakpoint> {
   private readonly count = h("small", { class: "soft" });
   private readonly doubt = h("p", { class: "soft" });
   private readonly fields: Record<"condition" | "hits" | "log", HTMLInputElement>;
+  private readonly wishes: Asked<SeenBreakpoint>;
 
   constructor({ number, task, module, line }: SeenBreakpoint, view: View) {
     // All that is written here goes out: what was written last may not have come back yet.
-    const change = (): void => void view.order({ do: "break", number, task, module, line,
+    const change = (): void => void this.wishes.ask({ do: "break", number, task, module, line,
       condition: this.fields.condition.value, hits: this.fields.hits.value, log: this.fields.log.value });
     const field = (hint: string): HTMLInputElement =>
       h("input", { type: "text", placeholder: hint, "aria-label": `${hint} of line ${line}`, onchange: change });
+    this.wishes = new Asked(view, (point) => this.write(point));
     this.fields = { condition: field("Condition"), hits: field("Pass"), log: field("Tell, do not pause") };
     this.element = h("li", {},
       h("div", { class: "row" }, h("b", {}, `${module}, line ${line}`), this.count, h("span", { class: "space" }),
@@ -43,6 +46,10 @@ class PointRow implements Row<SeenBreakpoint> {
     say(this.count, `reached ${point.count} ×`);
     say(this.doubt, point.doubt);
     this.doubt.hidden = !point.doubt;
+    this.wishes.tell(point);
+  }
+
+  private write(point: SeenBreakpoint): void {
     for (const [name, input] of Object.entries(this.fields) as [keyof PointRow["fields"], HTMLInputElement][])
       if (document.activeElement !== input) input.value = point[name];
   }
