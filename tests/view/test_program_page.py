@@ -94,22 +94,26 @@ def test_the_pointer_does_not_pass_a_breakpoint(page):
     halted(page, 17)
 
 
-# Where its source stands and how far it is scrolled, whenever the program's pointer has moved.
+# Where its source and the last of its controls stand, and how far the source is scrolled, whenever
+# the program's pointer has moved.
 STANDS = """() => {
   const source = document.querySelector(".source"), { link, panels } = rapidgen;
+  const control = document.getElementById("counts");
   const at = [], stands = [];
   link.on("pointers", () => requestAnimationFrame(() => {
     const { top } = source.getBoundingClientRect(), now = panels.program.seen.program;
     if (now === at.at(-1)) return;
     at.push(now);
-    stands.push(`${top} ${source.shadowRoot.querySelector(".cm-scroller").scrollTop}`);
+    const scrolled = source.shadowRoot.querySelector(".cm-scroller").scrollTop;
+    stands.push(`${top} ${scrolled} ${control.getBoundingClientRect().top}`);
   }));
   window.stood = { at, stands };
 }"""
 
 
-def test_lines_in_view_stay_under_the_mouse(page):
-    """The source was scrolled to where the program was, each time that this went on."""
+def test_lines_and_controls_stay_under_the_mouse(page):
+    """The source was scrolled to where the program was, each time that this went on, and what is
+    below the call stack moved with each call: a click that was held up hit something else."""
     page.evaluate(STANDS)
     seen = until(page, "stood", lambda stood: len(set(stood["at"])) >= 3 and len(stood["at"]) > 9)
     assert len(set(seen["stands"])) == 1, seen
