@@ -8,7 +8,7 @@ from typing import Final, Literal
 from rapidgen.controller.controller import VirtualController
 
 _MOST: Final = 50
-"""Starts."""
+"""Starts behind the first one."""
 Ended = Literal["finished", "time", "statements", "deadlock", "paused"]
 
 
@@ -24,10 +24,12 @@ def run_through(
     """
     until = controller.now + max_time
     guessed = controller.guessed
-    for _ in range(_MOST):
+    for starts in range(_MOST + 1):
         answers = len(guessed.answered)
         left = until - controller.now
         ended = controller.run(max_time=left, max_statements=max_statements)
+        if starts == _MOST:
+            break
         stands = [t for t in controller.rapid_tasks.values() if t.state == "stopped"]
         if ended == "finished" and guessed.is_guess and stands and controller.now < until:
             for top in (task.stack()[-1] for task in stands if task.stack()):

@@ -114,3 +114,25 @@ def test_behind_a_stop_somebody_presses_start(cell, starts, tmp_path):
     with VirtualController.from_files([path], cell=cell, cycle="once") as controller:
         run_through(controller, max_time=60)
         assert controller.guessed.answered == [("Stop at stops.mod:5", "start")] * starts
+
+
+FAILS = """MODULE fails
+ VAR num n;
+ PROC main()
+  WaitDI diStart, 1;
+  WaitDI diStart, 0;
+  n := n DIV 0;
+ ENDPROC
+ENDMODULE
+"""
+
+
+def test_what_fails_behind_each_answer_has_failed_in_the_end(tmp_path):
+    path = tmp_path / "fails.mod"
+    path.write_text(FAILS)
+    with VirtualController.from_files([path], cell="guess", cycle="once") as controller:
+        run_through(controller, max_time=600)
+        assert controller.guessed.stopped == [("fails.mod:6", "ERR_DIVZERO")] * 50
+        (task,) = controller.tasks.values()
+        assert task.fault is not None
+        assert task.fault.arguments[0] == "ERR_DIVZERO"
