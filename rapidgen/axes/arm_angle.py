@@ -14,17 +14,14 @@ public programs in wobj0, whose postures pose and arm angle tell.
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from math import atan2, pi
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 from rapidgen.axes import frames
-from rapidgen.axes.frames import Pose, Vector, error
+from rapidgen.axes.frames import Axis, Pose, Vector, error
 
 if TYPE_CHECKING:
     from rapidgen.axes.numeric import Search
 
-Axis: TypeAlias = tuple[Vector, Vector]
-"""A point and the direction of an axis."""
-_STEP = 1e-7
 _ROUNDS = 25
 _EXACT = 1e-9
 _LARGEST = 0.4
@@ -44,6 +41,33 @@ class ArmAngle:
         across = frames.cross(along, self.reference)
         elbow = axes[3][1]
         return atan2(-frames.dot(frames.cross(along, across), elbow), -frames.dot(across, elbow))
+
+    def slopes(self, axes: Sequence[Axis]) -> list[float]:
+        """How the angle changes with each of the seven axes.
+
+        The shoulder stays; the wrist moves with each axis but the last, axis 3 with those before.
+        """
+        dot, cross = frames.dot, frames.cross
+        shoulder, wrist = _foot(axes[0], axes[1]), _foot(axes[6], axes[5])
+        way = frames.subtract(wrist, shoulder)
+        length = frames.norm(way)
+        along = frames.scale(way, 1 / length)
+        across = cross(along, self.reference)
+        over = cross(along, across)
+        elbow = axes[3][1]
+        sine, cosine = -dot(over, elbow), -dot(across, elbow)
+        found = []
+        for n, (point, axis) in enumerate(axes):
+            moved = cross(axis, frames.subtract(wrist, point)) if n < 6 else frames.ORIGIN
+            turned = cross(axis, elbow) if n < 3 else frames.ORIGIN
+            moved = frames.subtract(moved, frames.scale(along, dot(along, moved)))
+            d_along = frames.scale(moved, 1 / length)
+            d_across = cross(d_along, self.reference)
+            d_over = frames.add(cross(d_along, across), cross(along, d_across))
+            d_sine = -dot(d_over, elbow) - dot(over, turned)
+            d_cosine = -dot(d_across, elbow) - dot(across, turned)
+            found.append((cosine * d_sine - sine * d_cosine) / (sine * sine + cosine * cosine))
+        return found
 
     def cfx(self, axes: Sequence[Axis], second: float, fifth: float) -> int:
         """cfx of an arm whose axes lie so, with its axes 2 and 5 (rad) [code].
@@ -76,26 +100,24 @@ class ArmAngle:
 
         from rapidgen.axes.numeric import solved
 
-        def off(values: Sequence[float]) -> list[float]:
-            flange, axes = search.lines(values)
-            turned = angle - self.of(axes)
-            return [*error(flange, pose), turned - 2 * pi * round(turned / (2 * pi))]
-
         values, last = list(start), 1e9
         for _ in range(_ROUNDS):
-            here = off(values)
+            flange, axes = search.lines(values)
+            turned = angle - self.of(axes)
+            here = (*error(flange, pose), turned - 2 * pi * round(turned / (2 * pi)))
             size = max(map(abs, here))
             if size < _EXACT:
                 return tuple(values)
             if size > 3 * last:
                 return None
             last = size
-            columns = []
-            for n in range(len(values)):
-                moved = values.copy()
-                moved[n] += _STEP
-                columns.append([(a - b) / _STEP for a, b in zip(here, off(moved), strict=True)])
-            jacobian = np.array(columns).T
+            columns = [
+                (*column, slope)
+                for column, slope in zip(
+                    search.columns(flange, axes), self.slopes(axes), strict=True
+                )
+            ]
+            jacobian = search.by_value(columns, len(values))
             normal = jacobian.T @ jacobian + 1e-8 * size * np.eye(len(values))
             step = solved(normal, jacobian.T @ np.array(here))
             share = min(1.0, _LARGEST / max(1e-12, float(np.max(np.abs(step)))))

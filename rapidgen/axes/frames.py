@@ -18,6 +18,8 @@ from rapidgen.config.vectors import unit as unit
 Quaternion: TypeAlias = tuple[float, float, float, float]
 Pose: TypeAlias = tuple[Vector, Quaternion]
 """Position and orientation of one frame in another."""
+Axis: TypeAlias = tuple[Vector, Vector]
+"""A point of an axis, and its direction."""
 Matrix: TypeAlias = tuple[Vector, Vector, Vector]
 """Rotation matrix by rows."""
 

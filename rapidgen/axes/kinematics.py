@@ -33,6 +33,8 @@ ConfigurationCheck: TypeAlias = Literal["turn", "quarter"]
 """How far axes 1, 4 and 6 may be from their quarters, see `Kinematics.room`."""
 _ENOUGH = 8
 """Postures that an iteration looks for."""
+_LONGER = 2
+"""Rounds behind the first in which it looks for a configuration: of an IRB 5400 two find all."""
 _NEAR = 1e-6
 _TURN = 2 * pi
 
@@ -124,12 +126,14 @@ class Kinematics:
             for postures in self.arm.rounds(pose, near):
                 yield from postures
 
-    def solutions(self, pose: Pose, near: Posture) -> list[Posture]:
+    def solutions(
+        self, pose: Pose, near: Posture, wanted: AxisConfiguration | None = None
+    ) -> list[Posture]:
         """All postures within the ranges that reach a pose, external axes as in `near`.
 
         Axes that can turn more than once appear with every turn. Closest to `near` first.
         Without a closed form: what iteration finds from `near` and from other starts, at least
-        one if there is any.
+        one if there is any; with `wanted` it looks longer for one of that configuration.
         """
         values = self.map.to_urdf(near)
         if self._four is not None:
@@ -141,12 +145,15 @@ class Kinematics:
         for posture in closed:
             found += [p for p in self._turned(posture) if not _known(p, found)]
         if not found and not self.is_closed_form:
+            fits = False
             for number, postures in enumerate(self.arm.rounds(pose, near)):
                 for posture in postures:
-                    found += [p for p in self._turned(posture) if not _known(p, found)]
-                    if len(found) >= _ENOUGH:
+                    new = [p for p in self._turned(posture) if not _known(p, found)]
+                    found += new
+                    fits = fits or any(wanted is None or self.misfit(p, wanted) == 0.0 for p in new)
+                    if fits and len(found) >= _ENOUGH:
                         break
-                if found and number >= 1:
+                if found and number >= (1 if fits else _LONGER):
                     break
         found.sort(key=lambda posture: _apart(posture, near))
         return found
@@ -217,13 +224,17 @@ class Kinematics:
 
     def at_arm_angle(self, pose: Pose, angle: float, near: Posture) -> Iterator[Posture]:
         """Postures within the ranges for a pose and an arm angle, as they are found from `near`."""
-        joint = self.group.joints[self.seventh]
+        place = self.seventh
+        joint = self.group.joints[place]
+        lower, upper = joint.lower - ROUNDING, joint.upper + ROUNDING
         found: list[Posture] = []
         for posture in self.arm.at_arm_angle(pose, angle, near):
-            for turned in sorted(self._turned(posture), key=lambda turn: _apart(turn, near)):
-                value = turned[self.seventh]
-                fits = joint.lower - ROUNDING <= value <= joint.upper + ROUNDING
-                if fits and not _known(turned, found):
+            value = posture[place] - _TURN * floor((posture[place] - lower) / _TURN)
+            if value > upper:
+                continue
+            placed = (*posture[:place], value, *posture[place + 1 :])
+            for turned in sorted(self._turned(placed), key=lambda turn: _apart(turn, near)):
+                if not _known(turned, found):
                     found.append(turned)
                     yield turned
 

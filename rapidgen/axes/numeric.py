@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rapidgen.axes import frames
-from rapidgen.axes.frames import Pose, Vector, multiply, subtract
+from rapidgen.axes.frames import Axis, Pose, Vector, multiply, subtract
 
 Floats: TypeAlias = NDArray[np.float64]
 Values = tuple[float, ...]
@@ -75,7 +75,7 @@ class Search:
         """The flange."""
         return self.lines(values)[0]
 
-    def lines(self, values: Sequence[float]) -> tuple[Pose, list[tuple[Vector, Vector]]]:
+    def lines(self, values: Sequence[float]) -> tuple[Pose, list[Axis]]:
         """The flange, and place and direction of each moving link's axis."""
         place: Vector = (0.0, 0.0, 0.0)
         q = frames.UNIT
@@ -103,7 +103,6 @@ class Search:
     def near(self, pose: Pose, start: Sequence[float]) -> Values | None:
         """Values that reach a pose, on the branch of a start; None: Newton does not get there."""
         values = list(start)
-        moving = [link for link in self.links if link.weights]
         last = 1e9
         for rounds in range(_ROUNDS):
             flange, axes = self.lines(values)
@@ -114,19 +113,7 @@ class Search:
             if size > 4 * last or (rounds > _HOPELESS and size > _FAR):
                 return None
             last = size
-            place = flange[0]
-            rows = [[0.0] * self.free for _ in range(6)]
-            for link, (at, direction) in zip(moving, axes, strict=True):
-                if link.slides:
-                    column = (*direction, 0.0, 0.0, 0.0)
-                else:
-                    column = (*frames.cross(direction, subtract(place, at)), *direction)
-                for n in range(self.free):
-                    weight = link.weights[n]
-                    if weight:
-                        for row, part in zip(rows, column, strict=True):
-                            row[n] += weight * part
-            jacobian = np.array(rows)
+            jacobian = self.by_value(self.columns(flange, axes), self.free)
             normal = jacobian.T @ jacobian
             normal.flat[:: self.free + 1] += _DAMPING * size
             step = solved(normal, jacobian.T @ np.array(error))
@@ -135,6 +122,32 @@ class Search:
             for n in range(self.free):
                 values[n] += share * float(step[n])
         return tuple(values) if last < 100 * _EXACT else None
+
+    def columns(self, flange: Pose, axes: Sequence[Axis]) -> list[tuple[float, ...]]:
+        """How the flange moves and turns with each moving link's joint, of what `lines` gave."""
+        found: list[tuple[float, ...]] = []
+        for link, (at, direction) in zip(self._moving, axes, strict=True):
+            if link.slides:
+                found.append((*direction, 0.0, 0.0, 0.0))
+            else:
+                across = frames.cross(direction, subtract(flange[0], at))
+                found.append((*across, *direction))
+        return found
+
+    def by_value(self, columns: Sequence[Sequence[float]], count: int) -> Floats:
+        """What changes by so much with each moving link's joint, by each of the first values."""
+        rows = [[0.0] * count for _ in columns[0]]
+        for link, column in zip(self._moving, columns, strict=True):
+            for n in range(count):
+                weight = link.weights[n]
+                if weight:
+                    for row, part in zip(rows, column, strict=True):
+                        row[n] += weight * part
+        return np.array(rows)
+
+    @cached_property
+    def _moving(self) -> list[Link]:
+        return [link for link in self.links if link.weights]
 
     # -- many at once -----------------------------------------------------------------------
 

@@ -37,7 +37,8 @@ class Aim:
 
     flange: Pose | None
     configuration: AxisConfiguration = (0, 0, 0, 0)
-    seventh: bool = False
+    arm_angle: float | None = None
+    """What eax_a may be of an arm with seven axes; None: it is not."""
     axes: tuple[float, ...] = ()
 
 
@@ -57,7 +58,8 @@ def likely(system: System, default: str) -> Likely | None:
     tried = found[:: 1 + len(found) // _MOST]
     if not tried:
         return None
-    if all(aim.seventh for aim in tried):
+    # Programs written by other tools give 0 to axes that a robot does not have.
+    if all(aim.arm_angle is not None for aim in tried) and any(aim.arm_angle for aim in tried):
         return Likely(_SEVEN_AXES, len(tried), len(tried))
     best: Likely | None = None
     for name, group in _candidates(default):
@@ -89,7 +91,7 @@ def _reached(group: GroupConfig, tried: Sequence[Aim]) -> int:
 
 def _reaches(group: GroupConfig, kinematics: Kinematics, aim: Aim, near: tuple[float, ...]) -> bool:
     if aim.flange is not None:
-        found = kinematics.solutions(aim.flange, near)
+        found = kinematics.solutions(aim.flange, near, aim.configuration)
         return kinematics.fitting(found, aim.configuration, "turn") is not None
     # Of the axes beside the arm nothing is asked: they stay.
     wanted = JointMap.of(group).from_rapid(aim.axes, (ABSENT,) * 6, near)
@@ -114,5 +116,6 @@ def _aim(found: Meant) -> Aim:
     if found.place is None:
         return Aim(None, axes=found.axes)
     flange = frames.compose(found.place, frames.invert(found.tool))
-    seventh = abs(found.external[0]) < _UNUSED and frames.distance(found.place[0], _ORIGIN) < _ARM
-    return Aim(flange, found.configuration, seventh)
+    eax_a = found.external[0]
+    near = abs(eax_a) < _UNUSED and frames.distance(found.place[0], _ORIGIN) < _ARM
+    return Aim(flange, found.configuration, eax_a if near else None)

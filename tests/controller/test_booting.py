@@ -341,6 +341,19 @@ def test_a_guess_takes_the_robot_that_reaches_what_the_program_aims_at(tmp_path)
     assert load_target([path]).groups[0].model == "irb120"
 
 
+@pytest.mark.parametrize(("eax_a", "robot"), [(101.96, "irb14000"), (0, "irb120")])
+def test_an_arm_angle_guesses_the_robot_with_seven_axes(eax_a, robot, tmp_path):
+    """0 is what other writers of programs give to axes that no robot has
+    (TPHugo/TimovyProjekt, walls from Grasshopper for an arm with six axes)."""
+    path = tmp_path / "angle.mod"
+    path.write_text(
+        "MODULE angle\n PROC main()\n  MoveJ [[300,0,400],[0,0.707107,0.707107,0],[0,0,0,0],"
+        f"[{eax_a},9E9,9E9,9E9,9E9,9E9]], v100, fine, tool0;\n ENDPROC\nENDMODULE\n"
+    )
+    found = load_target([path], Wishes(cell="guess"))
+    assert found.groups[0].model == robot
+
+
 def test_loose_files_are_on_the_controller_that_is_said(program, cell):
     """An OmniCore before anybody came: its tasks, its robot, its firewall (backups of 7.5, 7.6)."""
     found = load_target([program], Wishes(robotware=(7, 6), cell=cell))

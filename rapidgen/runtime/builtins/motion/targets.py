@@ -120,7 +120,7 @@ def joints_for(
                 return one
         near = started
     else:
-        found = kinematics.solutions(flange, near)
+        found = kinematics.solutions(flange, near, wanted)
     if not found:
         reached, why = unreached(kinematics, flange, near, arm_angle)
         raise RapidError("ERR_ROBLIMIT" if reached else "ERR_OUTSIDE_REACH", why)

@@ -1,0 +1,41 @@
+"""A place that a posture reaches is reached with that posture's configuration, wherever the robot
+stands: a target that CRobT gave is no refusal on the way back."""
+
+import math
+import random
+
+import pytest
+
+from rapidgen.axes import frames
+from rapidgen.axes.kinematics import Kinematics
+from rapidgen.config import load_config
+
+FULL_TURN = 2 * math.pi
+
+
+def back(arm, posture, here):
+    """A posture with the pose, the configuration and the arm angle of `posture`, from `here`."""
+    pose, wanted = arm.forward(posture), arm.configuration(posture)
+    if arm.seventh < 0:
+        return arm.fitting(arm.solutions(pose, here, wanted), wanted, "turn")
+    found = arm.at_arm_angle(pose, arm.arm.arm_angle(posture), here)
+    return next((one for one in found if arm.misfit(one, wanted) == 0.0), None)
+
+
+@pytest.mark.parametrize("robot", ["irb120", "irb5400", "crb15000", "irb14000", "irb14050"])
+def test_a_posture_is_found_again_from_anywhere(robot):
+    draw = random.Random(7)
+    for group in load_config(robot).groups:
+        arm = Kinematics.of(group)
+        for _ in range(12):
+            posture, here = (
+                tuple(draw.uniform(j.lower, j.upper) for j in group.joints) for _ in "ab"
+            )
+            found = back(arm, posture, here)
+            assert found is not None, posture
+            assert arm.misfit(found, arm.configuration(posture)) == 0.0
+            pose = arm.forward(posture)
+            assert frames.error(arm.forward(found), pose) == pytest.approx((0.0,) * 6, abs=1e-6)
+            if arm.seventh >= 0:
+                turned = arm.arm.arm_angle(found) - arm.arm.arm_angle(posture)
+                assert turned - FULL_TURN * round(turned / FULL_TURN) == pytest.approx(0, abs=1e-6)
