@@ -43,9 +43,10 @@ class ArmAngle:
         return atan2(-frames.dot(frames.cross(along, across), elbow), -frames.dot(across, elbow))
 
     def slopes(self, axes: Sequence[Axis]) -> list[float]:
-        """How the angle changes with each of the seven axes.
+        """How the angle changes with each of the seven axes (rad/rad).
 
         The shoulder stays; the wrist moves with each axis but the last, axis 3 with those before.
+        All 0 where the arm has no angle: its line lies along the reference.
         """
         dot, cross = frames.dot, frames.cross
         shoulder, wrist = _foot(axes[0], axes[1]), _foot(axes[6], axes[5])
@@ -56,6 +57,9 @@ class ArmAngle:
         over = cross(along, across)
         elbow = axes[3][1]
         sine, cosine = -dot(over, elbow), -dot(across, elbow)
+        size = sine * sine + cosine * cosine
+        if size == 0.0:
+            return [0.0] * len(axes)
         found = []
         for n, (point, axis) in enumerate(axes):
             moved = cross(axis, frames.subtract(wrist, point)) if n < 6 else frames.ORIGIN
@@ -66,7 +70,7 @@ class ArmAngle:
             d_over = frames.add(cross(d_along, across), cross(along, d_across))
             d_sine = -dot(d_over, elbow) - dot(over, turned)
             d_cosine = -dot(d_across, elbow) - dot(across, turned)
-            found.append((cosine * d_sine - sine * d_cosine) / (sine * sine + cosine * cosine))
+            found.append((cosine * d_sine - sine * d_cosine) / size)
         return found
 
     def cfx(self, axes: Sequence[Axis], second: float, fifth: float) -> int:

@@ -7,6 +7,7 @@ import random
 import pytest
 
 from rapidgen.axes import frames
+from rapidgen.axes.arm_angle import ArmAngle
 from rapidgen.axes.kinematics import Kinematics
 from rapidgen.config import load_config
 
@@ -39,3 +40,10 @@ def test_a_posture_is_found_again_from_anywhere(robot):
             if arm.seventh >= 0:
                 turned = arm.arm.arm_angle(found) - arm.arm.arm_angle(posture)
                 assert turned - FULL_TURN * round(turned / FULL_TURN) == pytest.approx(0, abs=1e-6)
+
+
+def test_an_arm_that_has_no_angle_has_no_slopes():
+    x, y, z = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
+    wrist = (0.0, 0.5, 0.0)
+    axes = [(frames.ORIGIN, way) for way in (z, x, y, x, z)] + [(wrist, x), (wrist, z)]
+    assert ArmAngle(y).slopes(axes) == [0.0] * 7
