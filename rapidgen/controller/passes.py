@@ -44,7 +44,7 @@ def run_through(
         for fault in faults:
             at = fault.span or (fault.stack[-1].span if fault.stack else None)
             place = f"{Path(at.path).name}:{at.line}" if at is not None else ""
-            guessed.stopped.append((place, fault.arguments[0] if fault.arguments else str(fault)))
+            guessed.stopped.append((place, ": ".join(filter(None, fault.arguments)) or str(fault)))
         controller.pp_to_main()
         if not controller.start_program():
             break

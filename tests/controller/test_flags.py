@@ -117,11 +117,10 @@ def test_behind_a_stop_somebody_presses_start(cell, starts, tmp_path):
 
 
 FAILS = """MODULE fails
- VAR num n;
  PROC main()
   WaitDI diStart, 1;
   WaitDI diStart, 0;
-  n := n DIV 0;
+  MoveAbsJ [[0,0,0,165,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]], v500, fine, tool0;
  ENDPROC
 ENDMODULE
 """
@@ -130,9 +129,11 @@ ENDMODULE
 def test_what_fails_behind_each_answer_has_failed_in_the_end(tmp_path):
     path = tmp_path / "fails.mod"
     path.write_text(FAILS)
-    with VirtualController.from_files([path], cell="guess", cycle="once") as controller:
-        run_through(controller, max_time=600)
-        assert controller.guessed.stopped == [("fails.mod:6", "ERR_DIVZERO")] * 50
-        (task,) = controller.tasks.values()
+    with VirtualController.from_files([path], robot="irb120", cell="guess", cycle="once") as driven:
+        run_through(driven, max_time=600)
+        (task,) = driven.tasks.values()
         assert task.fault is not None
-        assert task.fault.arguments[0] == "ERR_DIVZERO"
+        error, why = task.fault.arguments
+        assert error == "ERR_ROBLIMIT"
+        assert "rax_4" in why
+        assert driven.guessed.stopped == [("fails.mod:5", f"{error}: {why}")] * 50
