@@ -20,7 +20,11 @@ $(RUNS): pyproject.toml
 	@PYTHON="$(PYTHON)" .ci/environment $(VENV) --editable '.[plot]'
 	@touch $@
 
-test: lint types contract wheel driver-hours site release-lint unit
+# What takes one core is done side by side, each with its output in one piece; then the tests, which take them all.
+CHECKS := lint types contract wheel driver-hours site release-lint
+test:
+	@$(MAKE) --no-print-directory --jobs $$(getconf _NPROCESSORS_ONLN) --output-sync=target $(CHECKS)
+	@$(MAKE) --no-print-directory unit
 
 # The page of rapidgen/view: TypeScript, checked and bundled; again when a source of it has changed.
 PAGE := rapidgen/view/assets/index.html
@@ -57,19 +61,17 @@ room: $(STAMP)
 # The wheel, in an environment of its own, does the demo: templates/ and robots/ travel. What it
 # depends on is kept from run to run; the wheel itself is always new.
 WHEEL := build/wheel
-wheel: $(STAMP) $(PAGE) $(WHEEL)/env/.made
+wheel: $(STAMP) $(PAGE)
 	rm -rf $(WHEEL)/dist $(WHEEL)/demo
+	test $(WHEEL)/env/.made -nt pyproject.toml || rm -rf $(WHEEL)/env
+	mkdir -p $(WHEEL)
 	$(BIN)/python -m build --wheel --no-isolation --outdir $(WHEEL)/dist . >$(WHEEL)/build.log 2>&1 || (cat $(WHEEL)/build.log; false)
+	test -x $(WHEEL)/env/bin/python || $(PYTHON) -m venv $(WHEEL)/env
+	$(WHEEL)/env/bin/python -m pip install --quiet --disable-pip-version-check $(WHEEL)/dist/*.whl
 	$(WHEEL)/env/bin/python -m pip install --quiet --disable-pip-version-check --force-reinstall --no-deps $(WHEEL)/dist/*.whl
+	touch $(WHEEL)/env/.made
 	cd $(WHEEL) && time env/bin/rapidgen demo --output demo
 	cd $(WHEEL) && env/bin/python -c 'from rapidgen.view.plotting import ASSETS; assert (ASSETS / "page.js").is_file(), ASSETS'
-
-$(WHEEL)/env/.made: pyproject.toml $(STAMP) $(PAGE)
-	rm -rf $(WHEEL)/env $(WHEEL)/dist && mkdir -p $(WHEEL)
-	$(PYTHON) -m venv $(WHEEL)/env
-	$(BIN)/python -m build --wheel --no-isolation --outdir $(WHEEL)/dist . >$(WHEEL)/build.log 2>&1 || (cat $(WHEEL)/build.log; false)
-	$(WHEEL)/env/bin/python -m pip install --quiet --disable-pip-version-check $(WHEEL)/dist/*.whl
-	touch $@
 
 # The generated driver for some simulated hours; `make driver-day` is the long form.
 driver-hours: $(STAMP)
@@ -88,7 +90,7 @@ release-lint: $(STAMP)
 changelog: $(STAMP)
 	$(BIN)/towncrier build --yes --version $(VERSION)
 
-# Last, so that pytest's own summary closes the output. Many tests wait for a socket or a browser most of
+# After all else, so that pytest's own summary closes the output. Many tests wait for a socket or a browser most of
 # their time: three workers for two cores.
 unit: export PYTEST_XDIST_AUTO_NUM_WORKERS ?= $(shell echo $$(( $$(getconf _NPROCESSORS_ONLN) * 3 / 2 )))
 unit: $(STAMP) $(PAGE)
