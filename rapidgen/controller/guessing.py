@@ -170,6 +170,9 @@ def guess(
         for name, keys in cell.signals.items()
         if keys.kind[1] == "I" or name.casefold() not in handed
     }
+    # Nobody stands at the inputs that a backup declares, either; a cross connection makes its own.
+    made_here = {connection.result.casefold() for connection in system.cross}
+    given |= {s.name.casefold() for s in system.signals if s.type[1] == "I"} - made_here
     looks = {
         spec.name: tuple(looked_at(scopes, spec.entry))
         for spec, scopes in zip(system.tasks, tasks, strict=True)

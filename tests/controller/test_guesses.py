@@ -209,3 +209,21 @@ def test_hands_of_a_guessed_cell_are_calibrated(tmp_path):
         ) as controller:
             controller.run(max_time=60)
             assert (controller.task("T_ROB1").fault is None) is (cell == "guess")
+
+
+def test_inputs_that_a_backup_declares_are_given_but_for_what_crosses(tmp_path):
+    for name, text in {
+        "SYSPAR/SYS.cfg": 'SYS:CFG_1.0:6:0::\n#\nCAB_TASKS:\n\n -Name "T_ROB1" -MotionTask\n',
+        "SYSPAR/EIO.cfg": "EIO:CFG_1.0:6:1::\n#\nEIO_SIGNAL:\n\n"
+        ' -Name "diPart" -SignalType "DI"\n\n -Name "diBoth" -SignalType "DI"\n\n'
+        ' -Name "doA" -SignalType "DO"\n#\nEIO_CROSS:\n\n -Res "diBoth" -Act1 "doA"\n',
+        "RAPID/TASK1/PROGMOD/waits.mod": "MODULE waits\n PROC main()\n  WaitDI diPart, 1;\n"
+        "  WHILE diPart = 1 DO\n   WaitTime 0.1;\n  ENDWHILE\n  WaitDI diBoth, 1;\n ENDPROC\n"
+        "ENDMODULE\n",
+    }.items():
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).write_text(text)
+    with VirtualController.boot(load_target([tmp_path], Wishes(cell="guess"))) as controller:
+        assert controller.run(max_time=20) == "deadlock"
+        assert controller.guessed.answered == [("diPart", 1), ("diPart", 0)]
+        assert "waits for diBoth = 1" in controller.where()[0]
