@@ -10,6 +10,7 @@ import pytest
 
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.faces import serve_ftp, serve_sftp
+from tests.ports import free_port
 
 
 @pytest.fixture
@@ -149,7 +150,7 @@ def test_loopback_only_and_own_credentials(serve, home):
         with pytest.raises(DiagnosticError) as caught:
             serve(home, host)
         assert caught.value.diagnostics[0].code == "RG560"
-    first, second = serve(home), serve(home)
+    first, second = serve(home, port=free_port()), serve(home)
     assert first.password != second.password
     assert first.password not in repr(first)
     with pytest.raises(DiagnosticError) as caught:
