@@ -5,6 +5,7 @@ tests loudly; with CI=true it fails them.
 """
 
 import getpass
+import logging
 import os
 import platform
 import pwd
@@ -233,7 +234,7 @@ ALL = (*FTP, "paramiko", "sshd")
 
 
 @pytest.fixture
-def server(request, monkeypatch) -> Iterator[Server]:
+def server(request, monkeypatch, caplog) -> Iterator[Server]:
     """The server that the test's parameter names (indirect)."""
     kind = request.param
     monkeypatch.setenv("RAPIDGEN_PASSWORD", PASSWORD)
@@ -245,6 +246,8 @@ def server(request, monkeypatch) -> Iterator[Server]:
         home.mkdir()
         if kind in OURS:
             service = OURS[kind](home, user=USER, password=PASSWORD)
+            # What it says is shown where a test is red.
+            caplog.set_level(logging.DEBUG, "pyftpdlib")
             scheme = "ftp" if kind == "pyftpdlib" else "sftp"
             known = folder / "known_hosts"
             known.write_text(service.host_key + "\n")
