@@ -7,6 +7,15 @@ GIVEN_AWAY = 32_768
 """Where Linux begins to give ports away to whoever binds 0 or connects (ip_local_port_range)."""
 
 
+def own_address() -> str:
+    """Loopback that nobody else has, for a server to which thousands of connections are made.
+
+    One that is closed keeps its port, at its address, for a minute: at 127.0.0.1 three runs of
+    tests/deploy side by side left none to anybody.
+    """
+    return f"127.{random.randrange(1, 255)}.{random.randrange(256)}.{random.randrange(1, 255)}"
+
+
 def free_port(beside: int = 0) -> int:
     """A port of loopback that nobody has, and that the system gives to nobody; so are the next
     `beside` ones.

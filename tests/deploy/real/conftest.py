@@ -24,7 +24,7 @@ import pytest
 from rapidgen.deploy import Access, connect, parse_target
 from rapidgen.deploy.transports.registry import Target
 from rapidgen.faces import serve_ftp, serve_sftp
-from tests.ports import free_port
+from tests.ports import free_port, own_address
 
 ROOT = Path(__file__).parents[3]
 UNPACKED = ROOT / "build" / "servers" / "root"
@@ -73,7 +73,7 @@ def environment() -> dict[str, str]:
     return {**os.environ, "LD_LIBRARY_PATH": os.pathsep.join(libraries)}
 
 
-def start(command: list[str], port: int, folder: Path) -> subprocess.Popen:
+def start(command: list[str], host: str, port: int, folder: Path) -> subprocess.Popen:
     """Start a server and wait until it greets, as servers of FTP and of SSH do."""
     log = (folder / "log").open("wb")
     process = subprocess.Popen(
@@ -87,7 +87,7 @@ def start(command: list[str], port: int, folder: Path) -> subprocess.Popen:
     end = time.monotonic() + 60
     while True:
         try:
-            with socket.create_connection(("127.0.0.1", port), timeout=1) as probe:
+            with socket.create_connection((host, port), timeout=1) as probe:
                 probe.settimeout(max(1, end - time.monotonic()))
                 greeted = bool(probe.recv(1))
         except OSError:
@@ -119,11 +119,11 @@ def stop(process: subprocess.Popen) -> None:
         process.wait()
 
 
-def vsftpd(folder: Path, home: Path, port: int) -> tuple[list[str], str, Access]:
+def vsftpd(folder: Path, home: Path, host: str, port: int) -> tuple[list[str], str, Access]:
     config = folder / "vsftpd.conf"
     config.write_text(
         f"""listen=YES
-listen_address=127.0.0.1
+listen_address={host}
 listen_port={port}
 background=NO
 run_as_launching_user=YES
@@ -143,10 +143,10 @@ ftp_username={getpass.getuser()}
 nopriv_user={getpass.getuser()}
 """
     )
-    return [program("vsftpd"), str(config)], "anonymous@127.0.0.1", Access()
+    return [program("vsftpd"), str(config)], f"anonymous@{host}", Access()
 
 
-def proftpd(folder: Path, home: Path, port: int) -> tuple[list[str], str, Access]:
+def proftpd(folder: Path, home: Path, host: str, port: int) -> tuple[list[str], str, Access]:
     import grp
 
     users = folder / "users"
@@ -157,7 +157,7 @@ def proftpd(folder: Path, home: Path, port: int) -> tuple[list[str], str, Access
         f"""ServerName test
 ServerType standalone
 DefaultServer on
-DefaultAddress 127.0.0.1
+DefaultAddress {host}
 SocketBindTight on
 Port {port}
 User {getpass.getuser()}
@@ -177,10 +177,10 @@ Umask 022
 """
     )
     command = [program("proftpd"), "-n", "-q", "-c", str(config)]
-    return command, "Default%20User@127.0.0.1", Access()
+    return command, f"Default%20User@{host}", Access()
 
 
-def pure_ftpd(folder: Path, home: Path, port: int) -> tuple[list[str], str, Access]:
+def pure_ftpd(folder: Path, home: Path, host: str, port: int) -> tuple[list[str], str, Access]:
     if not IS_ROOT:
         pytest.skip("pure-ftpd of Debian starts as root only")
     tool = program("pure-pw")
@@ -191,19 +191,19 @@ def pure_ftpd(folder: Path, home: Path, port: int) -> tuple[list[str], str, Acce
     # The tool refuses a user name with a space; the server reads what the file says.
     users.write_text(f"{USER}:{HASH}:{NOBODY}:{NOBODY}::{home}/./::::::::::::\n")
     subprocess.run([tool, "mkdb", str(database), "-f", str(users)], check=True, env=environment())
-    command = [program("pure-ftpd"), "-S", f"127.0.0.1,{port}", "-l", f"puredb:{database}"]
+    command = [program("pure-ftpd"), "-S", f"{host},{port}", "-l", f"puredb:{database}"]
     command += ["-g", str(folder / "pid"), "-u", "1", "-H", "-U", "022:022"]
-    return command, "Default%20User@127.0.0.1", Access()
+    return command, f"Default%20User@{host}", Access()
 
 
-def sshd(folder: Path, home: Path, port: int) -> tuple[list[str], str, Access]:
+def sshd(folder: Path, home: Path, host: str, port: int) -> tuple[list[str], str, Access]:
     for name in ("host", "client"):
         command = ["ssh-keygen", "-q", "-t", "ed25519", "-N", "", "-f", str(folder / name)]
         subprocess.run(command, check=True)
     shutil.copy(folder / "client.pub", folder / "authorized")
     config = folder / "sshd.conf"
     config.write_text(
-        f"""ListenAddress 127.0.0.1
+        f"""ListenAddress {host}
 Port {port}
 HostKey {folder}/host
 AuthorizedKeysFile {folder}/authorized
@@ -217,14 +217,14 @@ Subsystem sftp internal-sftp
 """
     )
     key = (folder / "host.pub").read_text()
-    (folder / "known_hosts").write_text(f"[127.0.0.1]:{port} {key}")
+    (folder / "known_hosts").write_text(f"[{host}]:{port} {key}")
     access = Access(identity=str(folder / "client"), known_hosts=str(folder / "known_hosts"))
     user = getpass.getuser()
     if IS_ROOT:
         Path("/run/sshd").mkdir(exist_ok=True)  # where root's sshd separates privileges
         if "sshd" not in {entry.pw_name for entry in pwd.getpwall()}:
             absent("user sshd, which root's sshd needs: install openssh-server")
-    return [program("sshd"), "-D", "-e", "-f", str(config)], f"{user}@127.0.0.1", access
+    return [program("sshd"), "-D", "-e", "-f", str(config)], f"{user}@{host}", access
 
 
 DEBIAN = {"vsftpd": vsftpd, "proftpd": proftpd, "pure-ftpd": pure_ftpd, "sshd": sshd}
@@ -244,21 +244,22 @@ def server(request, monkeypatch, caplog) -> Iterator[Server]:
         folder.chmod(0o755)
         home = folder / "HOME"
         home.mkdir()
+        host = own_address()
         if kind in OURS:
-            service = OURS[kind](home, user=USER, password=PASSWORD)
+            service = OURS[kind](home, host, user=USER, password=PASSWORD)
             # What it says is shown where a test is red.
             caplog.set_level(logging.DEBUG, "pyftpdlib")
             scheme = "ftp" if kind == "pyftpdlib" else "sftp"
             known = folder / "known_hosts"
             known.write_text(service.host_key + "\n")
-            url = f"{scheme}://Default%20User@127.0.0.1:{service.port}"
+            url = f"{scheme}://Default%20User@{host}:{service.port}"
             access = Access(known_hosts=str(known))
             yield Server(kind, home, service.port, url, access, parse_target(url))
             service.close()
             return
         port = free_port()
-        command, login, access = DEBIAN[kind](folder, home, port)
-        process = start(command, port, folder)
+        command, login, access = DEBIAN[kind](folder, home, host, port)
+        process = start(command, host, port, folder)
         scheme = "sftp" if kind == "sshd" else "ftp"
         # Behind a login that ends in HOME there is nothing to name.
         place = str(home) if kind in ("sshd",) else ""

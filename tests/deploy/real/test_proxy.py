@@ -24,14 +24,15 @@ pytestmark = [pytest.mark.server, pytest.mark.timeout(1200 if LONG else 300)]
 
 
 class Proxy:
-    """Before a server on loopback. `act(number, line) -> None | 'before' | 'after' | bytes`:
+    """Before a server. `act(number, line) -> None | 'before' | 'after' | bytes`:
 
     cut before or after command `number`, or answer it with these bytes; `data_limit` cuts every
     data connection after so many bytes.
     """
 
-    def __init__(self, port, act=lambda number, line: None, *, ftp, data_limit=None):
-        self.port_behind, self.act, self.ftp = port, act, ftp
+    def __init__(self, server, act=lambda number, line: None, *, data_limit=None):
+        self.host, self.port_behind = server.target.host, server.port
+        self.act, self.ftp = act, server.target.scheme == "ftp"
         self.data_limit = data_limit
         self.count, self.log, self.cut = 0, [], False
         self.sockets, self.threads = [], []
@@ -40,7 +41,7 @@ class Proxy:
         self._spawn(self._accept)
 
     def _listen(self):
-        listener = socket.create_server(("127.0.0.1", 0))
+        listener = socket.create_server((self.host, 0))
         return listener, listener.getsockname()[1]
 
     def _spawn(self, target, *arguments):
@@ -53,7 +54,7 @@ class Proxy:
             while True:
                 client, _ = self.listener.accept()
                 self._keep(client)
-                server = socket.create_connection(("127.0.0.1", self.port_behind))
+                server = socket.create_connection((self.host, self.port_behind))
                 self._keep(server)
                 self._spawn(self._commands, client, server)
                 self._spawn(self._answers, server, client)
@@ -108,15 +109,15 @@ class Proxy:
                 if self.ftp and (passive := re.search(rb"227 [^(]*\(([\d,]+)\)", block)):
                     numbers = [int(n) for n in passive[1].split(b",")]
                     port = self._data(numbers[4] * 256 + numbers[5])
-                    told = f"{port // 256},{port % 256}".encode()
-                    block = block.replace(passive[1], b"127,0,0,1," + told)
+                    told = [*self.host.split("."), str(port // 256), str(port % 256)]
+                    block = block.replace(passive[1], ",".join(told).encode())
                 client.sendall(block)
         self._finish(client)
 
     def _data(self, port):
         # At once: after a command that it refuses the server lets its port go, and what comes too
         # late can meet the next who has it.
-        server = socket.create_connection(("127.0.0.1", port))
+        server = socket.create_connection((self.host, port))
         listener, outer = self._listen()
         self._keep(server, listener)
 
@@ -163,7 +164,7 @@ class Proxy:
 @contextlib.contextmanager
 def through(server, act=lambda number, line: None, **options):
     """A proxy before `server`, closed at the end."""
-    proxy = Proxy(server.port, act, ftp=server.url.startswith("ftp"), **options)
+    proxy = Proxy(server, act, **options)
     try:
         yield proxy
     finally:
@@ -250,7 +251,7 @@ def _alias_host_key(server, port=None):
     line = path.read_text().splitlines()[0]
     ports = [server.port] if port is None else [server.port, port]
     key = line.split(" ", 1)[1]
-    path.write_text("".join(f"[127.0.0.1]:{p} {key}\n" for p in ports))
+    path.write_text("".join(f"[{server.target.host}]:{p} {key}\n" for p in ports))
 
 
 @pytest.mark.parametrize("server", FTP, indirect=True)
