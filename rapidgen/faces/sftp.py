@@ -186,7 +186,11 @@ def _interface() -> "type[paramiko.SFTPServerInterface]":
             except OSError as error:
                 return _code(error)
             writing = flags & (os.O_WRONLY | os.O_RDWR)
-            file = os.fdopen(descriptor, "r+b" if writing else "rb", buffering=0)
+            try:
+                file = os.fdopen(descriptor, "r+b" if writing else "rb", buffering=0)
+            except IsADirectoryError as error:
+                os.close(descriptor)
+                return _code(error)
             handle = SFTPHandle(flags)
             # The two names that paramiko's SFTPHandle reads and writes through.
             setattr(handle, "readfile", file)  # noqa: B010

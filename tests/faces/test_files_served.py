@@ -4,6 +4,7 @@ import ftplib
 import io
 import os
 import socket
+from pathlib import Path
 
 import paramiko
 import pytest
@@ -114,6 +115,15 @@ def test_sftp_removes_a_link_and_not_its_target(sftp, home, tmp_path):
     sftp.remove("link")
     assert not os.path.lexists(home / "link")
     assert (tmp_path / "secret.txt").exists()
+
+
+def test_sftp_keeps_no_folder_open_that_it_refuses_to_read(sftp, home):
+    for _ in range(3):
+        with pytest.raises(OSError, match="Failure"):
+            sftp.open("/", "rb")
+    assert "a.mod" in sftp.listdir("/")
+    held = [os.path.realpath(number) for number in Path("/proc/self/fd").iterdir()]
+    assert str(home) not in held
 
 
 def test_sftp_gives_no_shell(home):
