@@ -76,8 +76,9 @@ def run(
     """Run RAPID on the virtual clock.
 
     What a controller would not load is refused: all its errors are told, nothing runs. Prints one
-    line for each TPWrite. Ends when main of every task has returned; exit code 1 when a task
-    stopped with an error, on a deadlock, and at the limits of time, statements and memory.
+    line for each TPWrite. Ends when main of every task has returned and the robots stand; exit
+    code 1 when a task stopped with an error, on a deadlock, and at the limits of time, statements
+    and memory.
     """
     from rapidgen.cli.bootable import chosen, guessed_told
     from rapidgen.cli.memory import at_most
@@ -190,13 +191,15 @@ def _run(
         )
     elif ended != "finished":
         limit = f"{max_time:g} s" if ended == "time" else f"{max_statements} statements"
+        groups = controller.motion.groups.values()
+        moving = (f"{g.name}: its robot moves" for g in groups if not g.is_standing)
         found.append(
             error(
                 "RG406",
                 None,
                 f"still running after {limit}",
                 "raise --max-time or --max-statements, or end the program",
-                notes=where,
+                notes=(*where, *moving),
             )
         )
     return found

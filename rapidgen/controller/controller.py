@@ -371,7 +371,8 @@ class VirtualController:
     def run(
         self, *, max_time: float | None = None, max_statements: int | None = None
     ) -> Literal["finished", "time", "statements", "deadlock", "paused"]:
-        """Let time pass until no task runs any more; `paused`: a debugger holds everything.
+        """Let time pass until no task runs any more and the robots stand: whoever ends behind a
+        fly-by point is not stopped short of it. `paused`: a debugger holds everything.
 
         `max_statements` bounds the work of all tasks, at the cost model's price of a statement.
         """
@@ -385,8 +386,8 @@ class VirtualController:
                 return False
             return scheduler.now - scheduler.idle - spent > max_statements * price
 
-        outcome = self._step(until, lambda: self._all_ended() or exhausted())
-        if self._all_ended():
+        outcome = self._step(until, lambda: self._is_over() or exhausted())
+        if self._is_over():
             return "finished"
         if outcome == "paused":
             return "paused"
@@ -405,8 +406,9 @@ class VirtualController:
             )
         return self.scheduler.advance(until, stop)
 
-    def _all_ended(self) -> bool:
-        return all(t.state != "running" for t in self.rapid_tasks.values())
+    def _is_over(self) -> bool:
+        ended = all(task.state != "running" for task in self.rapid_tasks.values())
+        return ended and all(group.is_standing for group in self.motion.groups.values())
 
     def where(self) -> list[str]:
         """For each running task where it is, as `task: file:line (routine)`."""

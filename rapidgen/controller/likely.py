@@ -109,7 +109,7 @@ def aims(system: System) -> Iterator[Aim]:
         dialect = Dialect(system.robotware, some=not system.robotware_told)
         scopes = [task.add(parse(f.data, path=f.path, dialect=dialect)) for f in spec.modules]
         for scope in scopes:
-            yield from map(_aim, meant(scope))
+            yield from map(_aim, meant(scope, roughly=True))
 
 
 def _aim(found: Meant) -> Aim:

@@ -39,19 +39,25 @@ class Meant:
     axes: tuple[float, ...] = ()
 
 
-def meant(module: ModuleScope) -> Iterator[Meant]:
-    """What the moves of a module go to, in the order of its lines."""
+def meant(module: ModuleScope, *, roughly: bool = False) -> Iterator[Meant]:
+    """What the moves of a module go to, in the order of its lines.
+
+    `roughly`: what Offs and RelTool shift by something that cannot be told is where it was.
+    """
     for routine in module.tree.routines:
         scope = module.routine(routine)
         for node in walk(routine):
             symbol = called(scope.find(node.name)) if isinstance(node, n.ProcedureCall) else None
             if isinstance(node, n.ProcedureCall) and isinstance(symbol, RoutineSymbol):
-                found = _meant(node, symbol, scope, module.tree.source.line(node.first))
+                line = module.tree.source.line(node.first)
+                found = _meant(node, symbol, scope, line, roughly)
                 if found is not None:
                     yield found
 
 
-def _meant(node: n.ProcedureCall, symbol: RoutineSymbol, scope: Scope, line: int) -> Meant | None:
+def _meant(
+    node: n.ProcedureCall, symbol: RoutineSymbol, scope: Scope, line: int, roughly: bool
+) -> Meant | None:
     """What one call goes to; None where it is no move, or its target is not known before."""
     parameters = symbol.parameters or ()
     names = [p.name.lower() for p in parameters]
@@ -66,7 +72,7 @@ def _meant(node: n.ProcedureCall, symbol: RoutineSymbol, scope: Scope, line: int
     carried = _frame(tool[1]) if tool else frames.IDENTITY
     point = given.get("topoint") or given.get("tojointpos")
     name = point.name if isinstance(point, n.Name) else ""
-    target = _declared(given.get("topoint"), scope, "robtarget")
+    target = _declared(given.get("topoint"), scope, "robtarget", roughly)
     if not target:
         axes = _declared(given.get("tojointpos"), scope, "jointtarget")
         if not axes:
@@ -100,15 +106,18 @@ def _pose(place: Value, turn: Value) -> Pose:
     return (x, y, z), frames.normalise(turned)
 
 
-def _declared(node: n.Expression | None, scope: Scope, kind: str) -> tuple[Value, ...]:
+def _declared(
+    node: n.Expression | None, scope: Scope, kind: str, roughly: bool = False
+) -> tuple[Value, ...]:
     """The initial value of a datum, or what stands there; of `Offs` with constants the place.
     Empty: it cannot be told."""
-    if isinstance(node, n.FunctionCall) and node.name.lower() == "offs":
+    if isinstance(node, n.FunctionCall) and node.name.lower() in ("offs", "reltool"):
         first, *rest = (argument.value for argument in node.arguments)
-        base = _declared(first, scope, kind)
+        base = _declared(first, scope, kind, roughly)
         offsets = [constant(v, scope) for v in rest if v is not None]
-        if not base or not all(isinstance(v, int | float) for v in offsets):
-            return ()
+        told = node.name.lower() == "offs" and all(isinstance(v, int | float) for v in offsets)
+        if not base or not told:
+            return base if roughly else ()
         places = zip(_numbers(base[0]), _numbers(tuple(v or 0 for v in offsets)), strict=True)
         return (tuple(a + b for a, b in places), *base[1:])
     symbol = scope.find(node.name) if isinstance(node, n.Name) else None

@@ -1,6 +1,7 @@
 """`rapidgen run`: output, exit codes, reports."""
 
 import json
+from math import radians
 from pathlib import Path
 
 import pytest
@@ -48,6 +49,9 @@ PROGRAM = """MODULE demo
   PROC moves()
     MoveAbsJ [[10,0,0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]], v1000, fine, tool0;
     TPWrite "moved";
+  ENDPROC
+  PROC flies()
+    MoveAbsJ [[90,0,0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]], v100, z10, tool0;
   ENDPROC
 ENDMODULE
 """
@@ -97,6 +101,8 @@ def test_limits_of_time_and_statements(capsys, program: Path) -> None:
     assert (code, "1000 statements" in err) == (1, True)
     code, _, err = run(capsys, program, "--entry", "deadlock", "--max-time", 5)
     assert (code, "RG406" in err) == (1, True)
+    code, _, err = run(capsys, program, "--entry", "flies", "--robot", "irb120", "--max-time", 5)
+    assert (code, "RG406" in err, "rob1: its robot moves" in err) == (1, True, True)
 
 
 def test_stop_ends_the_run(capsys, program: Path) -> None:
@@ -173,6 +179,15 @@ def test_tracing_changes_no_time(capsys, program: Path) -> None:
             controller.run(max_time=10)
             ends.append(controller.scheduler.now)
     assert ends[0] == ends[1]
+
+
+def test_a_last_move_with_a_zone_is_made_to_its_end(program: Path) -> None:
+    """Where nothing follows a fly-by point it is a stop point [S4 overview 5-20]."""
+    from rapidgen.controller import VirtualController
+
+    with VirtualController.from_files([program], entry="flies", cycle="once") as controller:
+        assert controller.run(max_time=60) == "finished"
+        assert controller.positions()["joint_1"] == pytest.approx(radians(90), abs=1e-4)
 
 
 def test_what_no_controller_loads_is_refused_whole(tmp_path, capsys) -> None:

@@ -339,6 +339,9 @@ def test_a_guess_takes_the_robot_that_reaches_what_the_program_aims_at(tmp_path)
     assert found.groups[0].model == "irb4600"
     assert load_target([path], Wishes(cell="guess", robot="irb1600")).likely is None
     assert load_target([path]).groups[0].model == "irb120"
+    text = path.read_text().replace("MODULE far\n", "MODULE far\n VAR num i := 3;\n")
+    path.write_text(text.replace("Offs(p, 0, 0, 1)", "RelTool(Offs(p, 0, 0, i), 0, 0, -1)"))
+    assert load_target([path], Wishes(cell="guess")).likely == Likely("irb4600", 2, 2)
 
 
 @pytest.mark.parametrize(("eax_a", "robot"), [(101.96, "irb14000"), (0, "irb120")])
