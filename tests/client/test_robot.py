@@ -99,11 +99,11 @@ def test_a_robot_that_never_moves_has_not_arrived(connected):
 
 def test_stop_while_moving(connected, rapidgen):
     with connected(rapidgen=rapidgen) as (robot, controller):
-        execution = robot.execute(LONG)
-        robot.wait_until(lambda s: s.joints[0] > 0.005, timeout=60)
+        execution = robot.execute(Trajectory.from_points(LONG.positions, seconds=60.0))
+        robot.wait_until(lambda s: s.joints[0] > 0.0005, timeout=50)
         state = robot.stop()
         assert not state.is_moving
-        assert 0.005 < state.joints[0] < 0.1
+        assert 0.0005 < state.joints[0] < 0.1
         with pytest.raises(MotionStopped) as error:
             execution.result()
         assert error.value.reason is Reason.STOPPED

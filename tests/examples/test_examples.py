@@ -1,15 +1,18 @@
 """Every example runs as it is, and says what it says."""
 
 import ast
+import importlib
 import json
 import re
 import runpy
 import subprocess
 import sys
+from functools import partial
 from pathlib import Path
 
 import pytest
 
+from rapidgen.client import Robot, Timeouts
 from rapidgen.view import plotting
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -32,6 +35,9 @@ def here(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     monkeypatch.syspath_prepend(str(EXAMPLES))
     monkeypatch.setattr(sys, "argv", ["example"])
+    # However much else this machine has to do.
+    patient = partial(Robot, timeouts=Timeouts(*[60.0] * 9))
+    monkeypatch.setattr(importlib.import_module("trying"), "Robot", patient)
     return tmp_path
 
 
