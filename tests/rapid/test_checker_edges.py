@@ -73,6 +73,16 @@ def test_unknown_traps_and_endless_steps():
     assert codes("FOR k FROM 1 TO 3 STEP 0 DO\nENDFOR") == ["RG319"]
 
 
+@pytest.mark.parametrize(
+    ("line", "told"),
+    [("IF b != c THEN", 1), ("IF b", 0), ("IF b ! = c", 0), ("IF b !==== c", 0), ("IF b <> c", 0)],
+)
+def test_a_condition_that_ends_before_what_looks_like_an_operator(line, told):
+    # What an IF without THEN takes is below it [K §2.10, 4.14].
+    assert codes(f"{line}\nTPErase;", "VAR bool b;\nVAR bool c;") == ["RG332"] * told
+    assert codes(f"{line}\nTHEN TPErase;\nENDIF", "VAR bool b;\nVAR bool c;") == ["RG332"] * told
+
+
 def test_arrays_assigned_from_elements_are_not_compared_in_size():
     assert codes("r.x := 1;\na := b;", "VAR pos r;\nVAR pos a{2};\nVAR pos b{2};") == []
 

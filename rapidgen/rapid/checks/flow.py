@@ -12,6 +12,7 @@ from rapidgen.rapid.binding.types import AGGREGATE, degree
 from rapidgen.rapid.builtins import signatures
 from rapidgen.rapid.checks.findings import Findings
 from rapidgen.rapid.checks.typing import TypeChecker
+from rapidgen.rapid.syntax.habits import UNEQUAL, unequal_behind
 from rapidgen.rapid.syntax.nodes import (
     Aggregate,
     Assignment,
@@ -273,14 +274,19 @@ class FlowChecker:
     def _if(self, node: If) -> bool:
         alive = False
         for branch in node.branches:
-            self.types.expect(branch.condition, "bool", "the condition")
+            self._condition(branch.condition)
             alive = self.statements(branch.body) or alive
         if node.otherwise is None:
             return True
         return self.statements(node.otherwise) or alive
 
+    def _condition(self, node: Expression) -> None:
+        self.types.expect(node, "bool", "the condition")
+        if unequal_behind(self.findings.module.tree.source, node.last):
+            self.warn("RG332", "the condition ends before `!=`", node, help=UNEQUAL)
+
     def _compact_if(self, node: CompactIf) -> bool:
-        self.types.expect(node.condition, "bool", "the condition")
+        self._condition(node.condition)
         _CHECKS[type(node.statement)](self, node.statement)
         return True
 
@@ -299,7 +305,7 @@ class FlowChecker:
         return True
 
     def _while(self, node: While) -> bool:
-        self.types.expect(node.condition, "bool", "the condition")
+        self._condition(node.condition)
         self.statements(node.body)
         return not (isinstance(node.condition, BoolLiteral) and node.condition.value)
 

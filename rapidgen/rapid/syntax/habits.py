@@ -12,6 +12,7 @@ _CHARACTERS: Final = {
     "^": "RAPID writes Pow(a, b)",
     "#": "a comment begins with `!`",
 }
+UNEQUAL: Final = "`!` begins a comment: RAPID's unequal is `<>`"
 _STEPS: Final = {"+": "Incr a;", "-": "Decr a;"}
 
 
@@ -30,9 +31,15 @@ def habit(source: Source, at: int) -> str:
             return f"RAPID has no `{before}=`: write a := a {before} ...;"
     if before in _STEPS and _token(source, at - 2) == before and _touches(source, at - 2):
         return f"RAPID writes {_STEPS[before]}"
-    if at > 0 and source.gaps[at - 1].lstrip().startswith("!="):
-        return "`!` begins a comment: RAPID's unequal is `<>`"
+    if at > 0 and unequal_behind(source, at - 1):
+        return UNEQUAL
     return ""
+
+
+def unequal_behind(source: Source, at: int) -> bool:
+    """Whether `!=` stands behind token `at`, and is no line of a drawing."""
+    gap = source.gaps[at].lstrip()
+    return gap.startswith("!=") and not gap.startswith("!==")
 
 
 def second_if(source: Source, at: int) -> bool:
