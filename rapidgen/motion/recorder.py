@@ -154,10 +154,13 @@ class Recorder:
         kinematics = self._group.kinematics
         if kinematics is not None:
             rows = []
+            # Where no move is under way nobody names a tool: that of the last or first one.
+            carrying = next((move for move in moves if move is not None), None)
             for posture, move in zip(commanded, moves, strict=True):
                 pose = kinematics.forward(posture)
-                if move is not None and not move.carrier.stationary:
-                    pose = frames.compose(pose, move.carrier.tool)
+                carrying = move or carrying
+                if carrying is not None and not carrying.carrier.stationary:
+                    pose = frames.compose(pose, carrying.carrier.tool)
                 rows.append((*pose[0], *pose[1]))
             tcp = np.array(rows, dtype=np.float64)
         starts = [time for time, _ in self._moves]

@@ -50,6 +50,20 @@ def test_any_period_gives_the_same_motion(rapid):
     assert fine.commanded[::10] == pytest.approx(coarse.commanded, abs=0)
 
 
+def test_the_tool_of_the_first_move_is_there_before_it(rapid):
+    """A curve of the TCP has no jump where nobody has named a tool yet, or does so no more."""
+    rod = "[TRUE,[[0,0,200],[1,0,0,0]],[1,[0,0,50],[1,0,0,0],0,0,0]]"
+    move = "MoveAbsJ [[20,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]], v100, fine, rod;"
+    program = rapid(
+        f"WaitTime 0.1; {move} StopMove; ClearPath; StartMove; WaitTime 0.1;",
+        f"PERS tooldata rod := {rod};\n",
+    )
+    recorder = program.controller.record()["rob1"]
+    program.run(3.0)
+    tcp = recorder.recording().tcp
+    assert np.abs(np.diff(tcp[:, :3], axis=0)).max() < 0.1 * 0.004 * 1.5
+
+
 def test_a_recording_is_read_back_and_drawn(rapid, tmp_path, capsys):
     program = rapid(BODY)
     recorder = program.controller.record()["rob1"]
