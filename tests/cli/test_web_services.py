@@ -171,6 +171,8 @@ def test_a_backup_comes_here_and_boots(host, capsys, tmp_path):
     [
         (["status", "ftp://h"], "RG657", 2),
         (["status", "rws://u:p@h"], "RG657", 2),
+        (["status", "cell.yaml"], "RG657", 2),
+        (["status", "a b"], "RG657", 2),
         (["status", "rws://127.0.0.1:1"], "RG512", 2),
     ],
 )

@@ -10,7 +10,8 @@ from urllib.parse import unquote, urlsplit
 from rapidgen.client.errors import fault
 from rapidgen.diagnostics import DiagnosticError
 
-_HOST = re.compile(r"[\w.-]{1,253}|[0-9a-fA-F:.%]{2,64}", re.ASCII)
+_HOST = re.compile(r"[\w.-]{1,253}|(?=.*:)[0-9a-fA-F:.]{2,45}(%[\w.-]{1,18})?", re.ASCII)
+_FILE = re.compile(r".*\.ya?ml", re.ASCII)
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,6 +48,8 @@ def parse_address(text: str) -> RwsAddress:
     rest = parts.path.strip("/") or parts.query or parts.fragment
     if parts.scheme not in ("rws", "rwss") or rest or not _HOST.fullmatch(host) or port == 0:
         raise _bad(text if "@" not in text else f"{parts.scheme}://...")
+    if _FILE.fullmatch(host):
+        raise _bad(host, "a configuration tells of a robot, not where its controller is")
     return RwsAddress(host, port or 0, parts.scheme == "rwss", unquote(parts.username or ""))
 
 
