@@ -69,6 +69,10 @@ def expand(path: Path) -> list[Path]:
         mend = f"modules end in {', '.join(MODULE_SUFFIXES)}"
         if path.is_dir() and (path.parent / "SYSPAR").is_dir():
             mend = f"a backup is loaded whole: name {path.parent}"
+        elif not path.is_dir():
+            mend = "a program lists files of modules: <Module>NAME.mod</Module>"
+            if _MODULE.search(read_limited(path)):
+                mend = f"it is a module itself: call it {path.stem}.mod"
         raise refusal("RG709", None, f"no RAPID module in {path}", mend)
     return found
 

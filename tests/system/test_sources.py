@@ -234,6 +234,17 @@ def test_loose_files(tmp_path):
     assert [m.name for m in task.modules] == ["Aye", "Bee"]
 
 
+@pytest.mark.parametrize(
+    ("content", "mend"), [(MODULE % b"Work", "call it work.mod"), (b"", "<Module>NAME.mod")]
+)
+def test_a_program_file_that_lists_no_modules(tmp_path, content, mend):
+    put(tmp_path / "work.pgf", content)
+    with pytest.raises(DiagnosticError) as caught:
+        read_files([tmp_path / "work.pgf"])
+    (told,) = caught.value.diagnostics
+    assert (told.code, mend in told.help) == ("RG709", True)
+
+
 def test_several_tasks_and_a_program_file(tmp_path):
     put(tmp_path / "work.mod", MODULE % b"Work")
     put(tmp_path / "back.mod", MODULE % b"Back")
