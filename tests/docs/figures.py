@@ -170,7 +170,7 @@ FIGURES = [
     Figure("lines of the longest file", files, 600, together=False),
     # What the product gains costs lines: an issue that lands raises this by what it needed, in the
     # open. 92,067 after the move into rooms, 4 % fewer than before it.
-    Figure("lines of package and tests", all_lines, 168_760),
+    Figure("lines of package and tests", all_lines, 168_790),
     Figure("ignore_imports", ignored_imports, 0),
     Figure("lines of rapid_out", goldens, 20_900),
 ]

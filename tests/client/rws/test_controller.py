@@ -14,6 +14,7 @@ from rapidgen.client.rws import AsyncController, Controller, RwsError
 from rapidgen.client.rws.core import RATE, Pace
 from rapidgen.client.rws.errors import Held, LoginFailed, NotObeyed, NotRws
 from rapidgen.client.rws.pins import known
+from rapidgen.faces.rws.handlers import motion
 from rapidgen.wire.rws.bodies import Generation
 
 BACK = b"""MODULE Back
@@ -263,6 +264,20 @@ def test_where_the_robot_stands(served):
         assert sum(q * q for q in place.rot) == pytest.approx(1, abs=1e-4)
         with pytest.raises(RwsError):
             controller.joint_target("ROB_9")
+
+
+@pytest.mark.parametrize("spelled", ["eax{}", "eax_{}"])
+def test_external_axes_of_a_target_have_two_spellings(served, monkeypatch, spelled):
+    """rpi's client reads eaxa, RWS4YuMi eax_a: both ran on real controllers."""
+    axes = {spelled.format(letter): str(i) for i, letter in enumerate("abcdef")}
+    whole = motion._rob_target
+    monkeypatch.setattr(
+        motion,
+        "_rob_target",
+        lambda value: {k: v for k, v in whole(value).items() if k[:3] != "eax"} | axes,
+    )
+    with Controller(served.address, **served.keywords) as controller:
+        assert controller.rob_target().extax == (0, 1, 2, 3, 4, 5)
 
 
 def test_a_restart_that_takes_too_long_is_told(served):

@@ -35,11 +35,13 @@ def rob_target(
     item = body.first("ms-robtargets")
     if item is None:
         raise NotObeyed.because("RG655", f"{core.where} gives no robtarget of {unit}")
+    # eaxa as rpi's client reads it, eax_a as RWS4YuMi did on a YuMi.
+    external = "eax" if "eaxa" in item.fields else "eax_"
     return RobTarget(
         _numbers(core, item, ["x", "y", "z"]),
         _numbers(core, item, ["q1", "q2", "q3", "q4"]),
         _numbers(core, item, ["cf1", "cf4", "cf6", "cfx"]),
-        _numbers(core, item, [f"eax{x}" for x in _EXTERNAL]),
+        _numbers(core, item, [external + x for x in _EXTERNAL]),
     )
 
 
