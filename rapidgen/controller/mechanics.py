@@ -18,6 +18,10 @@ DEFAULT_ROBOT = "irb120"
 # MOC.cfg of backups: ROB1_4600_2.55_40, ROB_R_14000_05_05, ROB1_910SC_0.55_3, ROB1_15000_0_95_5.
 _TYPE = re.compile(r"ROB_?[A-Z0-9]+?_(\d{3,5}[A-Z]{0,3})", re.I)
 _MEND = "name the robot with `--robot NAME`; `rapidgen robots` lists the models"
+_SPEEDS = (
+    "`rapidgen new robot.yaml --robot '{}'`, write the data sheet's speeds into it, and "
+    "`--robot robot.yaml`"
+)
 
 
 def motion_tasks(system: System) -> list[str]:
@@ -119,7 +123,7 @@ def _of_type(name: str, unit: str) -> tuple[Sequence[GroupConfig], list[Diagnost
         if group is not None:
             guessed = any(axis.speed is None for axis in very.axes)
             note = f"no source tells the speeds of a {name}: {ASSUMED_SPEED:g} deg/s are taken"
-            return (group,), [_stands_in(note)] if guessed else []
+            return (group,), [_stands_in(note, _SPEEDS.format(very.name))] if guessed else []
     if not model:
         others = [f"'{variant.name}'" for variant in kin if group_of(variant) is not None]
         mend = f"choose one of its kin with `--robot`: {', '.join(others)}" if others else _MEND
@@ -137,8 +141,8 @@ def model_of(robot_type: str) -> str:
     return next((name for name in names if name in shipped_names()), "")
 
 
-def _stands_in(message: str) -> Diagnostic:
-    return error("RG432", None, message, _MEND, severity=Severity.WARNING)
+def _stands_in(message: str, mend: str = _MEND) -> Diagnostic:
+    return error("RG432", None, message, mend, severity=Severity.WARNING)
 
 
 def _units(system: System) -> dict[str, str]:

@@ -129,6 +129,12 @@ def test_another_variant_is_told():
     assert "60/2.05" in note.message
 
 
+def test_where_speeds_are_not_known_the_mend_is_a_file_of_ones_own():
+    system = two_robots(("ROB_1", "ROB1_1660ID_1.55_4"), ("ROB_2", "ROB1_4600_2.05_60"))
+    (note,) = mechanics(system)[1]
+    assert (note.code, "new robot.yaml --robot 'IRB 1660ID-4/1.55'" in note.help) == ("RG432", True)
+
+
 def test_kin_of_an_unknown_variant_can_be_chosen():
     system = two_robots(("ROB_1", "ROB1_6660_1.95_205"), ("ROB_2", "ROB1_6660_1.95_205"))
     with pytest.raises(DiagnosticError) as caught:
