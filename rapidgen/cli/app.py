@@ -109,7 +109,7 @@ def main(words: list[str]) -> int:
         _show(fault.diagnostics, as_json)
         return min(fault.exit_code, usage)
     except TyperException as fault:
-        _show((_usage(fault),), as_json)
+        _show((_usage(fault, words),), as_json)
         return usage
     except (_GivenUp, KeyboardInterrupt, typer.Abort):
         if as_json:
@@ -267,9 +267,11 @@ def _show(found: tuple[Diagnostic, ...], as_json: bool) -> None:
         sys.stderr.write(render(found, colour=use_colour()))
 
 
-def _usage(fault: TyperException) -> Diagnostic:
+def _usage(fault: TyperException, words: list[str]) -> Diagnostic:
     context = getattr(fault, "ctx", None)
-    path = context.command_path if context is not None else "rapidgen"
+    # An option without its value is told without a context: then by what was typed.
+    typed = " ".join(["rapidgen", *(word for word in words[:1] if not word.startswith("-"))])
+    path = context.command_path if context is not None else typed
     # pydantic's words where a type is checked; they are no user's.
     message = (fault.format_message() or "nothing to do").rstrip(".").replace("Value error, ", "")
     message = message.replace("Input should be", "it must be").replace("invalid value: ", "")

@@ -81,6 +81,8 @@ def test_a_condition_that_ends_before_what_looks_like_an_operator(line, told):
     # What an IF without THEN takes is below it [K §2.10, 4.14].
     assert codes(f"{line}\nTPErase;", "VAR bool b;\nVAR bool c;") == ["RG332"] * told
     assert codes(f"{line}\nTHEN TPErase;\nENDIF", "VAR bool b;\nVAR bool c;") == ["RG332"] * told
+    loop = line.replace("IF", "WHILE").removesuffix(" THEN")
+    assert codes(f"{loop}\nDO\nENDWHILE", "VAR bool b;\nVAR bool c;") == ["RG332"] * told
 
 
 def test_arrays_assigned_from_elements_are_not_compared_in_size():

@@ -11,6 +11,7 @@ import pytest
 from rapidgen.client import RobotTimeout
 from rapidgen.client.errors import NotReady
 from rapidgen.client.rws import AsyncController, Controller, RwsError
+from rapidgen.client.rws.address import parse_address
 from rapidgen.client.rws.core import RATE, Pace
 from rapidgen.client.rws.errors import Held, LoginFailed, NotObeyed, NotRws
 from rapidgen.client.rws.pins import known
@@ -285,6 +286,14 @@ def test_a_restart_that_takes_too_long_is_told(served):
         controller.panel()
         with pytest.raises(RobotTimeout):
             controller.wait_ready(wait=0)
+
+
+@pytest.mark.parametrize(
+    ("text", "address"),
+    [("[::1]:80", "rws://[::1]:80"), ("rwss://[fe80::1%25eth0]", "rwss://[fe80::1%25eth0]")],
+)
+def test_an_address_may_be_of_ipv6(text, address):
+    assert str(parse_address(text)) == address
 
 
 # -- logins ----------------------------------------------------------------------------------------
