@@ -12,7 +12,7 @@ from typing import NamedTuple, TypeAlias
 from rapidgen.proving.model import Broken
 from rapidgen.wire.simple_message import spec
 
-PROTOCOL_VERSION = 3
+PROTOCOL_VERSION = 4
 MAX_JOINTS = 10
 SHORTEST, LONGEST = 12, 1020
 """Values of the length field: a header without data, and the largest message."""
@@ -177,6 +177,7 @@ class RawReason(IntEnum):
     WAITED = 50
     ROUTINE = 51
     OVERTIME = 52
+    TASK_ENDED = 53
 
 
 def text_of(reason: RawReason) -> str:

@@ -246,6 +246,12 @@ def _versions() -> str:
             "values and checksum of POINTS are int32, no number of eight bytes is left; refused as "
             "between 1 and 2",
         ),
+        (
+            "4",
+            "reason 53: while a server task of the driver does not run, motion_possible is 0 and "
+            "every motion is refused",
+            "no layout of a message; refused as between 1 and 2",
+        ),
     ]
     return (
         "## Versions\n\nHELLO carries it; client and driver must have the same. The standard "

@@ -8,7 +8,7 @@ ROS-Industrial nodes for what they really send.
 
 from enum import IntEnum, IntFlag
 
-PROTOCOL_VERSION = 3
+PROTOCOL_VERSION = 4
 """Version of the messages in ABB's range. The standard messages have none: `since` 0."""
 
 PREFIX_BYTES = 4
@@ -256,6 +256,7 @@ class Reason(IntEnum):
     WAITED = 50, "a signal did not come in time"
     ROUTINE = 51, "a routine has raised an error"
     OVERTIME = 52, "a routine took longer than it may"
+    TASK_ENDED = 53, "a server task of the driver has ended"
 
 
 def error_code(reason: Reason, joint: int = 0) -> int:
