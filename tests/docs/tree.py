@@ -25,11 +25,6 @@ def tree_of(path: Path) -> ast.Module:
     return ast.parse(path.read_text(encoding="utf-8"))
 
 
-def lines_of(path: Path) -> int:
-    """Number of lines of a file."""
-    return path.read_text(encoding="utf-8").count("\n")
-
-
 def room(module: str) -> str:
     """The room of a module, '' for the package's own files."""
     parts = module.split(".")
