@@ -1,8 +1,4 @@
-"""xacro to URDF, with our own `$(find)`; every file read is remembered.
-
-xacro has no hook for `$(find)` and for reading files: two private names are replaced while it
-runs (held by a test and the pin `xacro>=2.1.1,<3`). It is not thread-safe, nor is this.
-"""
+"""xacro to URDF, within limits (`sandbox.py`); every file read is remembered."""
 
 import re
 import sys
@@ -15,7 +11,9 @@ from xml.dom import minidom
 from xml.parsers.expat import ExpatError
 from xml.sax.saxutils import quoteattr
 
+from rapidgen.config.urdf.expressions import ExpressionError
 from rapidgen.config.urdf.packages import PackageNotFound, Packages
+from rapidgen.config.urdf.sandbox import restricted
 from rapidgen.config.urdf.source import (
     Macro,
     declared_arguments,
@@ -42,6 +40,9 @@ _NAMED = re.compile(r"""<(joint|link)\b[^>]*?\bname\s*=\s*["']([^"']*)["']""")
 _NAMESPACE = "http://www.ros.org/wiki/xacro"
 _DEEPEST = 1000
 """Calls of Python that an expansion may nest: what a fresh interpreter allows."""
+_LONGEST_REASON = 300
+_MOST_BYTES = 4_000_000
+"""Bytes of all files of a xacro description."""
 
 
 @dataclass(slots=True)
@@ -155,15 +156,33 @@ def _run(request: Request, document: str, made: Description, texts: list[str]) -
     from xacro import substitution_args
 
     reading = [request.path]
-    original_parse, original_find = xacro.parse, substitution_args._eval_find
+    bytes_read = 0
+
+    def read(path: Path) -> str:
+        nonlocal bytes_read
+        if path != request.path.resolve() and not request.packages.allows(path):
+            raise refusal(
+                "RG032",
+                request.place,
+                f"{path} is outside the folders of {request.path.name} and its packages",
+                "give the folder by --package-path FOLDER, or under urdf.packages",
+                label=f"included by {reading[-1].name}",
+            )
+        content, data = read_xml(path, place=request.place)
+        bytes_read += len(data)
+        if bytes_read > _MOST_BYTES:
+            raise ExpressionError(f"its files have more than {_MOST_BYTES:,} bytes")
+        made.inputs.append((path.name, data))
+        made.sources.append((path, content))
+        return content
+
+    original_parse = xacro.parse
 
     def parse(given: object, filename: str | None = None) -> minidom.Document:
         if given is None and filename is not None:
             path = Path(filename)
-            content, data = read_xml(path, place=request.place)
+            content = read(path)
             texts.append(content)
-            made.inputs.append((path.name, data))
-            made.sources.append((path, content))
             reading.append(path)
             document = minidom.parseString(content)
             reading.pop()
@@ -171,16 +190,18 @@ def _run(request: Request, document: str, made: Description, texts: list[str]) -
         parsed: minidom.Document = original_parse(given, filename)
         return parsed
 
-    def find(name: str) -> str:
-        return str(request.packages.find(name))
-
     xacro.parse = parse
-    substitution_args._eval_find = find
-    substitution_args._eval_dict["find"] = find
     try:
+        if len(document) > _MOST_BYTES:
+            raise ExpressionError(f"it has more than {_MOST_BYTES:,} bytes")
         xacro.init_stacks(str(request.path))
         tree = minidom.parseString(document)
-        with _bounded_depth():
+        with (
+            restricted(
+                lambda name: str(request.packages.find(name)), read, request.packages.allows
+            ),
+            _bounded_depth(),
+        ):
             xacro.process_doc(tree, mappings=dict(request.arguments), verbosity=0)
             return str(tree.toprettyxml(indent="  "))
     except (
@@ -204,8 +225,6 @@ def _run(request: Request, document: str, made: Description, texts: list[str]) -
         raise DiagnosticError(_translate(request, fault, at)) from None
     finally:
         xacro.parse = original_parse
-        substitution_args._eval_find = original_find
-        substitution_args._eval_dict["find"] = original_find
 
 
 @contextmanager
@@ -253,7 +272,7 @@ def _translate(request: Request, fault: BaseException, at: Path) -> Diagnostic:
     if isinstance(inner, RecursionError):
         hint = "a macro calls, or a file includes, itself without end?"
         return error("RG061", place, f"xacro: {name} nests too deep", hint)
-    text = " ".join(str(inner).split()) or type(inner).__name__
+    text = " ".join(str(inner).split())[:_LONGEST_REASON] or type(inner).__name__
     hint = "mend it there, or expand the file where all that it needs is, and give the URDF"
     if type(inner).__name__ == "ArgException":
         wanted, text = text, f"the argument '{text}' has no value"

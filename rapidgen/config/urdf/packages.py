@@ -16,6 +16,11 @@ _NAME = re.compile(rb"<name>\s*([^<\s]+)\s*</name>")
 _SKIPPED = frozenset({".git", "build", "log", "node_modules", "__pycache__", "meshes", ".venv"})
 
 
+def is_package(folder: Path) -> bool:
+    """Whether a folder is a ROS package."""
+    return (folder / "package.xml").is_file()
+
+
 class PackageNotFound(LookupError):
     """No folder for a package; the message lists where it was looked for."""
 
@@ -39,6 +44,22 @@ class Packages:
         """
         self.used[name] = self._find(name).absolute()
         return self.used[name]
+
+    def allows(self, file: Path) -> bool:
+        """Whether a description may read a file: it is below one of the named folders.
+
+        These are the folder of the description (of its package, if it is in one), the packages
+        that were configured or found, and `--package-path`. A link to another place is followed
+        only within a colcon workspace, which consists of links (`--symlink-install`).
+        """
+        own = next((f for f in (self.start, *self.start.parents) if is_package(f)), self.start)
+        folders = [own, *self.explicit.values(), *self.paths, *self.used.values()]
+        real = file.resolve()
+        if any(real.is_relative_to(folder.resolve()) for folder in folders):
+            return True
+        written = Path(os.path.abspath(file))
+        prefixes = [p for p in self.environment.get("AMENT_PREFIX_PATH", "").split(os.pathsep) if p]
+        return any(written.is_relative_to(os.path.abspath(prefix)) for prefix in prefixes)
 
     def _find(self, name: str) -> Path:
         if name in self.explicit:

@@ -1,7 +1,7 @@
 """Files of a robot description as checked XML text.
 
 XML from elsewhere is read with limits: no document type, hence no entities, at most 20 MB.
-xacro input is code (it reads files and the environment); plain URDF is only data.
+xacro is expanded within limits (`sandbox.py`); plain URDF is only data.
 """
 
 import re
