@@ -143,6 +143,9 @@ mutants: $(STAMP) ## 5 min: a defect of the front end that turns it red, for eac
 runtime-mutants: $(STAMP) ## 15 min: the same for the conformance files of the runtime
 	$(BIN)/python benchmarks/conformance_mutants_runtime.py
 
+source-mutants: $(STAMP) ## 30 min: which mutants of client, servers, ros, deploy and machine their tests detect
+	$(BIN)/python tools/source_mutants.py --jobs 2 --output build/source-mutants.jsonl
+
 driver-mutants: $(STAMP) ## 12 min: which mutants of the generated modules the suite notices
 	$(BIN)/python benchmarks/mutation.py --jobs 2 --budget 4 --output build/mutation.jsonl irb120
 

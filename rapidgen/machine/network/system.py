@@ -89,11 +89,12 @@ class SystemNetwork(Network):
         _check_address(host)
         if any(e.port == port != 0 and e.datagram == datagram for e in self._open):
             raise NetworkFault(NetworkReason.ADDRESS_IN_USE, f"port {port}")
+        place = self._place(port, datagram)
         own = _new_socket(datagram)
         try:
             if not datagram:
                 own.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-            own.bind((self._host, self._place(port, datagram)))
+            own.bind((self._host, place))
         except OSError as error:
             own.close()
             raise _fault(error) from error

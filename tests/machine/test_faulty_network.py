@@ -1,0 +1,273 @@
+"""Rules of what goes wrong with connections, each alone, on a network in memory."""
+
+import pytest
+
+from rapidgen.machine.network.faulty import FaultyNetwork
+from rapidgen.machine.network.interface import BUFFER, NetworkFault, NetworkReason
+from rapidgen.machine.network.memory import LATENCY, MemoryNetwork
+from rapidgen.machine.network.rules import NetworkRule
+from rapidgen.machine.scheduler import MS, S, Scheduler
+
+HOST = "127.0.0.1"
+PORT = 11000
+
+
+class Net(FaultyNetwork):
+    def __init__(self, *rules):
+        self.scheduler = Scheduler()
+        self.plain = MemoryNetwork(self.scheduler)
+        super().__init__(self.plain, self.scheduler, rules)
+        self.listener = self.bind(HOST, PORT)
+        self.listen(self.listener)
+
+    def pair(self):
+        """The program's end, and that of a client behind no rule."""
+        client = self.plain.connect(HOST, PORT)
+        self.scheduler.advance(self.scheduler.now + 10 * MS)
+        return self.accept(self.listener), client
+
+    def settle(self):
+        self.scheduler.advance()
+
+    def wait(self, time):
+        self.scheduler.advance(self.scheduler.now + time + 1)
+
+    def heard(self, endpoint, network=None):
+        """Pieces as they came, with their times in ms from now."""
+        network, began, pieces = network or self, self.scheduler.now, []
+
+        def take():
+            while data := network.receive(endpoint, BUFFER):
+                pieces.append((round((self.scheduler.now - began) / MS, 3), data))
+
+        endpoint.changed.add(take)
+        take()
+        return pieces
+
+
+def reason(function, *arguments, **options):
+    with pytest.raises(NetworkFault) as fault:
+        function(*arguments, **options)
+    return fault.value.reason
+
+
+def test_without_a_rule_everything_goes_straight_through():
+    net = Net(NetworkRule("split", port=5), NetworkRule("reset", connection=2))
+    program, client = net.pair()
+    net.plain.send(client, b"hello")
+    assert net.send(program, b"back") == 4
+    net.settle()
+    assert net.receive(program, 5, exact=True, peek=True) == b"hello"
+    assert net.receive(program, 9) == b"hello"
+    assert net.plain.receive(client, 9) == b"back"
+    second, _ = net.pair()
+    assert reason(net.send, second, b"x") is NetworkReason.RESET
+    assert net.listeners == {PORT: (HOST, PORT)}
+
+
+def test_rules_concern_a_port_and_a_connection():
+    assert NetworkRule("split").concerns(5, 2)
+    assert NetworkRule("split", port=5, connection=2).concerns(5, 2)
+    assert not NetworkRule("split", port=4).concerns(5, 2)
+    assert not NetworkRule("split", connection=1).concerns(5, 2)
+
+
+def test_split_in_one_direction():
+    net = Net(NetworkRule("split", direction="in", bytes=2, seconds=0.001, after=1))
+    program, client = net.pair()
+    pieces, other = net.heard(program), net.heard(client, net.plain)
+    net.plain.send(client, b"abcde")
+    net.send(program, b"fghij")
+    net.settle()
+    assert pieces == [(0.1, b"a"), (1.1, b"bc"), (2.1, b"de")]
+    assert other == [(0.1, b"fghij")]
+
+
+def test_slow_in_the_other_direction():
+    net = Net(NetworkRule("slow", direction="out", bytes=100))
+    program, client = net.pair()
+    net.wait(S)
+    pieces = net.heard(client, net.plain)
+    net.send(program, bytes(25))
+    net.settle()
+    assert [(t, len(p)) for t, p in pieces] == [(0.1, 10), (100.1, 10), (200.1, 5)]
+
+
+def test_slower_than_ten_bytes_a_second():
+    net = Net(NetworkRule("slow", direction="out", bytes=5))
+    program, client = net.pair()
+    net.wait(S)
+    pieces = net.heard(client, net.plain)
+    net.send(program, bytes(2))
+    net.settle()
+    assert [(t, len(p)) for t, p in pieces] == [(0.1, 1), (200.1, 1)]
+
+
+def test_delayed_bytes_keep_their_order():
+    net = Net(NetworkRule("delay", seconds=0.5))
+    program, client = net.pair()
+    pieces = net.heard(client, net.plain)
+    net.send(program, b"ab")
+    net.wait(100 * MS)
+    net.send(program, b"c")
+    net.settle()
+    assert pieces == [(500.1, b"ab"), (600.1, b"c")]
+
+
+def test_merged_bytes_come_at_the_end_of_a_stretch():
+    net = Net(NetworkRule("merge", direction="in", seconds=0.2))
+    program, client = net.pair()
+    net.scheduler.advance(round(1.05 * S))
+    pieces = net.heard(program)
+    for _ in range(2):
+        net.plain.send(client, b"a")
+        net.wait(60 * MS)
+    net.settle()
+    assert [(round(t, 1), p) for t, p in pieces] == [(150.0, b"aa")]
+
+
+@pytest.mark.parametrize("after", [0, 3])
+def test_a_reset_comes_behind_so_many_bytes(after):
+    net = Net(NetworkRule("reset", direction="out", after=after))
+    program, client = net.pair()
+    if after:
+        assert net.send(program, b"abcde") == 5
+        net.wait(LATENCY)
+    assert reason(net.send, program, b"x") is NetworkReason.RESET
+    net.settle()
+    got = client.incoming.arrived
+    assert bytes(got) == b"abc"[:after]
+
+
+def test_a_reset_in_the_other_direction():
+    net = Net(NetworkRule("reset", direction="in", after=2))
+    program, client = net.pair()
+    assert net.receive(program, 1) is None
+    net.plain.send(client, b"abcd")
+    net.settle()
+    assert net.receive(program, 9) == b"ab"
+    assert reason(net.receive, program, 9) is NetworkReason.RESET
+    net.settle()
+    assert reason(net.plain.receive, client, 1) is NetworkReason.RESET
+
+
+def test_silence_says_nothing():
+    net = Net(NetworkRule("silent", after=2))
+    program, client = net.pair()
+    net.plain.send(client, b"abcd")
+    assert net.send(program, b"efgh") == 4
+    net.settle()
+    assert net.receive(program, 9) == b"ab"
+    assert net.plain.receive(client, 9) == b"ef"
+    net.plain.close(client)
+    net.settle()
+    assert net.receive(program, 9) is None
+
+
+def test_half_open():
+    net = Net(NetworkRule("half-open"))
+    program, client = net.pair()
+    net.plain.send(client, b"ab")
+    net.plain.close(client)
+    net.settle()
+    assert net.receive(program, 9) == b"ab"
+    assert net.receive(program, 9) is None
+    assert net.send(program, b"taken") == 5
+    assert reason(net.send, program, b"x") is NetworkReason.RESET
+
+
+def test_without_half_open_the_end_is_seen_behind_what_came():
+    net = Net(NetworkRule("delay", seconds=0.5))
+    program, client = net.pair()
+    net.plain.send(client, b"ab")
+    net.plain.close(client)
+    net.wait(10 * MS)
+    assert net.receive(program, 9) is None
+    net.settle()
+    assert net.receive(program, 9) == b"ab"
+    assert net.receive(program, 9) == b""
+
+
+def test_the_other_end_s_reset_is_seen():
+    net = Net(NetworkRule("delay", seconds=0.5))
+    program, client = net.pair()
+    net.plain.close(client, abort=True)
+    net.settle()
+    assert reason(net.receive, program, 9) is NetworkReason.RESET
+    assert reason(net.send, program, b"x") is NetworkReason.RESET
+
+
+@pytest.mark.parametrize("abort", [True, False])
+def test_what_waits_is_still_sent_when_a_connection_is_closed(abort):
+    net = Net(NetworkRule("delay", seconds=0.5, direction="out"))
+    program, client = net.pair()
+    pieces = net.heard(client, net.plain) if not abort else []
+    net.send(program, b"last")
+    net.close(program, abort=abort)
+    net.settle()
+    assert program.closed
+    assert pieces == ([] if abort else [(500.1, b"last")])
+    if not abort:
+        assert net.plain.receive(client, 1) == b""
+
+
+def test_room_is_that_of_a_connection():
+    net = Net(NetworkRule("delay", seconds=0.5))
+    program, client = net.pair()
+    assert net.send(program, bytes(BUFFER + 1)) == BUFFER
+    assert net.send(program, b"x") == 0
+    net.settle()
+    assert net.send(program, b"xy") == 2
+    pieces = net.heard(client, net.plain)
+    net.settle()
+    assert sum(len(p) for _, p in pieces) == BUFFER + 2
+    net.plain.send(client, bytes(BUFFER))
+    net.settle()
+    net.plain.send(client, bytes(BUFFER))
+    net.settle()
+    assert len(net.receive(program, 3 * BUFFER)) == BUFFER
+    assert net.receive(program, 1) is None
+    net.settle()
+    assert len(net.receive(program, 3 * BUFFER)) == BUFFER
+
+
+def test_other_rules_for_connections_to_come():
+    net = Net(NetworkRule("reset"))
+    net.obey(())
+    program, _ = net.pair()
+    assert net.send(program, b"x") == 1
+    net.obey((NetworkRule("reset"),))
+    assert net.send(program, b"x") == 1
+    assert reason(net.send, net.pair()[0], b"x") is NetworkReason.RESET
+
+
+@pytest.mark.parametrize("rules", [(), (NetworkRule("delay", seconds=0.1),)])
+def test_a_rule_for_a_connection_that_is_there(rules):
+    net = Net(*rules)
+    program, client = net.pair()
+    net.send(program, b"before")
+    net.afflict(program, NetworkRule("silent", direction="out", after=2))
+    assert net.send(program, b"abcd") == 4
+    net.plain.send(client, b"in")
+    net.settle()
+    assert net.plain.receive(client, 99) == b"beforeab"
+    assert net.receive(program, 99) == b"in"
+
+
+def test_connections_that_the_program_makes():
+    net = Net(NetworkRule("reset", port=7, direction="out"))
+    other = net.plain.bind(HOST, 7)
+    net.plain.listen(other)
+    program = net.connect(HOST, 7)
+    assert net.send(program, b"x") == 0
+    net.wait(MS)
+    assert reason(net.send, program, b"x") is NetworkReason.RESET
+
+
+def test_everything_is_shut_down():
+    net = Net(NetworkRule("delay", seconds=0.5))
+    program, _ = net.pair()
+    net.send(program, b"x")
+    net.shut_down()
+    assert program.closed
+    assert net.listeners == {}
