@@ -9,6 +9,7 @@ from rapidgen.config.axis_sets import kept_axes
 from rapidgen.config.draft import DraftFindings, GroupDraft
 from rapidgen.config.draft import Path as KeyPath
 from rapidgen.config.joints import joints_of
+from rapidgen.config.plausibility import Arm, is_radians, length_of
 from rapidgen.config.registry import find_shipped
 from rapidgen.config.tooling import data_of, routine_of, tool_of, work_object_of
 from rapidgen.config.variant_model import label
@@ -216,6 +217,7 @@ def _group(
         report.mute((*path, "chain"))
         report.mute((*path, "positioners"))
     _chain(draft.chain, (*path, "chain"), names, "`joints`", report)
+    _check_angles(keys, path, report)
     external = {joint.name for joint in joints if joint.axis.startswith("eax")}
     for unit, chain in list(draft.positioners.items()):
         where: KeyPath = (*path, "positioners", unit)
@@ -242,6 +244,7 @@ def _group(
             )
         _chain(chain, where, external, "the external axes of `joints`", report)
     ports = keys.ports
+    arm = _arm(draft)
     return model.GroupConfig(
         name=draft.name,
         task=keys.task or f"T_ROB{index + 1}",
@@ -260,15 +263,15 @@ def _group(
         model=draft.model,
         chain=tuple(draft.chain),
         coupling=draft.coupling or 0.0,
-        tool=tool_of(keys.tool, (*path, "tool"), report),
+        tool=tool_of(keys.tool, (*path, "tool"), report, arm),
         payload=model.Payload(keys.payload.name, keys.payload.given_by == "TLoad"),
-        work_object=work_object_of(keys.work_object, (*path, "work_object"), report),
+        work_object=work_object_of(keys.work_object, (*path, "work_object"), report, arm),
         tools=tuple(
-            tool_of(tool, (*path, "tools", number), report)
+            tool_of(tool, (*path, "tools", number), report, arm)
             for number, tool in enumerate(keys.tools)
         ),
         work_objects=tuple(
-            work_object_of(wobj, (*path, "work_objects", number), report)
+            work_object_of(wobj, (*path, "work_objects", number), report, arm)
             for number, wobj in enumerate(keys.work_objects)
         ),
         routines=tuple(
@@ -282,7 +285,43 @@ def _group(
             model.Positioner(unit, tuple(chain)) for unit, chain in draft.positioners.items()
         ),
         kept=kept,
+        max_payload=draft.max_payload,
     )
+
+
+def _arm(draft: GroupDraft) -> Arm:
+    """What is known of the arm."""
+    linear = [j for j in draft.joints if j.unit == "mm"]
+    ways = sum((j.upper or 0.0) - (j.lower or 0.0) for j in linear) / 1000
+    reach = length_of(draft.chain)
+    name = draft.model or draft.arm or draft.name
+    return Arm(name, draft.max_payload, reach + ways if reach else 0.0)
+
+
+def _check_angles(keys: schema.GroupKeys, path: KeyPath, report: DraftFindings) -> None:
+    """RG071: rad where deg are meant."""
+    angles: list[tuple[KeyPath, float]] = [
+        ((*path, "chain", number, "rpy", place), angle)
+        for number, step in enumerate(keys.chain)
+        for place, angle in enumerate(step.rpy)
+    ]
+    angles += [
+        ((*path, "positioners", unit, number, "rpy", place), angle)
+        for unit, chain in keys.positioners.items()
+        for number, step in enumerate(chain)
+        for place, angle in enumerate(step.rpy)
+    ]
+    angles += [((*path, "keep", axis), value or 0.0) for axis, value in keys.keep.items()]
+    for where, angle in angles:
+        if is_radians(angle):
+            report.add(
+                "RG071",
+                Severity.WARNING,
+                f"an angle of {angle:g} deg",
+                where,
+                "rad?",
+                f"the unit is deg: {angle:g} rad are {math.degrees(angle):.4g}",
+            )
 
 
 def _check_ceiling(limit: float, path: KeyPath, report: DraftFindings) -> None:

@@ -89,6 +89,8 @@ def variant_text(variant: Variant) -> str:
     lines.append(f"  reach  {reach(variant) * 1000:.0f} mm from axis 1 to the last wrist axis")
     end = ", ".join(f"{v * 1000:g}" for v in variant.skeleton.end)
     lines.append(f"  flange at {end} mm with every axis at 0")
+    payload = f"{variant.max_payload:g} kg" if variant.max_payload else "not known"
+    lines.append(f"  payload {payload}")
     coupling = "not known" if variant.coupling is None else f"{variant.coupling:g}"
     lines.append(f"  coupling {coupling}")
     lines += [f"  {what}: {source}" for what, source in variant.sources]

@@ -11,10 +11,12 @@ from pathlib import Path
 from typing import Annotated
 
 from rapidgen.config.assemble import keys_of, shown_path
+from rapidgen.config.compiled import shipped_groups
 from rapidgen.config.draft import DraftFindings
 from rapidgen.config.few import few
 from rapidgen.config.model import Load, Placement, Tool, WorkObject
-from rapidgen.config.registry import is_path
+from rapidgen.config.plausibility import Arm, arm_of, load_doubts
+from rapidgen.config.registry import is_path, shipped_names
 from rapidgen.config.rules import Rule
 from rapidgen.config.schema import (
     FrameKeys,
@@ -31,7 +33,7 @@ from rapidgen.config.schema import (
 from rapidgen.config.tooling import load_of, placement_of, tool_of, work_object_of
 from rapidgen.config.tree import read_bytes
 from rapidgen.config.validate import sound
-from rapidgen.diagnostics import DiagnosticError, Severity
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
 
 GROUP_BITS = 32
 """Bits of a group signal whose size nobody tells; a group has at most 32 [S4 GO]."""
@@ -197,12 +199,15 @@ class CellDescription:
     things: tuple[Thing, ...] = ()
     bases: Mapping[str, Placement] = field(default_factory=dict)
     """Where robots are drawn, by task."""
+    diagnostics: tuple[Diagnostic, ...] = field(default=(), compare=False)
+    """Warnings found while loading, to be shown."""
 
 
 def load_cell(path: Path) -> CellDescription:
     """Read the description of a cell; a `model` that is a file's is found from its folder.
 
-    Raises DiagnosticError (RG001..RG009, RG014) with everything that is wrong.
+    Raises DiagnosticError (RG001..RG009, RG014, RG070, RG071) with everything that is wrong;
+    warnings are in its `diagnostics`.
     """
     shown = shown_path(path)
     such = "such as `signals: {doGrip: {kind: DO}}`; `rapidgen schema --cell` has them all"
@@ -210,6 +215,7 @@ def load_cell(path: Path) -> CellDescription:
     keys, faults, removed = sound(root, CellKeys)
     report = DraftFindings(root, removed)
     report.found = found + faults
+    arm = _arm(keys)
     cell = CellDescription(
         {
             task: replace(robot, model=str(path.parent / robot.model))
@@ -219,7 +225,9 @@ def load_cell(path: Path) -> CellDescription:
         },
         keys.signals,
         tuple(
-            tool_of(ToolKeys(given.held, given.frame, given.load, name), ("tools", name), report)
+            tool_of(
+                ToolKeys(given.held, given.frame, given.load, name), ("tools", name), report, arm
+            )
             for name, given in keys.tools.items()
         ),
         tuple(
@@ -227,10 +235,11 @@ def load_cell(path: Path) -> CellDescription:
                 WorkObjectKeys(given.held, given.user_frame, given.object_frame, name),
                 ("work_objects", name),
                 report,
+                arm,
             )
             for name, given in keys.work_objects.items()
         ),
-        {name: load_of(load, ("loads", name), report) for name, load in keys.loads.items()},
+        {name: load_of(load, ("loads", name), report, arm) for name, load in keys.loads.items()},
         keys.devices,
         keys.cameras,
         keys.force,
@@ -239,17 +248,44 @@ def load_cell(path: Path) -> CellDescription:
             Thing(
                 name,
                 thing.mesh,
-                placement_of(thing.frame, ("things", name, "frame"), report),
+                placement_of(thing.frame, ("things", name, "frame"), report, arm),
                 thing.scale,
             )
             for name, thing in keys.things.items()
         ),
         {
-            task: placement_of(robot.base, ("robots", task, "base"), report)
+            task: placement_of(robot.base, ("robots", task, "base"), report, arm)
             for task, robot in keys.robots.items()
             if robot.base is not None
         },
     )
-    if any(d.severity is Severity.ERROR for d in report.found):
+    _check_force(keys, report, arm)
+    if report.failed:
         raise DiagnosticError(few(report.found))
-    return cell
+    return replace(cell, diagnostics=tuple(few(report.found)))
+
+
+def _arm(keys: CellKeys) -> Arm:
+    """What the strongest and the longest of its robots can, where all are shipped models.
+
+    Its tools and work objects belong to none of them.
+    """
+    models = [robot.model for robot in keys.robots.values()]
+    if not models or not set(models) <= set(shipped_names()):
+        return Arm()
+    arms = [arm_of(group) for model in models for group in shipped_groups(model)]
+    strong = max(arms, key=lambda arm: arm.payload)
+    is_known = all(arm.payload for arm in arms)
+    return Arm(strong.name, strong.payload if is_known else 0.0, max(arm.reach for arm in arms))
+
+
+def _check_force(keys: CellKeys, report: DraftFindings, arm: Arm) -> None:
+    """RG070: the load that force sensors find can hardly be one."""
+    if keys.force is None:
+        return
+    x, y, z = keys.force.center
+    centre = (x / 1000, y / 1000, z / 1000)
+    for doubt in load_doubts(keys.force.mass, centre, (0.0, 0.0, 0.0), arm):
+        severity = Severity.ERROR if doubt.impossible else Severity.WARNING
+        key = "mass" if doubt.part == "mass" else "center"
+        report.add("RG070", severity, doubt.message, ("force", key), help=doubt.help)

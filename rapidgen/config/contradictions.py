@@ -29,6 +29,8 @@ Range: TypeAlias = tuple[float | None, float | None]
 _CLOSE = 0.6
 """deg or mm by which sources round a range"""
 _FASTER = 1.01
+_SHORTEST_ARM = 0.05
+"""m; the shortest arm of ABB reaches 0.37 (IRB 1010)"""
 _LONGEST_LINK, _LONGEST_ARM, _FARTHEST_BASE = 5.0, 10.0, 1000.0
 """m; the longest arm of ABB reaches 4.2 (IRB 8700)"""
 _SAME_END = 0.005
@@ -65,6 +67,9 @@ def contradictions(
         _dimensions(difference, variant, path, report)
     if not is_named:
         return
+    if not draft.max_payload:
+        draft.max_payload = variant.max_payload
+        draft.arm = variant.name
     _coupling(draft, variant, path, report)
     if not (difference and difference.turned):
         for joint in draft.joints:
@@ -95,6 +100,14 @@ def _lengths(draft: GroupDraft, path: KeyPath, report: DraftFindings) -> None:
             )
             return
         inside = inside or step.joint in robot
+    if len(robot) > 2 and 0 < total < _SHORTEST_ARM:
+        report.error(
+            "RG062",
+            f"the arm is {total * 1000:.4g} mm long",
+            (*path, "urdf", "file") if draft.urdf_chain else (*path, "chain"),
+            "no robot is",
+            "lengths are m in a URDF and mm in a configuration",
+        )
 
 
 def _arm(draft: GroupDraft) -> Skeleton | None:

@@ -42,6 +42,8 @@ class GroupDraft:
     chain: list[ChainLink] = field(default_factory=list)
     positioners: dict[str, list[ChainLink]] = field(default_factory=dict)
     coupling: float | None = None
+    max_payload: float = 0.0
+    """kg; 0: not known."""
     known: dict[tuple[str, str], float] = field(default_factory=dict)
     """Figures of the shipped model by (axis, "lower" or "upper" or "speed")."""
     external_units: tuple[str, ...] = ()
@@ -51,6 +53,8 @@ class GroupDraft:
     """What the description and its file are called."""
     keep: tuple[float, ...] = ()
     """Where the axes without a joint stand (rad), in their order."""
+    arm: str = ""
+    """The variant that it was recognised as, by its axes in space."""
     ignored: tuple[str, ...] = ()
     """Joints of the URDF that move by themselves, are part of the arm and drive no axis."""
 

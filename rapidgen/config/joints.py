@@ -5,6 +5,7 @@ import math
 from rapidgen.config import model, schema
 from rapidgen.config.draft import DraftFindings, GroupDraft, JointDraft
 from rapidgen.config.draft import Path as KeyPath
+from rapidgen.config.plausibility import axis_doubts
 from rapidgen.diagnostics import Severity
 
 MAX_JOINTS = 10
@@ -45,6 +46,8 @@ def joints_of(
             )
         if joint.axis:
             seen.setdefault(joint.axis, joint.name)
+        for key, message, help in axis_doubts(joint):
+            report.add("RG071", Severity.WARNING, message, (*here, key), help=help)
         made = _joint(joint, keys.acceleration_time, here, report)
         if made:
             joints.append(made)

@@ -42,6 +42,8 @@ class Variant:
     model: str
     group: str
     coupling: float | None
+    max_payload: float
+    """kg; 0: not known."""
     axes: tuple[KnownAxis, ...]
     skeleton: Skeleton
     sources: tuple[tuple[str, str], ...]
@@ -120,6 +122,7 @@ def _variant(entry: Json) -> Variant:
         model=text(data.get("model", "")),
         group=text(data.get("group", "")),
         coupling=None if coupling is None else number(coupling),
+        max_payload=_figure(data, "max_payload") or 0.0,
         axes=tuple(
             KnownAxis(
                 text(axis["axis"]),
@@ -149,8 +152,8 @@ def _variant(entry: Json) -> Variant:
     )
 
 
-def _figure(axis: Members, name: str) -> float | None:
-    value = axis.get(name)
+def _figure(data: Members, name: str) -> float | None:
+    value = data.get(name)
     return None if value is None else number(value)
 
 
@@ -189,6 +192,7 @@ def entry(name: str, draft: GroupDraft, sources: dict[str, str], unsure: list[st
         "model": draft.model,
         "group": draft.name,
         "coupling": draft.coupling,
+        "max_payload": draft.max_payload or None,
         "axes": axes,
         "end": [round(v * 1000, 3) for v in arm.end],
         "facing": [[round(v, 6) + 0.0 for v in row] for row in arm.facing or ()],

@@ -123,7 +123,18 @@ def _draft(name: str, keys: schema.GroupKeys, basis: Basis | None) -> GroupDraft
     model, known = (basis.model, basis.known) if basis else ("", {})
     units = tuple(keys.external_units)
     keep = tuple(math.radians(value or 0.0) for _, value in sorted(keys.keep.items()))
-    return GroupDraft(name, model, joints, chain, carriers, keys.coupling, known, units, keep=keep)
+    return GroupDraft(
+        name,
+        model,
+        joints,
+        chain,
+        carriers,
+        keys.coupling,
+        keys.max_payload or 0.0,
+        known,
+        units,
+        keep=keep,
+    )
 
 
 def _link(step: schema.ChainStepKeys) -> ChainLink:

@@ -192,6 +192,8 @@ class GroupConfig:
     data: tuple[OwnDatum, ...] = field(default=(), metadata=SPARSE)
     kept: tuple[KeptAxis, ...] = field(default=(), metadata=SPARSE)
     """Robot axes without a joint."""
+    max_payload: float = field(default=0.0, metadata=SPARSE)
+    """kg; 0: not known."""
     unit_group: str = field(default="", metadata=SPARSE)
     """Name of the mechanical unit group, where a backup tells another than the unit's."""
 

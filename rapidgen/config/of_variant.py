@@ -88,6 +88,7 @@ def group_of(variant: Variant, name: str = "rob1") -> GroupConfig | None:
         variant.name,
         tuple(links),
         variant.coupling or 0.0,
+        max_payload=variant.max_payload,
     )
 
 

@@ -19,6 +19,9 @@ Axis = Literal[
 ]
 RobotAxis = Literal["rax_1", "rax_2", "rax_3", "rax_4", "rax_5", "rax_6"]
 Figure = Literal["lower", "upper", "speed", "acceleration", "axis", "sign", "offset"]
+GroupFigure = Literal[
+    "limits", "speeds", "chain", "coupling", "mapping", "tcp_speed_limit", "max_payload",
+]
 Zone = Literal[
     "fine", "z0", "z1", "z5", "z10", "z15", "z20", "z30",
     "z40", "z50", "z60", "z80", "z100", "z150", "z200",
@@ -383,6 +386,10 @@ class GroupKeys(Part):
             le=1,
         ),
     ] = None
+    max_payload: Annotated[
+        float | None,
+        Rule("What the robot can carry, tool included, kg; a load beyond it is reported.", gt=0),
+    ] = None
     tool: Annotated[ToolKeys, Rule("Tool of the moves.")] = field(default_factory=ToolKeys)
     payload: Annotated[PayloadKeys, Rule("What the robot carries.")] = field(
         default_factory=PayloadKeys
@@ -411,11 +418,11 @@ class GroupKeys(Part):
     ] = 5000.0
     ports: Annotated[PortsKeys, Rule("TCP ports.")] = field(default_factory=PortsKeys)
     source: Annotated[
-        dict[Literal["limits", "speeds", "chain", "coupling", "mapping", "tcp_speed_limit"], Text],
+        dict[GroupFigure, Text],
         Rule("Where the group's figures come from."),
     ] = field(default_factory=dict)
     unsure: Annotated[
-        list[Literal["chain", "coupling", "mapping", "tcp_speed_limit"]],
+        list[Literal["chain", "coupling", "mapping", "tcp_speed_limit", "max_payload"]],
         Rule("Parts without a sure source; a build says so."),
     ] = field(default_factory=list)
 

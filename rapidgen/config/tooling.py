@@ -5,6 +5,7 @@ import math
 from rapidgen.config import model, schema
 from rapidgen.config.draft import DraftFindings
 from rapidgen.config.draft import Path as KeyPath
+from rapidgen.config.plausibility import Arm, frame_doubt, load_doubts
 from rapidgen.diagnostics import Severity
 
 _MOST_PARAMETERS = 8
@@ -32,15 +33,23 @@ def _metres(values: list[float]) -> tuple[float, float, float]:
     return (x, y, z)
 
 
-def placement_of(frame: schema.FrameKeys, path: KeyPath, report: DraftFindings) -> model.Placement:
-    """A frame in m."""
+def placement_of(
+    frame: schema.FrameKeys, path: KeyPath, report: DraftFindings, arm: Arm, *, tool: bool = False
+) -> model.Placement:
+    """A frame in m; of a `tool` it begins at the flange. RG071: hardly a frame of that arm."""
+    position = _metres(frame.position)
+    doubt = frame_doubt(position, arm, tool=tool)
+    if doubt:
+        impossible, message, help = doubt
+        severity = Severity.ERROR if impossible else Severity.WARNING
+        report.add("RG071", severity, message, (*path, "position"), help=help)
     return model.Placement(
-        _metres(frame.position),
+        position,
         _unit_quaternion(frame.orientation, (*path, "orientation"), report),
     )
 
 
-def tool_of(tool: schema.ToolKeys, path: KeyPath, report: DraftFindings) -> model.Tool:
+def tool_of(tool: schema.ToolKeys, path: KeyPath, report: DraftFindings, arm: Arm) -> model.Tool:
     """The tool of the moves."""
     load = tool.load
     is_named = not report.is_faulty((*path, "name"))
@@ -63,24 +72,28 @@ def tool_of(tool: schema.ToolKeys, path: KeyPath, report: DraftFindings) -> mode
         tool.name,
         tool.declared == "elsewhere",
         tool.held,
-        placement_of(tool.frame, (*path, "frame"), report),
-        load_of(load, (*path, "load"), report),
+        placement_of(tool.frame, (*path, "frame"), report, arm, tool=tool.held),
+        load_of(load, (*path, "load"), report, arm),
     )
 
 
-def load_of(load: schema.LoadKeys, path: KeyPath, report: DraftFindings) -> model.Load:
-    """A load."""
+def load_of(load: schema.LoadKeys, path: KeyPath, report: DraftFindings, arm: Arm) -> model.Load:
+    """A load. RG070: it can hardly be one, or not one for that arm."""
     x, y, z = load.inertia
+    centre = _metres(load.centre)
+    for doubt in load_doubts(load.mass, centre, (x, y, z), arm):
+        severity = Severity.ERROR if doubt.impossible else Severity.WARNING
+        report.add("RG070", severity, doubt.message, (*path, doubt.part), help=doubt.help)
     return model.Load(
         load.mass,
-        _metres(load.centre),
+        centre,
         _unit_quaternion(load.axes, (*path, "axes"), report),
         (x, y, z),
     )
 
 
 def work_object_of(
-    given: schema.WorkObjectKeys, path: KeyPath, report: DraftFindings
+    given: schema.WorkObjectKeys, path: KeyPath, report: DraftFindings, arm: Arm
 ) -> model.WorkObject:
     """The work object of the moves."""
     is_named = not report.is_faulty((*path, "name"))
@@ -96,8 +109,8 @@ def work_object_of(
         given.name,
         given.declared == "elsewhere",
         given.held,
-        placement_of(given.user_frame, (*path, "user_frame"), report),
-        placement_of(given.object_frame, (*path, "object_frame"), report),
+        placement_of(given.user_frame, (*path, "user_frame"), report, arm, tool=given.held),
+        placement_of(given.object_frame, (*path, "object_frame"), report, arm, tool=given.held),
     )
 
 

@@ -74,7 +74,10 @@ def model_text(variant: Variant) -> str:
             figures["unsure"] = f"[{', '.join(axis.unsure)}]"
         shown = ", ".join(f"{key}: {value}" for key, value in figures.items())
         lines.append(f"  joint_{axis.axis[-1]}: {{{shown}}}")
-    lines += [f"coupling: {variant.coupling:g}", "chain:"]
+    lines.append(f"coupling: {variant.coupling:g}")
+    if variant.max_payload:
+        lines.append(f"max_payload: {variant.max_payload:g}")
+    lines.append("chain:")
     last: Vector = (0.0, 0.0, 0.0)
     for line in variant.skeleton.lines:
         step = f"joint: joint_{line.axis[-1]}, xyz: {_mm(subtract(line.point, last))}, "

@@ -11,7 +11,7 @@ from rapidgen.axes.starts import usual_start
 from rapidgen.config import from_manifest, load_config
 from rapidgen.config.model import ChainLink, GroupConfig, Positioner, RobotConfig
 from rapidgen.config.registry import is_path
-from rapidgen.controller.mechanics import DEFAULT_ROBOT, mechanics
+from rapidgen.controller.mechanics import DEFAULT_ROBOT, mechanics, of_unknown_payload
 from rapidgen.controller.starts import in_front, stands, start_of
 from rapidgen.controller.surroundings import Surroundings, cameras_of, force_of, furnish
 from rapidgen.diagnostics import Diagnostic, refusal, suggest
@@ -179,8 +179,9 @@ def _driver(
             "leave it out",
         )
     system = _entered(in_its_cell(system, config), wishes.entry)
-    found = Bootable(config.name, system, config.groups, True, notes)
-    return _surrounded(found, _described(wishes), wishes)
+    cell = _described(wishes)
+    found = Bootable(config.name, system, config.groups, True, (*notes, *_warned(cell)))
+    return _surrounded(found, cell, wishes)
 
 
 def _foreign(system: System, notes: list[Diagnostic] | None, wishes: Wishes) -> Bootable:
@@ -194,7 +195,9 @@ def _foreign(system: System, notes: list[Diagnostic] | None, wishes: Wishes) -> 
         model = likely(system, DEFAULT_ROBOT)
         robot = model.model if model is not None else ""
     groups, which = mechanics(system, robot, robots)
-    told = () if notes is None else (*notes, *which)
+    if model is not None:
+        groups = of_unknown_payload(groups)
+    told = _warned(cell) if notes is None else (*notes, *which, *_warned(cell))
     models = {task.casefold(): keys.model for task, keys in robots.items()}
     chosen = {group.name: models.get(group.task.casefold()) or robot for group in groups}
     described = {name: Path(model) for name, model in chosen.items() if is_path(model)}
@@ -208,6 +211,10 @@ def _described(wishes: Wishes) -> "CellDescription | None":
     from rapidgen.config.cell import load_cell
 
     return load_cell(Path(wishes.cell))
+
+
+def _warned(cell: "CellDescription | None") -> tuple[Diagnostic, ...]:
+    return () if cell is None else cell.diagnostics
 
 
 def _surrounded(found: Bootable, cell: "CellDescription | None", wishes: Wishes) -> Bootable:

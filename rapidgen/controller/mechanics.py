@@ -84,7 +84,7 @@ def mechanics(
             robots, told = _of_type(types.get(unit.casefold(), ""), unit)
             notes += told
         else:
-            robots = shipped_groups(DEFAULT_ROBOT)
+            robots = of_unknown_payload(shipped_groups(DEFAULT_ROBOT))
             notes.append(_stands_in(f"nothing tells the mechanics: moving an {DEFAULT_ROBOT}"))
         group = next(g for g in groups_for(system, robots) if g.task == task)
         taken = any(other.name == group.name for other in groups)
@@ -131,7 +131,12 @@ def _of_type(name: str, unit: str) -> tuple[Sequence[GroupConfig], list[Diagnost
     if (very is not None and very.model) or not kin:
         return shipped_groups(model), []
     message = f"the controller has a {name}, moving an {model_description(model)}"
-    return shipped_groups(model), [_stands_in(message)]
+    return of_unknown_payload(shipped_groups(model)), [_stands_in(message)]
+
+
+def of_unknown_payload(groups: Sequence[GroupConfig]) -> tuple[GroupConfig, ...]:
+    """Robots that stand in for others: what those carry is not known."""
+    return tuple(replace(group, max_payload=0.0) for group in groups)
 
 
 def model_of(robot_type: str) -> str:

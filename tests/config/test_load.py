@@ -287,7 +287,7 @@ def test_a_tool_speed_of_ones_own_is_no_longer_unsure(tmp_path):
     assert warning.message.endswith("tcp_speed_limit")
     assert load(tmp_path, "model: crb15000\ntcp_speed_limit: 1000").diagnostics == ()
     for warning in load_config("irb14000").diagnostics:
-        assert warning.message.endswith("tcp_speed_limit")
+        assert warning.message.endswith("tcp_speed_limit, max_payload")
 
 
 def test_a_joint_of_another_name_on_a_known_axis_is_that_joint(tmp_path):

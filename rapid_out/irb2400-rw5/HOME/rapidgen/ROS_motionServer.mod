@@ -9,7 +9,7 @@ MODULE ROS_motionServer
     ! end (ROS_stream). The client's STOP lies in the same stream of bytes behind its points, so
     ! this task never waits for room: it reads, and feeds the ring in between.
 
-    CONST string ROS_BUILD_MOTION_SERVER := "31bdf6b8b23c";
+    CONST string ROS_BUILD_MOTION_SERVER := "ae8e5077b08f";
 
     LOCAL CONST num PORT := 11000;
     ! s between two looks for bytes while the ring is being fed
