@@ -197,7 +197,10 @@ ROS_PYTHON ?= python3
 ros-node: ## 5 min: what the ROS 2 node adds to a bare client and publisher, with a real rclpy
 	$(ROS_PYTHON) benchmarks/ros_node.py
 
-driver-frames: $(STAMP) ## 30 min: 100,000 hostile openings on all ports, each followed by a good client
+driver-boundary: $(STAMP) ## 2 h: boundary values in every field of every message, in nine states, on all ports
+	$(BIN)/python tools/boundary.py --jobs 2 --results build/boundary.jsonl
+
+driver-frames: $(STAMP) ## 30 min: 100,000 messages with boundary values on all ports, each followed by a good client
 	$(BIN)/python benchmarks/campaign.py frames --jobs 2
 
 driver-day: $(STAMP) ## 1 min: 24 simulated hours, a trajectory every ten minutes, the state read

@@ -4,6 +4,7 @@
     python benchmarks/campaign.py days [--hours N] [--watched SHARE] [ROBOT]
 
 `frames`: N (default 100,000) hostile openings on all ports, under the strictest readings together,
+messages of which half of the fields have boundary values,
 each followed by a good client, which must be served; none may move the robot or end a task. `days`:
 N simulated hours (default 24) with a trajectory every ten minutes; a client reads the state for
 SHARE of the time (default all of it), and each STATUS has to come within one period of its turn.
@@ -42,7 +43,7 @@ def frames_of(seed):
     """What went wrong with one controller's share."""
     bench = Bench(CONFIG, SYSTEM, Setting(seed=seed, dialect=STRICT))
     try:
-        campaign(bench, CHUNK)
+        campaign(bench, CHUNK, boundary=1.0)
         bench.healthy()
     except FAILURES as error:
         return f"seed {seed}: {error}"

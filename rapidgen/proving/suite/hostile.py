@@ -6,6 +6,7 @@ from collections.abc import Callable
 from rapidgen.proving import messages
 from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
+from rapidgen.proving.boundary import drawn
 from rapidgen.proving.link import RawLink, raw_point
 from rapidgen.proving.messages import RawAcknowledged
 from rapidgen.proving.model import Broken
@@ -96,10 +97,16 @@ def _others(bench: Bench) -> None:
 
 
 @case("hostile-openings", "random messages on every port end no task", "R3")
-def campaign(bench: Bench, rounds: int = ROUNDS) -> None:
-    """Messages with any data, malformed ones and noise, each followed by a good client."""
+def campaign(bench: Bench, rounds: int = ROUNDS, boundary: float = 0.0) -> None:
+    """Messages with any data, malformed ones and noise, each followed by a good client.
+
+    `boundary`: share of messages of which half of the fields have boundary values.
+    """
     chance = random.Random(bench.setting.seed)
     for _ in range(rounds):
         port = chance.choice(list(_doors(bench)))
+        if boundary and chance.random() < boundary:
+            _opens(bench, port, drawn(bench.config, chance), chance)
+            continue
         data = _headed(chance) if chance.random() < 0.5 else malformed(bench, chance)
         _opens(bench, port, data, chance)

@@ -1,0 +1,110 @@
+"""Boundary values in every field of every message, in every state of the driver, on every port.
+
+    python tools/boundary.py [--jobs N] [--share SHARE] [--results FILE] [ROBOT]
+
+All trials of rapidgen/proving/boundary.py under three hostile settings, and a seeded tenth of them
+under each row in which any two assumptions about controllers meet. FILE (JSON lines) keeps the
+results: the next call goes on there. `--share` takes a seeded share of everything.
+"""
+
+import argparse
+import random
+import sys
+import time
+from functools import cache
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+
+from rapidgen.config import load_config
+from rapidgen.generate import build, make_system
+from rapidgen.proving.boundary import STATES, failing, prepare, trials
+from rapidgen.proving.results import Results
+from rapidgen.proving.settings import assumed, rows
+from rapidgen.proving.workers import Call, Known, Local, in_order
+
+STRICT = ("argument_error=fatal", "pack_beyond=error", "negative_mod=error")
+HOSTILE = {
+    # Every error that a value can raise is raised, and a fatal one ends its task.
+    "strict": STRICT,
+    # The same where another task may run at each access to a PERS, on a slow controller: messages
+    # meet the driver's tasks between any two statements.
+    "strict, slow, switched at PERS": (*STRICT, "schedule=pers", "costs=4.0"),
+    # A fast controller whose tasks run by lot, with everything else as by default.
+    "fast, by lot": ("schedule=random", "costs=0.25"),
+}
+SETTINGS = HOSTILE | {name: texts for name, texts in rows().items() if name}
+CHUNK = 400
+"""Trials of a piece of work."""
+
+
+@cache
+def prepared(name, state):
+    return prepare(CONFIG, SYSTEM, assumed(SETTINGS[name]), state)
+
+
+def work():
+    """Pieces: setting, state, and which of that state's trials."""
+    for name in SETTINGS:
+        share = GIVEN.share * (1 if name in HOSTILE else 0.1)
+        for state in STATES:
+            numbers = list(range(len(of_state(state))))
+            chance = random.Random(f"{GIVEN.seed} {name} {state}")
+            chosen = sorted(chance.sample(numbers, round(share * len(numbers))))
+            for at in range(0, len(chosen), CHUNK):
+                yield name, state, chosen[at : at + CHUNK]
+
+
+@cache
+def of_state(state):
+    return tuple(trials(CONFIG, (state,), seed=GIVEN.seed))
+
+
+def one(_, piece):
+    name, state, numbers = piece
+    chosen = [of_state(state)[number] for number in numbers]
+    return [(str(trial), why) for trial, why in failing(prepared(name, state), chosen)]
+
+
+def main():
+    pieces = list(work())
+    # The worst faults show early: settings and states in a random order.
+    random.Random(GIVEN.seed).shuffle(pieces)
+    started, count, failed = time.monotonic(), 0, 0
+    of = f"{GIVEN.robot} {SYSTEM.build_id} share {GIVEN.share} seed {GIVEN.seed}"
+    with (
+        Results(GIVEN.results, of, resume=True) as results,
+        Local(None, GIVEN.jobs) as workers,
+    ):
+
+        def make(number):
+            known = results.known(str(number))
+            return Call(number, one, pieces[number]) if known is None else Known(known)
+
+        for number, found in enumerate(in_order(workers, len(pieces), make)):
+            results.add(str(number), found)
+            count += len(pieces[number][2])
+            failed += len(found)
+            for text, why in found[:5]:
+                print(f"{pieces[number][0]}; {text}: {why}", flush=True)
+            if number % 20 == 0:
+                print(f"{count} messages, {failed} failed, {time.monotonic() - started:.0f} s")
+                sys.stdout.flush()
+    print(
+        f"{count} messages under {len(SETTINGS)} settings in {len(STATES)} states: "
+        f"{failed} failed; {time.monotonic() - started:.0f} s with {GIVEN.jobs} jobs"
+    )
+    return bool(failed)
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("robot", nargs="?", default="irb120")
+    parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--share", type=float, default=1.0)
+    parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--results", type=Path)
+    GIVEN = parser.parse_args()
+    CONFIG = load_config(GIVEN.robot)
+    SYSTEM = make_system(CONFIG, build(CONFIG))
+    sys.exit(main())
