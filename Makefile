@@ -200,7 +200,10 @@ ros-node: ## 5 min: what the ROS 2 node adds to a bare client and publisher, wit
 driver-boundary: $(STAMP) ## 2 h: boundary values in every field of every message, in nine states, on all ports
 	$(BIN)/python tools/boundary.py --jobs 2 --results build/boundary.jsonl
 
-driver-frames: $(STAMP) ## 30 min: 100,000 messages with boundary values on all ports, each followed by a good client
+stop-trials: $(STAMP) ## 5 min: 2,000 random stops with up to three operator actions, and the way back from them
+	$(BIN)/python tools/stop_trials.py --jobs 2
+
+driver-frames: $(STAMP) ## 1 h: 200,000 hostile openings on all ports, half of them with boundary values, a good client after each
 	$(BIN)/python benchmarks/campaign.py frames --jobs 2
 
 driver-day: $(STAMP) ## 1 min: 24 simulated hours, a trajectory every ten minutes, the state read

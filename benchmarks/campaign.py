@@ -3,8 +3,8 @@
     python benchmarks/campaign.py frames [--count N] [--jobs N] [ROBOT]
     python benchmarks/campaign.py days [--hours N] [--watched SHARE] [ROBOT]
 
-`frames`: N (default 100,000) hostile openings on all ports, under the strictest readings together,
-messages of which half of the fields have boundary values,
+`frames`: N (default 200,000) hostile openings on all ports, under the strictest readings together,
+half of them messages of which half of the fields have boundary values,
 each followed by a good client, which must be served; none may move the robot or end a task. `days`:
 N simulated hours (default 24) with a trajectory every ten minutes; a client reads the state for
 SHARE of the time (default all of it), and each STATUS has to come within one period of its turn.
@@ -43,7 +43,7 @@ def frames_of(seed):
     """What went wrong with one controller's share."""
     bench = Bench(CONFIG, SYSTEM, Setting(seed=seed, dialect=STRICT))
     try:
-        campaign(bench, CHUNK, boundary=1.0)
+        campaign(bench, CHUNK, boundary=0.5)
         bench.healthy()
     except FAILURES as error:
         return f"seed {seed}: {error}"
@@ -134,7 +134,7 @@ if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("what", choices=("frames", "days"))
     parser.add_argument("robot", nargs="?", default="irb120")
-    parser.add_argument("--count", type=int, default=100_000)
+    parser.add_argument("--count", type=int, default=200_000)
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--hours", type=int, default=24)
     parser.add_argument("--watched", type=float, default=1.0)
