@@ -3,7 +3,9 @@
 Request `{"do": "signals", ...}` with an optional `id`; answer `{"ok": true, "result": ...}` or
 `{"ok": false, "error": "..."}` with the same `id`. After `{"do": "subscribe"}` events come in
 between as `{"event": ...}`. What can be done is `control_commands.py`'s; here are lines, limits and
-clients that misbehave: garbage gets an answer, too long a line or too slow a reader is cut off.
+clients that misbehave. The connection is closed at a line that is no JSON object: a web page
+can send an HTTP request here, whose body would be carried out behind its header. It also closes
+at a line that is too long, and where a client reads too slowly.
 """
 
 import json
@@ -130,19 +132,31 @@ class ControlSocket:
             line = bytes(client.input[:end])
             del client.input[: end + 1]
             if line.strip():
-                self._send(client, self._answer(client, line))
+                request = self._parse(client, line)
+                if request is None:
+                    return
+                self._send(client, self._answer(client, request))
             if client not in self._clients:
                 return
         if len(client.input) > MAX_LINE:
             self._send(client, {"ok": False, "error": f"a line has at most {MAX_LINE} bytes"})
             self._drop(client)
 
-    def _answer(self, client: _Client, line: bytes) -> Members:
+    def _parse(self, client: _Client, line: bytes) -> Members | None:
+        """Return the object of a line, or close the connection."""
+        error = "a request is a JSON object"
         try:
             request = json.loads(line, parse_float=_finite, parse_constant=_finite)
-        except (ValueError, RecursionError) as error:
-            return {"ok": False, "error": f"not JSON: {error}"}
-        name = request.get("do") if isinstance(request, dict) else None
+        except (ValueError, RecursionError) as fault:
+            request, error = None, f"not JSON: {fault}"
+        if isinstance(request, dict):
+            return request
+        self._send(client, {"ok": False, "error": error})
+        self._drop(client)
+        return None
+
+    def _answer(self, client: _Client, request: Members) -> Members:
+        name = request.get("do")
         if not isinstance(name, str):
             return {"ok": False, "error": 'a request is an object with "do"'}
         if not isinstance(request.get("id", ""), str | int):

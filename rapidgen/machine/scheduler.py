@@ -19,6 +19,7 @@ import selectors
 import time
 from collections import deque
 from collections.abc import Callable, Iterable
+from contextlib import suppress
 from itertools import count
 from typing import Literal, Protocol, TypeAlias, get_args
 
@@ -225,7 +226,9 @@ class Scheduler:
 
     def _wake_up(self) -> None:
         if self._pipe is not None:
-            os.write(self._pipe[1], b"\0")
+            # A full pipe wakes the scheduler already.
+            with suppress(BlockingIOError):
+                os.write(self._pipe[1], b"\0")
 
     @property
     def selector(self) -> selectors.BaseSelector:

@@ -1,4 +1,4 @@
-"""The control socket: whatever comes, every line gets an answer and the controller goes on."""
+"""The control socket: every line gets an answer, what is no JSON object closes the connection."""
 
 import contextlib
 import json
@@ -30,12 +30,23 @@ class Client:
     """One connection: a line out, a line in."""
 
     def __init__(self, port: int) -> None:
-        self.socket = socket.create_connection(("127.0.0.1", port), timeout=60)
+        self.port = port
+        self.connect()
+
+    def connect(self) -> None:
+        self.socket = socket.create_connection(("127.0.0.1", self.port), timeout=60)
         self.file = self.socket.makefile("rb")
 
     def send(self, line: bytes) -> dict:
+        """Send a line; connect again if the answer is that it is no JSON object."""
         self.socket.sendall(line.replace(b"\n", b" ") + b"\n")
-        return json.loads(self.file.readline())
+        answer = json.loads(self.file.readline())
+        if not answer["ok"] and "JSON" in answer["error"]:
+            with contextlib.suppress(ConnectionResetError):
+                assert self.file.read() == b""
+            self.close()
+            self.connect()
+        return answer
 
     def ask(self, do: str, **request: object) -> dict:
         return self.send(json.dumps({"do": do, **request}).encode())
@@ -140,6 +151,30 @@ def test_any_request_gets_an_answer(client: Client, do: str, request: dict) -> N
         return
     answer = client.send(json.dumps({**request, "do": do}).encode())
     assert answer["ok"] or answer["error"]
+
+
+@pytest.mark.parametrize(
+    "header",
+    [
+        b"POST / HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Type: text/plain\r\n\r\n",
+        b"\r\n\r\nPOST / HTTP/1.1\r\n\r\n",
+        b"PUT /\n",
+        b"[1]\n",
+        b'"text"\n',
+        b"null\n",
+        b"\x16\x03\x01\n",
+    ],
+)
+def test_request_of_a_web_page_is_not_executed(client: Client, header: bytes) -> None:
+    client.ask("set", task="t1", name="m:n", value="1")
+    order = b'{"do": "set", "task": "t1", "name": "m:n", "value": "7"}\n'
+    other = Client(client.port)
+    other.socket.sendall(header + order)
+    with contextlib.suppress(ConnectionResetError):
+        answers = other.file.read().splitlines()
+        assert [json.loads(answer)["ok"] for answer in answers] == [False]
+    other.close()
+    assert client.ask("get", task="t1", name="m:n")["result"] == "1"
 
 
 def test_a_line_without_end_is_cut_off(client: Client) -> None:

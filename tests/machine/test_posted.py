@@ -19,3 +19,14 @@ def test_what_is_posted_while_the_selector_is_made_is_not_left_lying(monkeypatch
     assert scheduler.advance(MINUTE, lambda: bool(came)) == "stop"
     assert came[0] < MINUTE
     scheduler.close()
+
+
+def test_posting_to_a_full_pipe_neither_fails_nor_loses_anything():
+    scheduler, came = Scheduler(clock="real", speed=60), []
+    assert scheduler.selector
+    # More than a pipe holds, 65,536 bytes on Linux, and nobody reads it meanwhile.
+    for number in range(70_000):
+        scheduler.post(lambda number=number: came.append(number))
+    assert scheduler.advance(MINUTE, lambda: len(came) == 70_000) == "stop"
+    assert came == list(range(70_000))
+    scheduler.close()
