@@ -9,7 +9,7 @@ export TIMEFORMAT = %U s of CPU, %R s
 # Where it is set, each of the hundreds of processes of a gate compiles all modules that it imports.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: demo test lint types contract unit held-up stopped wheel page driver-hours site release-lint changelog room picture foreign campaigns clean
+.PHONY: demo lock test lint types contract unit held-up stopped wheel page driver-hours site release-lint changelog room picture foreign campaigns clean
 
 # Needs no more than rapidgen itself, which comes with a line every few seconds; `make test` adds the rest.
 RUNS := $(VENV)/.runs
@@ -32,12 +32,16 @@ page: $(PAGE)
 $(PAGE): $(STAMP) $(shell find rapidgen/view/page -path '*/node_modules' -prune -o -type f -print)
 	time $(BIN)/python rapidgen/view/page/build_page.py
 
-$(STAMP): pyproject.toml
-	test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --upgrade "pip>=25.1"
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --group dev --editable '.[all]'
-	test ! -e .git || $(BIN)/pre-commit install || echo "no hook of pre-commit is installed: git has refused"
-	touch $@
+# Exact versions of everything that develops and tests rapidgen; `make lock` updates them.
+LOCK := .ci/requirements.txt
+$(STAMP): pyproject.toml $(LOCK)
+	@PYTHON="$(PYTHON)" .ci/environment $(VENV) --requirement $(LOCK) --editable .
+	@test ! -e .git || $(BIN)/pre-commit install || echo "git rejected the pre-commit hook"
+	@touch $@
+
+lock: $(STAMP)
+	$(BIN)/uv pip compile --quiet --universal --python-version 3.10 --upgrade --no-annotate --no-header --no-emit-index-url \
+		--group dev --extra all --output-file $(LOCK) pyproject.toml
 
 lint: $(STAMP)
 	time $(BIN)/ruff check
@@ -58,18 +62,14 @@ room: $(STAMP)
 	$(BIN)/lint-imports
 	$(BIN)/python -m pytest -n auto tests/$(ROOM)
 
-# The wheel, in an environment of its own, does the demo: templates/ and robots/ travel. What it
-# depends on is kept from run to run; the wheel itself is always new.
+# Install the wheel in an environment of its own and run the demo: the wheel must carry templates/ and robots/.
 WHEEL := build/wheel
 wheel: $(STAMP) $(PAGE)
-	rm -rf $(WHEEL)/dist $(WHEEL)/demo
-	test $(WHEEL)/env/.made -nt pyproject.toml || rm -rf $(WHEEL)/env
+	rm -rf $(WHEEL)
 	mkdir -p $(WHEEL)
 	$(BIN)/python -m build --wheel --no-isolation --outdir $(WHEEL)/dist . >$(WHEEL)/build.log 2>&1 || (cat $(WHEEL)/build.log; false)
-	test -x $(WHEEL)/env/bin/python || $(PYTHON) -m venv $(WHEEL)/env
-	$(WHEEL)/env/bin/python -m pip install --quiet --disable-pip-version-check $(WHEEL)/dist/*.whl
-	$(WHEEL)/env/bin/python -m pip install --quiet --disable-pip-version-check --force-reinstall --no-deps $(WHEEL)/dist/*.whl
-	touch $(WHEEL)/env/.made
+	$(BIN)/uv venv --quiet --python $(BIN)/python $(WHEEL)/env
+	$(BIN)/uv pip install --quiet --python $(WHEEL)/env/bin/python --constraint $(LOCK) $(WHEEL)/dist/*.whl
 	cd $(WHEEL) && time env/bin/rapidgen demo --output demo
 	cd $(WHEEL) && env/bin/python -c 'from rapidgen.view.plotting import ASSETS; assert (ASSETS / "page.js").is_file(), ASSETS'
 
