@@ -9,7 +9,7 @@ export TIMEFORMAT = %U s of CPU, %R s
 # Where it is set, each of the hundreds of processes of a gate compiles all modules that it imports.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: demo lock test lint types contract unit held-up stopped wheel page driver-hours site release-lint changelog room picture foreign campaigns clean
+.PHONY: demo lock test test-long lint types contract unit held-up stopped wheel page driver-hours site release-lint changelog room picture foreign campaigns clean
 
 # Needs no more than rapidgen itself, which comes with a line every few seconds; `make test` adds the rest.
 RUNS := $(VENV)/.runs
@@ -75,7 +75,7 @@ wheel: $(STAMP) $(PAGE)
 
 # The generated driver for some simulated hours; `make driver-day` is the long form.
 driver-hours: $(STAMP)
-	time $(BIN)/python benchmarks/campaign.py days --hours 4 --watched 0.25
+	time $(BIN)/python benchmarks/campaign.py days --hours 1 --watched 0.25
 
 # The documentation as a site: build/site/index.html. A warning is an error, a link into nothing is one,
 # and so is a question of docs/start/questions.md that the site's search does not find.
@@ -94,6 +94,12 @@ changelog: $(STAMP)
 # their time: three workers for two cores.
 unit: export PYTEST_XDIST_AUTO_NUM_WORKERS ?= $(shell echo $$(( $$(getconf _NPROCESSORS_ONLN) * 3 / 2 )))
 unit: $(STAMP) $(PAGE)
+	$(BIN)/python -m pytest -n auto -m "not long"
+
+# What a release runs: every test, and the driver for four simulated hours.
+test-long: export PYTEST_XDIST_AUTO_NUM_WORKERS ?= $(shell echo $$(( $$(getconf _NPROCESSORS_ONLN) * 3 / 2 )))
+test-long: $(STAMP) $(PAGE)
+	$(BIN)/python benchmarks/campaign.py days --hours 4 --watched 0.25
 	$(BIN)/python -m pytest -n auto
 
 # The tests of a room, or all, in processes that are held up at HELD_UP of their calls: what is red is red by chance.

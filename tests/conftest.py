@@ -5,10 +5,12 @@ Property tests draw the same examples in every run; RAPIDGEN_PROPERTIES=campaign
 
 import gc
 import os
+import re
 import resource
 import signal
 import time
 from collections import Counter
+from fnmatch import fnmatchcase as fnmatch
 from pathlib import Path
 
 import pytest
@@ -34,8 +36,30 @@ settings.load_profile(os.environ.get("RAPIDGEN_PROPERTIES", "gate"))
 # A shell that starts this in the background makes it deaf to Ctrl-C, and whatever it starts, too.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 
+LONG_TESTS = Path(__file__).with_name("long_tests.txt")
+
 COLLECTING = "(start, imports, collection)"
 HERE = Path(__file__).parent
+
+
+def is_long(test: str, patterns: list[str]) -> bool:
+    """Return whether the last pattern that matches a node id below tests/ is one without `!`."""
+    last = next((p for p in reversed(patterns) if fnmatch(test, p.removeprefix("!"))), "!")
+    return not last.startswith("!")
+
+
+def long_patterns() -> list[str]:
+    """Return the lines of long_tests.txt, whose brackets stand for themselves."""
+    lines = [line.strip() for line in LONG_TESTS.read_text("utf-8").splitlines()]
+    return [re.sub(r"[\[\]]", "?", line) for line in lines if line and not line.startswith("#")]
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Mark the tests of long_tests.txt, which `make test` deselects."""
+    patterns = long_patterns()
+    for item in items:
+        if is_long(item.nodeid.removeprefix("tests/"), patterns):
+            item.add_marker("long")
 
 
 def cpu_seconds() -> float:
