@@ -14,7 +14,7 @@ from rapidgen.rapid.syntax.walk import walk
 
 RAISING = {
     # Bytes that somebody else sent, and links that break (rapid.md: raw bytes, sockets).
-    "unpackrawbytes",
+    *("unpackrawbytes", "packrawbytes"),
     *("socketcreate", "socketbind", "socketlisten", "socketaccept", "socketreceive"),
     *("socketsend", "socketpeek"),
     # A robot that is stopped, away from its path or out of its limits.
@@ -27,7 +27,7 @@ RAISING = {
     # Events that cannot be read any more.
     *("gettrapdata", "readerrdata"),
 }
-"""Built-ins that raise an error for what is outside the driver; what it packs is its own."""
+"""Built-ins that raise an error for what is outside the driver, or was brought from there."""
 
 
 def calls(routine):

@@ -9,7 +9,7 @@ MODULE ROS_control
     ! heartbeat this task asks the supervisor, by an interrupt: only one task stops the robot, and
     ! starts it again. Only if that does not answer this task stops it. It may hang in a send.
 
-    CONST string ROS_BUILD_CONTROL := "ae8e5077b08f";
+    CONST string ROS_BUILD_CONTROL := "e2f68142fee5";
 
     LOCAL CONST num PORT := 11001;
     ! s between two looks at what the robot does, and for new clients.
@@ -178,6 +178,8 @@ MODULE ROS_control
     LOCAL PROC confirm(VAR socketdev client)
         ROS_pack_reply answer, ROS_frame_type, ROS_REPLY_SUCCESS;
         send_answer client;
+    ERROR
+        RAISE;
     ENDPROC
 
     ! Answer that it was done, or why not.
@@ -189,6 +191,8 @@ MODULE ROS_control
         ROS_pack_header answer, ROS_HEADER_BYTES + 4, ROS_frame_type, ROS_COMM_REPLY, ROS_REPLY_FAILURE;
         PackRawBytes reason, answer, 17 \IntX:=DINT;
         send_answer client;
+    ERROR
+        RAISE;
     ENDPROC
 
     ! STOP is the only point that comes here. The reply comes when the stop is sure to last.
@@ -310,5 +314,7 @@ MODULE ROS_control
         PackRawBytes joints.robax.rax_5 / ROS_DEG, answer, 45 \Float4;
         PackRawBytes joints.robax.rax_6 / ROS_DEG, answer, 49 \Float4;
         send_answer client;
+    ERROR
+        RAISE;
     ENDPROC
 ENDMODULE

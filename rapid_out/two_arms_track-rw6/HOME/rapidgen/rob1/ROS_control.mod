@@ -9,7 +9,7 @@ MODULE ROS_control
     ! heartbeat this task asks the supervisor, by an interrupt: only one task stops the robot, and
     ! starts it again. Only if that does not answer this task stops it. It may hang in a send.
 
-    CONST string ROS_BUILD_CONTROL := "4f5142b8204b";
+    CONST string ROS_BUILD_CONTROL := "30942d0a092b";
 
     LOCAL CONST num PORT := 11001;
     ! s between two looks at what the robot does, and for new clients.
@@ -191,6 +191,8 @@ MODULE ROS_control
     LOCAL PROC confirm(VAR socketdev client)
         ROS_pack_reply answer, ROS_frame_type, ROS_REPLY_SUCCESS;
         send_answer client;
+    ERROR
+        RAISE;
     ENDPROC
 
     ! Answer that it was done, or why not.
@@ -202,6 +204,8 @@ MODULE ROS_control
         ROS_pack_header answer, ROS_HEADER_BYTES + 4, ROS_frame_type, ROS_COMM_REPLY, ROS_REPLY_FAILURE;
         PackRawBytes reason, answer, 17 \IntX:=DINT;
         send_answer client;
+    ERROR
+        RAISE;
     ENDPROC
 
     ! STOP is the only point that comes here. The reply comes when the stop is sure to last.
@@ -325,6 +329,8 @@ MODULE ROS_control
         PackRawBytes joints.extax.eax_a / ROS_MM, answer, 53 \Float4;
         PackRawBytes joints.extax.eax_b / ROS_DEG, answer, 57 \Float4;
         send_answer client;
+    ERROR
+        RAISE;
     ENDPROC
 
     ! SIGNAL: read one, or write it first.

@@ -8,7 +8,7 @@ MODULE ROS_acceptance
     ! What a trajectory that comes whole and one that comes in batches have in common. The one
     ! who takes a point unpacks it, lets it be checked here, and looks at ROS_fault then.
 
-    CONST string ROS_BUILD_ACCEPTANCE := "4f5142b8204b";
+    CONST string ROS_BUILD_ACCEPTANCE := "30942d0a092b";
 
     ! s: longest duration of a point
     CONST num ROS_LONGEST := 3600;
@@ -92,6 +92,8 @@ MODULE ROS_acceptance
     PROC ROS_check_duration()
         IF ROS_seconds = 0 AND ROS_first RETURN;
         ROS_object not_a_number(ROS_seconds, ROS_REASON_BAD_DURATION);
+        ! What is computed with it below must fit a num.
+        ROS_seconds := ROS_LONGEST;
     ENDPROC
 
     ! A joint is outside its limits, or faster than its axis. Gives what is taken in its place:

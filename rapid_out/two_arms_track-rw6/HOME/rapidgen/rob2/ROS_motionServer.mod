@@ -9,7 +9,7 @@ MODULE ROS_motionServer
     ! end (ROS_stream). The client's STOP lies in the same stream of bytes behind its points, so
     ! this task never waits for room: it reads, and feeds the ring in between.
 
-    CONST string ROS_BUILD_MOTION_SERVER := "4f5142b8204b";
+    CONST string ROS_BUILD_MOTION_SERVER := "30942d0a092b";
 
     LOCAL CONST num PORT := 11010;
     ! s between two looks for bytes while the ring is being fed
@@ -267,11 +267,15 @@ MODULE ROS_motionServer
             ROS_report ROS_REASON_UNKNOWN_MESSAGE, -1;
             IF comm_type = ROS_COMM_REQUEST reply client, ROS_frame_type, ROS_REPLY_FAILURE;
         ENDIF
+    ERROR
+        RAISE;
     ENDPROC
 
     LOCAL PROC reply(VAR socketdev client, num kind, num code)
         ROS_pack_reply answer, kind, code;
         linked := ROS_send(client, answer);
+    ERROR
+        RAISE;
     ENDPROC
 
     ! A request is answered by what has become of the trajectory so far.
@@ -284,11 +288,15 @@ MODULE ROS_motionServer
             ROS_pack_reply answer, ROS_MSG_JOINT_TRAJ_PT, ROS_REPLY_SUCCESS;
         ENDIF
         linked := ROS_send(client, answer);
+    ERROR
+        RAISE;
     ENDPROC
 
     LOCAL PROC answer_batch(VAR socketdev client)
         ROS_pack_batch_reply answer;
         linked := ROS_send(client, answer);
+    ERROR
+        RAISE;
     ENDPROC
 
     ! STOP: the reply comes when the robot has been told to stop, not when it stands. Points
@@ -307,5 +315,7 @@ MODULE ROS_motionServer
         ROS_await_halt;
         IF NOT ROS_answered(ROS_LATE - ROS_SOON) code := ROS_REPLY_FAILURE;
         IF requested reply client, ROS_MSG_JOINT_TRAJ_PT, code;
+    ERROR
+        RAISE;
     ENDPROC
 ENDMODULE

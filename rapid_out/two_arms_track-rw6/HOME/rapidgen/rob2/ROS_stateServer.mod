@@ -9,7 +9,7 @@ MODULE ROS_stateServer
     ! moment. Nobody waits for this task. A client that does not read would hold up the others
     ! in a send, so a send that takes too long is broken off, and its client dropped.
 
-    CONST string ROS_BUILD_STATE_SERVER := "4f5142b8204b";
+    CONST string ROS_BUILD_STATE_SERVER := "30942d0a092b";
 
     LOCAL CONST num PORT := 11012;
     LOCAL CONST num PERIOD := 0.1;
@@ -108,6 +108,9 @@ MODULE ROS_stateServer
             IF ClkRead(since_look) > LOOK_PERIOD - PERIOD / 2 look_after_clients;
             wait_for_turn;
         ENDWHILE
+    ERROR
+        SkipWarn;
+        TRYNEXT;
     ENDPROC
 
     LOCAL PROC wait_for_client()
@@ -181,6 +184,10 @@ MODULE ROS_stateServer
         ENDFOR
         set_alarm FALSE;
         told_stamp := stamp;
+    ERROR
+        ! A value that no message can hold stays what it was in the message before.
+        SkipWarn;
+        TRYNEXT;
     ENDPROC
 
     ! TRUE if a trajectory would be taken now: so says a supervisor whose pulse is seen.
@@ -226,6 +233,8 @@ MODULE ROS_stateServer
         IF seconds <= 0 seconds := seconds + CLOCK_LIMIT;
         ROS_pack_velocities feedback, joints, told_joints, seconds;
         ROS_pack_feedback feedback, state, stamp;
+    ERROR
+        RAISE;
     ENDPROC
 
     ! TRUE if a client has asked for a feature.
@@ -321,6 +330,9 @@ MODULE ROS_stateServer
         set_alarm FALSE;
         look_for_clients := NOT look_for_clients;
         IF look_for_clients AND clients > 0 welcome 0.001;
+    ERROR
+        SkipWarn;
+        TRYNEXT;
     ENDPROC
 
     ! Take what a client says: HELLO, or nothing. Anything else breaks the link.
@@ -405,6 +417,8 @@ MODULE ROS_stateServer
                 IF NOT sent(slot, message) drop slot;
             ENDIF
         ENDFOR
+    ERROR
+        RAISE;
     ENDPROC
 
     ! Wait until the next message is due: by a schedule, so that the work of one round does not

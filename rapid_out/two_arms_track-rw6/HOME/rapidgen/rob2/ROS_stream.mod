@@ -9,7 +9,7 @@ MODULE ROS_stream
     ! room. The head of the ring is moved once a batch, when its checksum is right. Behind a fault
     ! the stream is cut: what was accepted before is executed, and nothing that follows.
 
-    CONST string ROS_BUILD_STREAM := "4f5142b8204b";
+    CONST string ROS_BUILD_STREAM := "30942d0a092b";
 
     ! s of points that wait in the ring before the robot begins to move, or moves on.
     LOCAL CONST num PRELOAD := 0.5;
@@ -95,6 +95,8 @@ MODULE ROS_stream
         PackRawBytes told.planned, data, 33 \IntX:=DINT;
         PackRawBytes told.reached, data, 37 \IntX:=DINT;
         PackRawBytes told.state, data, 41 \IntX:=DINT;
+    ERROR
+        RAISE;
     ENDPROC
 
     ! The client is gone: a stream that has not begun to move never will.
@@ -112,6 +114,8 @@ MODULE ROS_stream
         PackRawBytes why MOD 100, data, 29 \IntX:=DINT;
         PackRawBytes point, data, 33 \IntX:=DINT;
         PackRawBytes why DIV 100, data, 37 \IntX:=DINT;
+    ERROR
+        RAISE;
     ENDPROC
 
     ! Read the head of the batch. FALSE if that fails.
