@@ -33,7 +33,7 @@ class Script:
     joints: int = 6
     rapidgen: bool = True
     mapping: str = ""
-    protocol: int = 3
+    protocol: int = 4
     capacity: int = 1000
     state_period: float = 0.01
     speed: float = 1.0
@@ -76,13 +76,13 @@ class Script:
 
 def hello_reply(script, control_port, *, foreign=False):
     """Who is there; `foreign`: another driver than on the other ports."""
-    if script.protocol != 3:
+    if script.protocol != 4:
         return frame(1300, 3, 2, struct.pack("<i", script.protocol))
     stream = script.stream
     features = 1 | 16 | 32 | (2 if script.control else 0) | (4 if stream else 0)
     limits = [3.0] * script.joints + [0.0] * (10 - script.joints)
     build_id = b"ba9876543210" if foreign else b"0123456789ab"
-    data = struct.pack("<4i12s12s", 3, 0, 1, 0, build_id, script.mapping.encode())
+    data = struct.pack("<4i12s12s", 4, 0, 1, 0, build_id, script.mapping.encode())
     data += struct.pack("<4i", features, script.capacity, script.joints, 0)
     data += struct.pack("<4f", script.state_period, 0.1, 0.00873, 0.005)
     data += struct.pack("<30f", *[-v for v in limits], *limits, *[4.0] * 10)
