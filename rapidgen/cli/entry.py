@@ -8,9 +8,7 @@ import sys
 def run() -> None:
     """Run one verb and leave with its exit code."""
     # Until there is somebody who can tell of it, Ctrl-C ends the process without a traceback.
-    heeded = signal.getsignal(signal.SIGINT) is signal.default_int_handler
-    if heeded:
-        signal.signal(signal.SIGINT, signal.SIG_DFL)
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
     # Imports make tens of thousands of objects that live on: collecting them is a tenth of a build.
     gc.set_threshold(200_000, 20, 50)
     words = sys.argv[1:]
@@ -18,8 +16,8 @@ def run() -> None:
         from rapidgen.cli.quick_stop import send
 
         send(words[1:])
+    from rapidgen._interruption import raise_on_signals
     from rapidgen.cli.app import run as whole
 
-    if heeded:
-        signal.signal(signal.SIGINT, signal.default_int_handler)
+    raise_on_signals()
     whole()

@@ -217,6 +217,8 @@ def serve(connection: Connection, context: object) -> None:
     """What a worker does: calls that come are done, until nobody is there any more."""
     # An interruption is for whoever gives the work.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    for number in (signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, signal.SIG_DFL)
     try:
         while True:
             function, item = connection.recv()

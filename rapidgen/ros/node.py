@@ -30,6 +30,7 @@ from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
 from trajectory_msgs.msg import JointTrajectoryPoint
 
+from rapidgen._interruption import INTERRUPTIONS, raise_on_signals
 from rapidgen.client.aio import AsyncRobot
 from rapidgen.client.errors import RobotError
 from rapidgen.config import load_config
@@ -459,11 +460,18 @@ def _duration(seconds: float) -> Duration:
 
 
 def run(arguments: list[str]) -> int:
-    """The node, until Ctrl-C; `arguments` as ROS 2 has them (`--ros-args -p config:=...`)."""
+    """Run the node until SIGINT, SIGTERM or SIGHUP.
+
+    `arguments` as ROS 2 has them (`--ros-args -p config:=...`).
+    """
     # With rclpy's own handlers nothing could be told any more behind a signal.
     rclpy.init(args=arguments, signal_handler_options=SignalHandlerOptions.NO)
-    signal.signal(signal.SIGTERM, signal.default_int_handler)
-    node = RobotNode()
+    raise_on_signals()
+    try:
+        node = RobotNode()
+    except KeyboardInterrupt:
+        rclpy.try_shutdown()
+        return 0
     # A goal holds a thread while it is carried out, a service while it is asked.
     executor = MultiThreadedExecutor(num_threads=8)
     executor.add_node(node)
@@ -472,7 +480,7 @@ def run(arguments: list[str]) -> int:
             executor.spin_once(timeout_sec=_LOOK)
     except (KeyboardInterrupt, ExternalShutdownException):
         # `ros2 launch` sends a second one; the robot is stopped whatever comes.
-        for number in (signal.SIGINT, signal.SIGTERM):
+        for number in INTERRUPTIONS:
             signal.signal(number, signal.SIG_IGN)
         node.get_logger().info("ending: what moves for a goal is stopped")
         node.end(executor)

@@ -238,19 +238,24 @@ def test_what_is_typed_wrong_is_told_before_a_robot_is_asked(capsys, words, said
     assert said in " ".join(shown.err.split())
 
 
-def test_ctrl_c_stops_the_robot_and_tells_where_it_stands(cell, capsys):
+@pytest.mark.parametrize(
+    ("ignored", "number"), [("", signal.SIGINT), ("INT", signal.SIGINT), ("", signal.SIGTERM)]
+)
+def test_interrupted_move_stops_and_prints_position(cell, capsys, ignored, number):
+    """A shell starts the background jobs of a script with SIGINT ignored [POSIX, sh, 2.11]."""
     path, sim = cell
     at_home(cell, capsys)
     words = ["move", path, "--joints", "joint_1=90", "--speed", "0.02", "--to", "sim"]
+    shell = ["sh", "-c", f"trap '' {ignored}; exec \"$@\"", "sh"] if ignored else []
     process = subprocess.Popen(
-        [sys.executable, "-m", "rapidgen.cli", *words],
+        [*shell, sys.executable, "-m", "rapidgen.cli", *words],
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
     )
     while positions(sim)[0] < 0.01:
         assert process.poll() is None, process.communicate()
-    process.send_signal(signal.SIGINT)
+    process.send_signal(number)
     _, shown = process.communicate(timeout=60)
     assert process.returncode == 130
     degrees = math.degrees(positions(sim)[0])

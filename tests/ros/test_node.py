@@ -1,6 +1,9 @@
 """The node against a stand-in of rclpy, with a controller in real time."""
 
+import signal
+import sys
 import time
+from functools import partial
 
 import pytest
 from standin import Duration, FollowJointTrajectory, JointTolerance, JointTrajectoryPoint, Time
@@ -232,3 +235,52 @@ def test_a_configuration_that_is_none_is_said(driver_type, parameters, told):
     assert node.state == "unconfigured"
     assert any(told in line for line in node.get_logger().lines)
     node.destroy_node()
+
+
+@pytest.mark.parametrize(
+    ("number", "before"),
+    [
+        (signal.SIGINT, signal.SIG_IGN),
+        (signal.SIGTERM, signal.SIG_IGN),
+        (signal.SIGHUP, signal.SIG_DFL),
+    ],
+)
+def test_signal_aborts_the_goal_and_ends_the_node(driver_type, sim, monkeypatch, number, before):
+    """As started by `&` of a script, with SIGINT ignored: the robot stands when the node ends."""
+    module = sys.modules["rapidgen.ros.node"]
+    handles = []
+
+    class Executor:
+        def __init__(self, num_threads):
+            pass
+
+        def add_node(self, node):
+            self.node = node
+
+        def spin_once(self, timeout_sec):
+            if handles:
+                handles[0].over.wait(timeout_sec)
+                return
+            node = self.node
+            node.topics["robot_status"].wait(lambda told: told.motion_possible.val == 1)
+            handles.append(action(node).send(goal(0.0, 0.5, seconds=LONG)))
+            node.topics["joint_states"].wait(lambda told: told.position[0] > 1e-3)
+            signal.raise_signal(number)
+
+    parameters = {"config": "irb120", "address": str(sim.address("rob1", timeout=60))}
+    monkeypatch.setattr(module, "MultiThreadedExecutor", Executor)
+    monkeypatch.setattr(module, "RobotNode", partial(driver_type, parameter_overrides=parameters))
+    for name in ("init", "try_shutdown"):
+        monkeypatch.setattr(module.rclpy, name, lambda **_: None, raising=False)
+    numbers = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+    handlers = {one: signal.getsignal(one) for one in numbers}
+    try:
+        signal.signal(number, before)
+        assert module.run([]) == 0
+        stood = sim.call(sim.motion.groups["rob1"].positions)
+    finally:
+        for one, handler in handlers.items():
+            signal.signal(one, handler)
+    assert ended(handles[0])[0] == "aborted"
+    assert 1e-3 < stood[0] < 0.5
+    assert sim.call(lambda: sim.motion.groups["rob1"].is_standing)
