@@ -281,10 +281,14 @@ class AnswerQuestion(Spoken):
 
 
 class Jog(Spoken):
-    """Put a standing robot elsewhere: controller axes in wire order; None: where it is."""
+    """Put a standing robot elsewhere: controller axes in wire order; None: where it is.
+
+    `relative`: by so much from where it is when the request is carried out.
+    """
 
     do: Literal["jog"] = "jog"
     group: str
+    relative: bool = False
     axes: Annotated[tuple[Finite | None, ...], Field(max_length=12)]
 
 

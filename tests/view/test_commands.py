@@ -62,6 +62,56 @@ def test_a_refusal_is_told_and_an_axis_is_jogged(irb120, open_page):
     until(page, "document.querySelector('header').innerText", lambda t: "Running" in t)
 
 
+def test_refused_jog_is_not_executed_by_a_later_key(irb120, open_page):
+    """After a refusal all controls show the robot, and a key moves it by one step."""
+    page = open_page(irb120["view"])
+    axes = f"{STATE}.groups[0].axes.map((value) => value * 180 / Math.PI)"
+    until(page, STATE)
+    page.get_by_role("tab", name="Axes").click()
+    slider = page.get_by_role("slider").first
+    figure = page.get_by_label("joint_1 in °")
+    place = page.get_by_label("TCP x of rob1 in mm")
+    refusals = "document.querySelectorAll('.notice.fault').length"
+    before = page.evaluate(axes)
+    values = slider.input_value(), figure.input_value(), place.input_value()
+    for count in range(1, 6):
+        slider.press("ArrowRight")
+        until(page, refusals, lambda told, count=count: told == count)
+    for control, text in ((slider, "0.7"), (figure, "40"), (place, "300")):
+        count = page.evaluate(refusals)
+        control.fill(text)
+        control.press("Enter")
+        until(page, refusals, lambda told, count=count: told > count)
+        until(
+            page,
+            "[...document.querySelectorAll('.axis input, .place input')].map((e) => e.value)",
+            lambda shown: (shown[0], shown[1], shown[12]) == values,
+        )
+    assert page.evaluate(axes) == before
+    page.get_by_role("tab", name="Pendant").click()
+    page.get_by_role("button", name="Stop", exact=True).click()
+    until(page, "document.querySelector('header').innerText", lambda t: "Stopped" in t)
+    page.get_by_role("tab", name="Axes").click()
+    at = before[0]
+    for name, presses, control in (("1", 1, slider), ("5", 2, slider), ("0.1", 3, figure)):
+        page.get_by_role("button", name=name, exact=True).click()
+        for _ in range(presses):
+            control.press("ArrowUp")
+        at += presses * float(name)
+        until(page, axes, lambda now, at=at: abs(now[0] - at) < 1e-9)
+    slider.press("End")
+    figure.fill("-20")
+    figure.press("Enter")
+    until(page, axes, lambda now: abs(now[0] + 20) < 1e-9)
+    assert page.evaluate(axes)[1:] == before[1:]
+    figure.fill("0")
+    figure.press("Enter")
+    until(page, axes, lambda now: now[0] == 0)
+    page.get_by_role("tab", name="Pendant").click()
+    page.get_by_role("button", name="Start").click()
+    until(page, "document.querySelector('header').innerText", lambda t: "Running" in t)
+
+
 def test_hostile_texts_stay_texts(tmp_path, open_page):
     program = tmp_path / "Hostile.mod"
     program.write_text(MODULE)

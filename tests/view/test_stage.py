@@ -138,7 +138,9 @@ def test_what_is_asked_for_first_stays_when_the_next_one_comes_at_once(ready, op
     page = open_page(ready["view"])
     stopped(page)
     page.get_by_role("tab", name="Axes").click()
-    shown = page.locator(".axes input").evaluate_all("all => all.map(own => own.ariaLabel)")
+    shown = page.locator(".axes input[type=range]").evaluate_all(
+        "all => all.map(own => own.ariaLabel)"
+    )
     names = [shown[0], shown[3]]
     page.evaluate(AT_ONCE, [names, [0.2, 0.1], "input"])
     axes = until(page, f"{STATE}.groups[0].axes", lambda axes: axes[3] == pytest.approx(0.1))

@@ -98,10 +98,11 @@ class MotionAspect:
         if len(request.axes) != len(joints):
             raise Declined(f"{group.name} has {len(joints)} axes")
         here = group.positions()
-        axes = (
-            own if own is not None else now for own, now in zip(request.axes, here, strict=True)
+        axes = tuple(
+            now if own is None else now + own if request.relative else own
+            for own, now in zip(request.axes, here, strict=True)
         )
-        self._put(group, tuple(axes))
+        self._put(group, axes)
         return ""
 
     def _jog_to(self, request: Request) -> str:

@@ -8,12 +8,13 @@ export class Asked<T> {
   private underWay = 0;
   private told: T | undefined;
 
-  constructor(private readonly view: View, private readonly show: (value: T) => void) {}
+  /** `show` also hears whether a refusal is why: then it shows the value whatever is typed. */
+  constructor(private readonly view: View, private readonly show: (value: T, refused: boolean) => void) {}
 
   /** What the server tells. */
   tell(value: T): void {
     this.told = value;
-    if (!this.underWay) this.show(value);
+    if (!this.underWay) this.show(value, false);
   }
 
   /** Ask; where it is refused, show again what was told. */
@@ -21,6 +22,6 @@ export class Asked<T> {
     this.underWay += 1;
     const done = await this.view.order(request);
     this.underWay -= 1;
-    if (!done && !this.underWay && this.told !== undefined) this.show(this.told);
+    if (!done && !this.underWay && this.told !== undefined) this.show(this.told, true);
   }
 }

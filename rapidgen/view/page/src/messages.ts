@@ -157,10 +157,11 @@ export interface HeldValues {
   readonly watch: readonly SeenValue[];
 }
 
-/** Put a standing robot elsewhere: controller axes in wire order; None: where it is. */
+/** Put a standing robot elsewhere: controller axes in wire order; None: where it is. `relative`: by so much from where it is when the request is carried out. */
 export interface Jog {
   readonly do: "jog";
   readonly group: string;
+  readonly relative: boolean;
   readonly axes: readonly (number | null)[];
 }
 

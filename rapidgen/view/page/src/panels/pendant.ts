@@ -28,8 +28,20 @@ export const pendantPanel: MakePanel = (view) => {
 
   const speed = h("input", { type: "range", min: 0, max: 100, step: 1, id: "speed" });
   const speedText = h("output", { for: "speed" });
-  speed.addEventListener("change", () => order({ do: "override", value: Number(speed.value) / 100 }));
-  speed.addEventListener("input", () => say(speedText, `${speed.value} %`));
+  let sliding = false;
+  const speeds = new Asked<number>(view, (now) => {
+    if (sliding) return;
+    speed.value = String(Math.round(now * 100));
+    say(speedText, `${speed.value} %`);
+  });
+  speed.addEventListener("change", () => {
+    sliding = false;
+    void speeds.ask({ do: "override", value: Number(speed.value) / 100 });
+  });
+  speed.addEventListener("input", () => {
+    sliding = true;
+    say(speedText, `${speed.value} %`);
+  });
 
   // One way of standing still: the debugger's. The robot stands in the middle of its move, nothing stops.
   let held = false;
@@ -64,8 +76,7 @@ export const pendantPanel: MakePanel = (view) => {
     say(stop, now.e_stop ? "Reset emergency stop" : "Emergency stop");
     mode.show(now.mode);
     motors.show(now.motors_on === null ? null : now.motors_on ? "motors-on" : "motors-off");
-    if (document.activeElement !== speed) speed.value = String(Math.round((now.override ?? 1) * 100));
-    say(speedText, `${speed.value} %`);
+    speeds.tell(now.override ?? 1);
     if (now.pace) paces.tell(now.pace);
     tasks.replaceChildren(...Object.entries(now.tasks).map(([name, word]) =>
       h("tr", {}, h("th", { scope: "row" }, name), h("td", { "data-state": word }, word))));

@@ -59,7 +59,9 @@ class ProgramPanel {
     h("option", { value: "unhandled" }, "Pause at errors that stop a task"),
     h("option", { value: "all" }, "Pause at handled errors, too"));
   private readonly counts = h("input", { type: "checkbox", id: "counts",
-    onchange: () => this.view.order({ do: "cover", on: this.counts.checked }) });
+    onchange: () => void this.view.order({ do: "cover", on: this.counts.checked }).then((done) => {
+      if (!done) this.counts.checked = !this.counts.checked;
+    }) });
   private readonly pauses: Asked<Debugging["errors"]>;
   private readonly halt = h("p", { class: "halt", role: "status", hidden: true });
   private readonly stack = h("ol", { class: "stack" });

@@ -77,12 +77,13 @@ class RecordingPanel {
     if (visible && !this.drawn) void this.plot();
   }
 
-  private show(playback: Playback): void {
+  /** `whole`: also the field that has the focus. */
+  private show(playback: Playback, whole = false): void {
     this.playback = playback;
     for (const input of [this.slider, this.moment]) {
       input.min = String(playback.begin);
       input.max = String(playback.end);
-      const typed = input === this.moment && document.activeElement === input;
+      const typed = !whole && input === this.moment && document.activeElement === input;
       if (this.wanted === null && !typed) input.value = playback.time.toFixed(3);
     }
     say(this.length, `of ${playback.end.toFixed(1)} s`);
@@ -98,11 +99,15 @@ class RecordingPanel {
     this.wanted = time;
     if (this.asked) return;
     this.asked = true;
-    void this.view.link.ask({ do: "seek", time }).catch((why: Error) => this.view.notice(why.message, "fault")).then(() => {
+    void this.view.link.ask({ do: "seek", time }).then(() => true, (why: Error) => {
+      this.view.notice(why.message, "fault");
+      return false;
+    }).then((done) => {
       this.asked = false;
       const next = this.wanted;
       this.wanted = null;
       if (next !== null && next !== time) this.seek(next);
+      else if (!done && this.playback) this.show(this.playback, true);
     });
   }
 

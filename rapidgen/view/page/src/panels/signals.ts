@@ -1,6 +1,7 @@
 // Signals by name: searched, and set where the page may.
 
 import { h, say } from "../dom";
+import { Field } from "../field";
 import type { ShownSignal } from "../messages";
 import type { MakePanel, View } from "../panel";
 
@@ -42,18 +43,17 @@ export const signalsPanel: MakePanel = (view) => {
 
 class SignalRow {
   readonly element: HTMLElement;
-  private readonly control: HTMLButtonElement | HTMLInputElement;
+  private readonly control: HTMLButtonElement | Field;
   private now = 0;
 
   constructor(signal: ShownSignal, commands: boolean, view: View) {
-    const set = (value: number): void => void view.order({ do: "signal", name: signal.name, value });
+    const set = (value: number): Promise<boolean> => view.order({ do: "signal", name: signal.name, value });
     const label = `Set ${signal.name}`;
     this.control = signal.largest === 1
-      ? h("button", { type: "button", "aria-label": label, class: "lamp", disabled: !commands, onclick: () => set(this.now ? 0 : 1) })
-      : h("input", { type: "number", step: "any", "aria-label": label, disabled: !commands,
-          onchange: () => set(Number(this.control.value)) });
+      ? h("button", { type: "button", "aria-label": label, class: "lamp", disabled: !commands, onclick: () => void set(this.now ? 0 : 1) })
+      : new Field({ label, disabled: !commands, commit: set });
     this.element = h("tr", {}, h("th", { scope: "row", title: signal.device }, signal.name),
-      h("td", { class: "soft" }, signal.kind), h("td", {}, this.control));
+      h("td", { class: "soft" }, signal.kind), h("td", {}, this.control instanceof Field ? this.control.element : this.control));
     this.show(signal.value);
   }
 
@@ -62,8 +62,8 @@ class SignalRow {
     if (this.control instanceof HTMLButtonElement) {
       say(this.control, String(value));
       this.control.setAttribute("aria-pressed", String(value !== 0));
-    } else if (document.activeElement !== this.control) {
-      this.control.value = String(value);
+    } else {
+      this.control.show(String(value));
     }
   }
 }

@@ -33,7 +33,7 @@ class PointRow implements Row<SeenBreakpoint> {
       condition: this.fields.condition.value, hits: this.fields.hits.value, log: this.fields.log.value });
     const field = (hint: string): HTMLInputElement =>
       h("input", { type: "text", placeholder: hint, "aria-label": `${hint} of line ${line}`, onchange: change });
-    this.wishes = new Asked(view, (point) => this.write(point));
+    this.wishes = new Asked(view, (point, refused) => this.write(point, refused));
     this.fields = { condition: field("Condition"), hits: field("Pass"), log: field("Tell, do not pause") };
     this.element = h("li", {},
       h("div", { class: "row" }, h("b", {}, `${module}, line ${line}`), this.count, h("span", { class: "space" }),
@@ -49,8 +49,8 @@ class PointRow implements Row<SeenBreakpoint> {
     this.wishes.tell(point);
   }
 
-  private write(point: SeenBreakpoint): void {
+  private write(point: SeenBreakpoint, refused: boolean): void {
     for (const [name, input] of Object.entries(this.fields) as [keyof PointRow["fields"], HTMLInputElement][])
-      if (document.activeElement !== input) input.value = point[name];
+      if (refused || document.activeElement !== input) input.value = point[name];
   }
 }
