@@ -122,6 +122,34 @@ def test_07_a_speed_of_degrees_is_a_warning(check):
     assert found["RG037"].severity is Severity.WARNING
 
 
+@pytest.mark.parametrize(
+    ("kind", "velocity", "code", "said", "speed"),
+    [
+        ("prismatic", 1, None, "", 1.0),
+        ("prismatic", 46, None, "", 46.0),  # 46 m/s are no degrees per second
+        ("prismatic", 49.9, None, "", 49.9),
+        ("prismatic", 50, "RG039", "50 m/s looks like a placeholder", 50.0),
+        ("prismatic", 0, "RG039", "the velocity 0", None),
+        ("revolute", 45, None, "", 45.0),
+        ("revolute", 45.1, "RG037", "45.1 rad/s looks like degrees per second", 45.1),
+        ("revolute", 50, "RG039", "50 rad/s looks like a placeholder", 50.0),
+    ],
+)
+def test_07_and_09_speeds_of_linear_and_turning_axes(check, kind, velocity, code, said, speed):
+    track = joint("track", "base_link", "rail", kind, lower=0, upper=2, velocity=velocity)
+    config, found = check(
+        robot(BASE, arm(), track, links("rail")), f"{SIX}\n  track: {{axis: eax_a}}"
+    )
+    told = {c: d for c, d in found.items() if c in ("RG037", "RG039")}
+    assert set(told) == ({code} if code else set())
+    if code:
+        assert said in told[code].message
+    if speed is not None:
+        assert next(j for j in config.groups[0].joints if j.name == "track").speed == (
+            pytest.approx(speed)
+        )
+
+
 @pytest.mark.parametrize("missing", [{"limit": False}, {"lower": None}, {"velocity": None}])
 def test_08_missing_limits(check, missing):
     only("RG038", check(six(**missing)))

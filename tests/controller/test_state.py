@@ -188,6 +188,83 @@ def test_power_loss_closes_sockets_and_sets_outputs_back(cell):
     assert outputs(cell)[0] == 0
 
 
+SEVERAL = """MODULE several
+    VAR socketdev first;
+    VAR socketdev second;
+    VAR iodev one;
+    VAR iodev other;
+    PROC main()
+        SocketCreate first;
+        SocketBind first, "127.0.0.1", 5000;
+        SocketListen first;
+        SocketCreate second;
+        SocketBind second, "127.0.0.1", 5001;
+        SocketListen second;
+        Open "HOME:/one", one \\Write;
+        Open "HOME:/other", other \\Write;
+        WaitTime 60;
+    ENDPROC
+ENDMODULE
+"""
+
+
+def test_a_power_loss_closes_all_sockets_and_files_of_a_task():
+    with make(SEVERAL) as controller:
+        controller.run_for(1)
+        assert set(controller.network.listeners) == {5000, 5001}
+        files = [controller.task("T_ROB1")[n] for n in ("one", "other")]
+        assert all(device.file is not None for device in files)
+        controller.perform("power-loss")
+        controller.run_for(0.1)
+        assert not controller.network.listeners
+        assert not controller.sockets.in_use
+        assert all(device.file is None for device in files)
+
+
+def test_a_power_loss_ends_every_state_that_forbids_a_start(cell):
+    operation = cell.operation
+    for forbid in (
+        operation.fail,
+        lambda: operation.set_e_stop(True),
+        lambda: setattr(operation, "halted", True),
+    ):
+        forbid()
+        if not operation.halted:
+            cell.perform("motors-on")  # neither a system failure nor an emergency stop ends so
+        assert not cell.perform("start")
+        cell.perform("power-loss")
+        assert (operation.failed, operation.halted, operation.e_stop) == (False, False, False)
+        assert not operation.motors_on
+        assert not operation.start_program()
+        cell.perform("motors-on")
+        assert operation.start_program()
+
+
+@pytest.mark.parametrize(
+    ("before", "action", "numbers"),
+    [
+        ((), "e-stop", [10013, 10010, 10125]),
+        (("e-stop",), "reset-e-stop", [10010]),
+        ((), "motors-off", [10010, 10125]),
+        (("motors-off",), "motors-on", [10011]),
+        ((), "manual", [10125, 10015, 10010, 10125]),
+        (("manual",), "auto", [10125, 10017]),
+        ((), "stop", [10125]),
+        (("stop",), "start", [10151]),
+        (("motors-off",), "start", [10126]),
+        (("stop",), "pp-to-main", [10002]),
+        ((), "power-loss", [10140]),
+    ],
+)
+def test_what_an_operator_does_has_its_event_numbers(cell, before, action, numbers):
+    # [event log messages of IRC5, 3HAC020738: 10 xxx; 10126 and 10140 as this controller has them]
+    for earlier in before:
+        cell.perform(earlier)
+    newest = max(event.sequence for event in cell.log)
+    cell.perform(action)
+    assert [event.code for event in cell.log.since(newest)] == numbers
+
+
 # -- control commands -----------------------------------------------------------------------
 
 

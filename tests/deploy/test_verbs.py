@@ -377,6 +377,19 @@ def test_a_url_with_too_few_slashes(url, meant):
     assert (found.code, found.help) == ("RG509", f"write {meant}")
 
 
+@pytest.mark.parametrize("others", [0o040, 0o020, 0o010, 0o004, 0o002, 0o001])
+def test_a_secrets_file_that_others_may_use_in_any_way_is_not_used(tmp_path, others):
+    file = tmp_path / "secrets.toml"
+    file.write_text('[default]\npassword = "s3cret"\n')
+    asked = (Credentials(""), "10.0.0.1", 21)
+    for own in (0o600, 0o400):
+        file.chmod(own | others)
+        (found,) = refusal(find_password, *asked, secrets=file, ask=False).diagnostics
+        assert (found.code, found.help) == ("RG511", f"chmod 600 {file}")
+        file.chmod(own)
+        assert find_password(*asked, secrets=file, ask=False).password.get() == "s3cret"
+
+
 def test_secrets_come_from_a_tight_file_or_the_environment_and_are_not_shown(tmp_path, monkeypatch):
     file = tmp_path / "secrets.toml"
     file.write_text(

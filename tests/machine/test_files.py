@@ -3,7 +3,14 @@
 import pytest
 
 from rapidgen.machine import files
-from rapidgen.machine.files import MAX_OPEN, DiskFault, DiskReason, FileSystem, IODevice
+from rapidgen.machine.files import (
+    MAX_OPEN,
+    Directory,
+    DiskFault,
+    DiskReason,
+    FileSystem,
+    IODevice,
+)
 
 
 @pytest.fixture
@@ -50,6 +57,23 @@ def test_so_many_files_are_open_at_a_time(disks):
     assert fault.value.reason is DiskReason.TOO_MANY_OPEN
     disks.close_task("T_ROB1")
     disks.hold(devices[-1], "T_ROB2")
+
+
+def test_every_file_of_a_task_is_closed_and_none_of_another(disks):
+    devices = [IODevice() for _ in range(3)]
+    folder = Directory()
+    for device, task in zip(devices, ("T_ROB1", "T_ROB1", "T_ROB2"), strict=True):
+        device.file = (disks.folder / task).open("wb")
+        disks.hold(device, task)
+    folder.names = ["a"]
+    disks.hold(folder, "T_ROB1")
+    disks.close_task("T_ROB1")
+    assert [device.file is None for device in devices] == [True, True, False]
+    assert folder.names is None
+    disks.close_task("T_ROB1")
+    for device in devices:
+        disks.release(device)
+    assert devices[2].file is None
 
 
 def test_a_full_disk_takes_nothing(disks, monkeypatch):

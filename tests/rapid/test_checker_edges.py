@@ -161,6 +161,35 @@ def test_local_routines_that_nothing_calls():
     assert codes('%"m:p"%;', rest=rest) == []  # a name in a string may be any of them
 
 
+@pytest.mark.parametrize("local", [True, False])
+@pytest.mark.parametrize(
+    ("data", "written", "is_unused"),
+    [
+        ("VAR num a;", "a := 1;", True),
+        ("VAR num a;", "a := 1;\na := 2;", True),
+        ("VAR num a;", "a := a + 1;", False),
+        ("VAR num a{3};", "a := [1, 2, 3];", True),
+        ("VAR num a{3};", "a{1} := 2;", False),
+        ("VAR num a{3};", "a{1} := 2;\na := [1, 2, 3];", False),
+        ("VAR num a{3};", "a := [1, 2, 3];\na{1} := 2;", False),
+        ("VAR pos a;", "a := [1, 2, 3];", True),
+        ("VAR pos a;", "a.x := 1;", False),
+        ("VAR pos a{2};", "a{1}.x := 1;", False),
+        ("VAR pose a;", "a.trans.x := 1;", False),
+        ("VAR num a{3};\n{also}VAR num i;", "i := 1;\na{i} := 2;", False),
+    ],
+)
+def test_a_datum_that_is_only_written_is_unused_unless_it_is_written_in_part(
+    local, data, written, is_unused
+):
+    """A write to an element or a component leaves the rest as it was: the datum counts as used."""
+    expected = ["RG324"] if is_unused else []
+    if local:
+        assert codes(written, "LOCAL " + data.replace("{also}", "LOCAL ")) == expected
+    else:
+        assert codes(data.replace("{also}", "") + "\n" + written) == expected
+
+
 @pytest.mark.parametrize(
     ("body", "data", "expected"),
     [

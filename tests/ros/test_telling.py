@@ -3,8 +3,11 @@
 import pytest
 from ready import goal, station
 
+from rapidgen.client import Trajectory
+from rapidgen.client.core.state import Driver, State, Status
 from rapidgen.ros.goals import Ending
 from rapidgen.ros.telling import Level, health, no_link, robot_status, unknown_status
+from rapidgen.wire.simple_message.spec import Mode, TrajectoryState, TriState
 
 
 def told(s):
@@ -30,6 +33,63 @@ def test_states_of_the_controller(fault, level, text, numbers):
         assert found.level is level
         assert text in found.message
         assert {name: getattr(status, name) for name in numbers} == numbers
+
+
+def state(trajectory=None, **status):
+    known = {
+        "drives": TriState.TRUE,
+        "e_stopped": TriState.FALSE,
+        "in_motion": TriState.FALSE,
+        "motion_possible": TriState.TRUE,
+        "mode": Mode.AUTO,
+    }
+    told = Status(**{**known, **status})
+    return State(("joint_1",), (0.0,), (0.0,), told, 0.0, 25.0, 1, lambda: 0.0, trajectory)
+
+
+@pytest.mark.parametrize(
+    ("trajectory", "status", "level", "text"),
+    [
+        (None, {}, Level.OK, "ready"),
+        (None, {"in_motion": TriState.UNKNOWN}, Level.OK, "ready"),
+        (TrajectoryState.MOVING, {"in_motion": TriState.TRUE}, Level.OK, "moving"),
+        (TrajectoryState.DONE, {}, Level.OK, "ready"),
+        (TrajectoryState.PAUSED, {}, Level.WARN, "paused"),
+        (TrajectoryState.PAUSED, {"in_motion": TriState.TRUE}, Level.WARN, "paused"),
+        (TrajectoryState.PAUSED, {"motion_possible": TriState.FALSE}, Level.WARN, "paused"),
+        (TrajectoryState.DONE, {"motion_possible": TriState.FALSE}, Level.WARN, "not executing"),
+        (TrajectoryState.PAUSED, {"mode": Mode.MANUAL}, Level.WARN, "manual mode"),
+        (None, {"drives": TriState.FALSE, "mode": Mode.MANUAL}, Level.WARN, "motors are off"),
+        (
+            TrajectoryState.PAUSED,
+            {"e_stopped": TriState.TRUE, "drives": TriState.FALSE},
+            Level.ERROR,
+            "emergency stop",
+        ),
+        (None, {name: TriState.UNKNOWN for name in ("drives", "e_stopped")}, Level.OK, "ready"),
+    ],
+)
+def test_what_hinders_the_robot_the_worst_first(trajectory, status, level, text):
+    found = health(state(trajectory, **status), Driver(), "10.0.0.1")
+    assert (found.level, text in found.message) == (level, True)
+    assert found.values["address"] == "10.0.0.1"
+    assert found.values.get("trajectory") == (trajectory.name if trajectory else None)
+    words = {TriState.TRUE: "yes", TriState.FALSE: "no", TriState.UNKNOWN: "unknown"}
+    assert found.values["drives"] == words[status.get("drives", TriState.TRUE)]
+    assert found.values["emergency stop"] == words[status.get("e_stopped", TriState.FALSE)]
+
+
+def test_a_paused_robot_is_not_ready():
+    with station() as s:
+        s.run(s.robot.execute(Trajectory([0, 4], [list(s.joints), [0.3] * 6])))
+        s.controller.run_for(1.0)
+        s.run(s.robot.pause())
+        s.controller.run_for(1.0)
+        _, found = told(s)
+        assert (found.level, found.message) == (Level.WARN, "paused")
+        s.run(s.robot.resume())
+        s.controller.run_for(8.0)
+        assert told(s)[1].message == "ready"
 
 
 def test_a_refusal_stays_visible():
