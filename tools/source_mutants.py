@@ -445,7 +445,7 @@ class Copy:
                 os.killpg(run.pid, signal.SIGKILL)
                 run.communicate()
                 return "time-out", ""
-        failed = re.search(r"^(?:FAILED|ERROR) (\S+)", said, re.MULTILINE)
+        failed = re.search(r"^(?:FAILED|ERROR) (.+?)(?: - .*)?$", said, re.MULTILINE)
         if run.returncode in (0, 5):  # 5: no test is left to run
             return "survived", ""
         return "detected", failed[1] if failed else said[-200:]
