@@ -257,7 +257,7 @@ def test_a_power_loss_ends_every_state_that_forbids_a_start(cell):
     ],
 )
 def test_what_an_operator_does_has_its_event_numbers(cell, before, action, numbers):
-    # [event log messages of IRC5, 3HAC020738: 10 xxx; 10126 and 10140 as this controller has them]
+    # No source was read for these numbers: they are those that this controller writes.
     for earlier in before:
         cell.perform(earlier)
     newest = max(event.sequence for event in cell.log)

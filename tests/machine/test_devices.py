@@ -51,7 +51,7 @@ def test_events_have_numbers_domains_and_the_controllers_time():
 
 
 def test_domains_and_types_have_the_controllers_numbers():
-    # [event log messages of IRC5, 3HAC020738, "Understanding event log messages"]
+    # No source was read for these numbers: they are those that this controller writes.
     assert {d.name: int(d) for d in Domain} == {
         "COMMON": 0,
         "OPERATIONAL": 1,
