@@ -21,7 +21,16 @@ from rapidgen.client.errors import (
     not_reached,
     os_reason,
 )
-from rapidgen.client.flows.effects import Close, Effect, Flow, HangUp, Open, Send, Wait
+from rapidgen.client.flows.effects import (
+    Close,
+    Effect,
+    Flow,
+    HangUp,
+    Open,
+    Send,
+    SendAtOnce,
+    Wait,
+)
 from rapidgen.client.surface import (
     ExecutionSurface,
     MakeCore,
@@ -140,14 +149,19 @@ class Loop:
         if isinstance(effect, HangUp):
             self._hang_up()
             return True
+        if isinstance(effect, SendAtOnce):
+            for port in effect.ports:
+                link = self._links.get(port)
+                if link is None or link.transport is None:
+                    effect.failures[port] = self.core.disconnected()
+                else:
+                    # Behind at most the rest of one frame: senders wait for an empty buffer.
+                    link.transport.write(effect.data)
+            return True
         link = self._links.get(effect.port)
         if link is None or link.transport is None:
             raise self.core.disconnected()
-        if effect.urgent:
-            # Behind at most the rest of one frame: senders wait for an empty buffer.
-            link.transport.write(effect.data)
-        else:
-            await self._send(link, link.transport, effect)
+        await self._send(link, link.transport, effect)
         return True
 
     async def _send(self, link: _Link, transport: asyncio.Transport, effect: Send) -> None:
@@ -193,7 +207,7 @@ class Loop:
 
     def _close(self, port: Port) -> None:
         link = self._links.pop(port, None)
-        self.core.ports[port].is_open = False
+        self.core.dropped(port)
         if link is not None and link.transport is not None:
             link.transport.close()
 

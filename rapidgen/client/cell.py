@@ -15,7 +15,7 @@ from rapidgen.client.core.state import State
 from rapidgen.client.errors import InvalidTarget, InvalidTrajectory, RobotError
 from rapidgen.client.flows.download import Sending
 from rapidgen.client.flows.effects import Flow
-from rapidgen.client.flows.motion import ready
+from rapidgen.client.flows.motion import armed, ready
 from rapidgen.client.threads import Execution, Robot
 from rapidgen.client.trajectory import Trajectory
 from rapidgen.diagnostics import Diagnostic
@@ -28,18 +28,23 @@ class _Start:
     """Trajectories that start together."""
 
     def __init__(self, cores: Mapping[str, Core], trajectories: Mapping[str, Trajectory]) -> None:
-        """Every trajectory is checked, the faults of all are told; then every motion begins."""
+        """Every trajectory is checked, and the faults of all are told."""
         found: list[Diagnostic] = []
-        checked: dict[str, CheckedTrajectory] = {}
+        self._cores = cores
+        self._checked: dict[str, CheckedTrajectory] = {}
         for name, trajectory in trajectories.items():
             cores[name].ready()
             try:
-                checked[name] = cores[name].check_whole(trajectory)
+                self._checked[name] = cores[name].check_whole(trajectory)
             except InvalidTrajectory as error:
                 found += error.diagnostics
         if found:
             raise InvalidTrajectory(found)
-        self.sendings = {name: Sending(cores[name], whole) for name, whole in checked.items()}
+        self.sendings: dict[str, Sending] = {}
+
+    def begin(self) -> None:
+        """Every motion begins."""
+        self.sendings = {n: Sending(self._cores[n], whole) for n, whole in self._checked.items()}
 
     def phases(self) -> Iterator[dict[str, Flow[None]]]:
         """All points go to all robots first, then all end frames; then all say what they do."""
@@ -102,6 +107,8 @@ class Cell:
         moving = _chosen(self.robots, trajectories)
         _each(moving, lambda robot: robot._carrier.run(ready(robot._core)))
         start = _Start({name: robot._core for name, robot in moving.items()}, trajectories)
+        _each(moving, lambda robot: robot._carrier.run(armed(robot._core)))
+        start.begin()
         try:
             for phase in start.phases():
                 for name, flow in phase.items():
@@ -205,6 +212,8 @@ class AsyncCell:
         moving = _chosen(self.robots, trajectories)
         await _gather({name: r._carrier.run(ready(r._core)) for name, r in moving.items()})
         start = _Start({name: robot._core for name, robot in moving.items()}, trajectories)
+        await _gather({name: r._carrier.run(armed(r._core)) for name, r in moving.items()})
+        start.begin()
         try:
             for phase in start.phases():
                 for name, flow in phase.items():

@@ -24,7 +24,7 @@ _TICK = 0.1
 
 
 class Channel:
-    """One TCP connection. `send` and `send_urgent` may be called from different threads."""
+    """One TCP connection. `send` and `offer_behind` may be called from different threads."""
 
     def __init__(self, address: Address, port: Port, timeout: float) -> None:
         number = address.port(port)
@@ -81,22 +81,25 @@ class Channel:
                 waited += _SLICE
         return True
 
-    def send_urgent(self, data: bytes, timeout: float) -> None:
-        """Send behind at most the frame whose beginning is already on the wire."""
-        with self._lock:
-            view = memoryview(bytes(self._rest) + data)
-            self._rest = memoryview(b"")
-            waited = 0.0
-            while len(view):
-                sent = self._write(view)
-                view = view[sent:]
-                if sent:
-                    continue
-                if waited >= timeout:
-                    self._rest, self._is_offered = view, True
-                    raise RobotTimeout.because(
-                        "RG603", f"the controller took no byte for {timeout:g} s"
-                    )
+    def finish(self, timeout: float) -> None:
+        """Wait until what was offered is on its way.
+
+        Raises RobotTimeout when nothing is taken for `timeout` s, ConnectionLost.
+        """
+        waited = 0.0
+        while True:
+            with self._lock:
+                if not (self._is_offered and self._rest):
+                    return
+                sent = self._write(self._rest)
+                self._rest = self._rest[sent:]
+            if sent:
+                waited = 0.0
+            elif waited >= timeout:
+                raise RobotTimeout.because(
+                    "RG603", f"the controller took no byte for {timeout:g} s"
+                )
+            else:
                 self._wait_writable(_SLICE)
                 waited += _SLICE
 
@@ -125,18 +128,14 @@ class Channel:
             self._lock.release()
 
     def offer_behind(self, data: bytes) -> None:
-        """Send behind the frame whose beginning is on the wire, as far as it goes now.
-
-        Not where somebody waits to send something urgent: that is a STOP too.
+        """Send behind the frame whose beginning is on the wire, as far as it goes now; the rest
+        goes out with the next call of anything here. Raises ConnectionLost.
         """
-        if not self._lock.acquire(timeout=_SLICE):
-            return
-        try:
-            view = memoryview(bytes(self._rest) + data)
-            self._rest = view[self._write(view) :]
+        # Nobody waits for the network under the lock.
+        with self._lock:
+            self._rest = memoryview(bytes(self._rest) + data)
             self._is_offered = True
-        finally:
-            self._lock.release()
+            self._rest = self._rest[self._write(self._rest) :]
 
     def _write(self, view: memoryview) -> int:
         try:

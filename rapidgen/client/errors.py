@@ -26,6 +26,7 @@ states. Time is that of the client's clock, s.
 import os
 import socket
 from collections.abc import Iterable
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from rapidgen._running import running
@@ -58,6 +59,14 @@ class RobotError(DiagnosticError):
     def because(cls, code: str, message: str, mend: str = "", *notes: str, **told: Any) -> Self:  # noqa: ANN401
         """One with a finding that has no place in a text; `told` is what its kind takes."""
         return cls(fault(code, message, mend, *notes), **told)
+
+    def amend(self, message: str, help: str) -> None:
+        """Add to the message what has become of the robot since, and replace the help."""
+        first, *others = self.diagnostics
+        changed = replace(first, message=f"{first.message}; {message}", help=help)
+        # Made again from the diagnostics.
+        self.__dict__.pop("__notes__", None)
+        DiagnosticError.__init__(self, [changed, *others], exit_code=self.exit_code)
 
 
 class InvalidTarget(RobotError):

@@ -3,7 +3,7 @@
 import threading
 import time
 import warnings
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import partial
 from inspect import GEN_CLOSED, getgeneratorstate
 from typing import TypeVar
@@ -12,10 +12,11 @@ from rapidgen.client import flows
 from rapidgen.client.address import Address
 from rapidgen.client.channels import Channel, Reader
 from rapidgen.client.core.job import batches
+from rapidgen.client.core.motion import CommandedMotion
 from rapidgen.client.core.robot import STOP_FRAME
 from rapidgen.client.core.state import State
-from rapidgen.client.errors import ConnectionLost, MotionStopped, RobotError
-from rapidgen.client.flows.effects import Close, Effect, Flow, HangUp, Open, Wait
+from rapidgen.client.errors import ConnectionLost, MotionStopped, RobotError, RobotTimeout
+from rapidgen.client.flows.effects import Close, Effect, Flow, HangUp, Open, SendAtOnce, Wait
 from rapidgen.client.own_data import CellData
 from rapidgen.client.surface import (
     ExecutionSurface,
@@ -49,6 +50,7 @@ class Threads:
         """
         outcome: bool | None = None
         failure: BaseException | None = None
+        before = self.core.motion
         while True:
             error, failure = failure, None
             try:
@@ -64,8 +66,20 @@ class Threads:
                 outcome = self._perform(effect)
             except (RobotError, KeyboardInterrupt) as raised:
                 if getgeneratorstate(flow) == GEN_CLOSED:
+                    self._stop_unnoticed(raised, before)
                     raise
                 failure = raised
+
+    def _stop_unnoticed(
+        self, raised: RobotError | KeyboardInterrupt, before: CommandedMotion | None
+    ) -> None:
+        """Ctrl-C between the last step of a flow that began a motion and its caller, who never
+        learns of the motion: stop it."""
+        motion = self.core.motion
+        if isinstance(raised, KeyboardInterrupt) and motion not in (None, before):
+            assert motion is not None
+            if not motion.is_over or motion.needs_stop:
+                self.run(flows.stop.stop(self.core))
 
     def _pump(self) -> None:
         """Send what is due, as far as it goes without waiting. The lock is held."""
@@ -98,13 +112,14 @@ class Threads:
         if isinstance(effect, HangUp):
             self._hang_up()
             return True
+        if isinstance(effect, SendAtOnce):
+            self._send_at_once(effect)
+            return True
         channel = self._channels.get(effect.port)
         if channel is None:
             raise self.core.disconnected()
         try:
-            if effect.urgent:
-                channel.send_urgent(effect.data, effect.timeout)
-            elif not channel.send(effect.data, effect.timeout, lambda: effect.is_stopped):
+            if not channel.send(effect.data, effect.timeout, lambda: effect.is_stopped):
                 raise MotionStopped.because("RG631", "stopped before the trajectory was sent")
         except ConnectionLost as error:
             with self.guard:
@@ -113,6 +128,25 @@ class Threads:
                     raise self.core.disconnected() from error
             raise
         return True
+
+    def _send_at_once(self, effect: SendAtOnce) -> None:
+        channels = {port: self._channels.get(port) for port in effect.ports}
+        # All are written to before one that takes nothing is waited for.
+        steps: tuple[Callable[[Channel], None], ...] = (
+            lambda channel: channel.offer_behind(effect.data),
+            lambda channel: channel.finish(effect.timeout),
+        )
+        for step in steps:
+            for port, channel in channels.items():
+                if port in effect.failures:
+                    continue
+                if channel is None:
+                    effect.failures[port] = self.core.disconnected()
+                    continue
+                try:
+                    step(channel)
+                except (ConnectionLost, RobotTimeout) as error:
+                    effect.failures[port] = error
 
     def _wait(self, effect: Wait) -> bool:
         deadline = time.monotonic() + effect.timeout
@@ -129,7 +163,7 @@ class Threads:
     def _close(self, port: Port) -> None:
         with self.guard:
             channel = self._channels.pop(port, None)
-            self.core.ports[port].is_open = False
+            self.core.dropped(port)
             if channel is not None and self._reader is not None:
                 self._reader.remove(channel)
 

@@ -2,9 +2,10 @@
 
 import numpy as np
 import pytest
-from driven import complaints, driven, robot_of, wave
+from driven import complaints, driven, robot_of, wave, wiggle
 
 from rapidgen.client import (
+    InvalidTrajectory,
     MotionFailed,
     MotionStopped,
     NotSupported,
@@ -220,12 +221,19 @@ def test_no_control_port():
         robot.stop()
 
 
-def test_a_newer_client_takes_the_motion_port_and_the_stream_ends():
+def test_a_newer_client_ends_a_motion_by_a_sound_order_and_by_nothing_before():
     with driven() as (first, _):
         filling = first.stream().later.extend(wave())
         first.sleep(5)
         second = first.beside(robot_of(load_config("irb120")))
         second.connect()
+        far = Trajectory([0, 1], [[0.0] * 6, [9.0] * 6])
+        with pytest.raises(InvalidTrajectory):
+            second.execute(far)
+        first.sleep(3)
+        assert not filling.done()
+        assert first.state.is_moving
+        second.execute(wiggle(second)).result()
         with pytest.raises(Exception, match=r"lost|another|client") as error:
             filling.result()
         assert error.value.diagnostics

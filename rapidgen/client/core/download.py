@@ -11,17 +11,21 @@ import numpy as np
 
 from rapidgen.client.core.checks import CheckedTrajectory
 from rapidgen.client.core.group import Group
-from rapidgen.client.core.motion import CommandedMotion, Phase, place_of, refused
+from rapidgen.client.core.motion import (
+    GOAL_TOLERANCE,
+    CommandedMotion,
+    Phase,
+    place_of,
+    refused,
+)
 from rapidgen.client.core.request_port import PendingReply
 from rapidgen.client.core.state import Progress, trajectory_state
 from rapidgen.client.core.state_port import StatePort
-from rapidgen.client.errors import MotionFailed, MotionStopped, fault
+from rapidgen.client.errors import MotionFailed, MotionStopped, ProtocolError, fault
 from rapidgen.wire.simple_message import messages
 from rapidgen.wire.simple_message.declaration import Content
 from rapidgen.wire.simple_message.spec import TrajectoryState, TriState
 
-GOAL_TOLERANCE = 0.01
-"""rad or m: as industrial_robot_client."""
 _MOVED = 1e-4
 """rad or m: more than this is a movement."""
 _GRACE = 2.0
@@ -47,7 +51,7 @@ class Download(CommandedMotion):
         self.planned_seconds = self.longest = plan.total
         self.goal = plan.wire[-1].tolist()
         self._pending: PendingReply | None = None
-        self._first_duration = float(plan.durations[0])
+        self.approach = float(plan.durations[0])
         self._was_in_error = state_port.status.in_error is TriState.TRUE
         self._start = state_port.wire_joints
         self._looked_at = 0
@@ -59,7 +63,13 @@ class Download(CommandedMotion):
     def asked(self, pending: PendingReply) -> None:
         """The end frame goes out now, and the robot may begin to move; `pending` is its reply."""
         self._pending = pending
+        self.is_ordered = True
         self._looked_at = self._state_port.samples
+
+    @property
+    def awaits_answer(self) -> bool:
+        """See CommandedMotion."""
+        return self._pending is not None and self._pending.reply is None and not self.is_over
 
     def step(self) -> None:
         """Take the reply, and look at the newest state; without PROGRESS at where the robot is."""
@@ -74,6 +84,7 @@ class Download(CommandedMotion):
         if (
             self.phase is Phase.MOVING
             and state_port.progress is None
+            and not state_port.is_progress_lost
             and state_port.samples > self._first_sample
         ):
             self._by_position()
@@ -94,8 +105,17 @@ class Download(CommandedMotion):
                 place = place_of(self._group, reply.point, reply.joint)
                 told = reply.reason, place, reply.point, reply.joint
                 self.failed(refused(self._state_port, *told))
-            case _:
+            case messages.Failure():
                 self.failed(refused(self._state_port, None))
+            case _:
+                self.failed(
+                    ProtocolError.because(
+                        "RG604",
+                        f"the trajectory was answered with {reply}",
+                        "a STOP was sent; look at the robot",
+                        **self._state_port.evidence(),
+                    )
+                )
 
     def _by_position(self) -> None:
         state = self._state_port.state
@@ -122,7 +142,7 @@ class Download(CommandedMotion):
         if self._stood_since is None:
             self._stood_since = now
         elapsed = now - self._began
-        if elapsed < self.planned_seconds - self._first_duration - _EARLY:
+        if elapsed < self.planned_seconds - self.approach - _EARLY:
             return
         if self._deviation(state) <= GOAL_TOLERANCE and (self._seen_moving or self._is_still):
             self._succeed()

@@ -21,6 +21,19 @@ from rapidgen.wire.simple_message import messages
 from rapidgen.wire.simple_message.spec import Reason, TrajectoryState, TriState
 
 _REASONS = {int(reason): reason for reason in Reason}
+_FIXES = {
+    Reason.TASK_ENDED: "restart the controller (a warm start): a server task that has ended does "
+    "not begin again with PP to Main and Start; the controller's event log names the task"
+}
+_NOT_BEGUN = (TrajectoryState.NONE, TrajectoryState.RECEIVING, TrajectoryState.REFUSED)
+_UNANSWERED = 0.5
+"""s for which the robot may move by an order whose answer has not come."""
+_STANDS = 1.0
+"""s for which a robot stands at the end before that counts, where PROGRESS does not come."""
+_STRANDED = 3.0
+"""s for which it may stand elsewhere then."""
+GOAL_TOLERANCE = 0.01
+"""rad or m: as industrial_robot_client."""
 
 
 class Phase(Enum):
@@ -63,6 +76,14 @@ class CommandedMotion(ABC):
         self.error: RobotError | None = None
         self.is_taken = False
         """Whether the controller took it: from then on `result` tells how it ends."""
+        self.is_ordered = False
+        """Bytes have gone out by which the controller may begin to move."""
+        self.is_settled = False
+        """The controller has said how it ended, or the robot stands behind a STOP."""
+        self.may_wait = False
+        """Whether the robot may stand still on the way, for a signal or a routine."""
+        self._unanswered_since: float | None = None
+        self._stands_since: float | None = None
         self.stopping = False
         """Somebody asked for a STOP: nothing more of this is sent."""
         self.number: int | None = None
@@ -75,6 +96,8 @@ class CommandedMotion(ABC):
         """Points that were asked for, so far."""
         self.planned_seconds = 0.0
         """Seconds that the controller is asked to take, so far."""
+        self.approach = 0.0
+        """Those of the first point, where the robot stands already."""
         self.longest = 0.0
         """Seconds that may pass without a sign of getting on."""
         self.goal: Sequence[float] = ()
@@ -90,11 +113,39 @@ class CommandedMotion(ABC):
         self._began = state_port.clock()
         self._first_sample = state_port.samples
         self._first_progress = state_port.progresses
+        self._moved_before = state_port.status.in_motion is TriState.TRUE
 
     @property
     def is_over(self) -> bool:
         """Whether `result` or `error` is there."""
         return self.phase is Phase.OVER
+
+    @property
+    def needs_stop(self) -> bool:
+        """Whether it has failed, and the robot may be moving by it, or begin to."""
+        return self.is_over and self.error is not None and self.is_ordered and not self.is_settled
+
+    @property
+    def is_superseded(self) -> bool:
+        """Whether the controller executes, or has executed, a motion behind this one."""
+        progress = self._state_port.progress
+        newer = self._state_port.progresses >= self._first_progress + 2
+        return (
+            newer
+            and self.number is not None
+            and progress is not None
+            and progress.trajectory != self.number
+        )
+
+    @property
+    @abstractmethod
+    def awaits_answer(self) -> bool:
+        """Whether something that was sent for it is unanswered."""
+
+    @property
+    def is_complete(self) -> bool:
+        """Whether the controller has all of it."""
+        return True
 
     @property
     @abstractmethod
@@ -125,6 +176,7 @@ class CommandedMotion(ABC):
         if not self.is_over:
             self.phase = Phase.OVER
             self.error = error
+            self.is_settled = isinstance(error, TrajectoryRefused)
             self._note(str(error))
 
     def _note(self, text: str) -> None:
@@ -141,11 +193,66 @@ class CommandedMotion(ABC):
 
     def step(self) -> None:
         """Look at the newest state. Call after each message, and now and then without one."""
+        if self.phase is Phase.SENDING:
+            self._look_for_answer()
         if self.phase is not Phase.MOVING or self._is_silent():
             return
+        if self._state_port.is_progress_lost:
+            self._without_progress()
+            return
+        self._stands_since = None
         told = self._told()
         if told is not None:
             self._by_progress(told)
+
+    def _look_for_answer(self) -> None:
+        """An answer that does not come while the robot already moves is lost."""
+        if not (self.is_ordered and self._has_begun()):
+            self._unanswered_since = None
+            return
+        now = self._state_port.clock()
+        if self._unanswered_since is None:
+            self._unanswered_since = now
+        if now - max(self._unanswered_since, self._state_port.listening) > _UNANSWERED:
+            self.failed(
+                self._state_port.late(
+                    "the robot has begun to move, and the controller did not answer the order",
+                    "a STOP was sent; look at the robot",
+                )
+            )
+
+    def _has_begun(self) -> bool:
+        """Whether the controller executes it, by what the state port says."""
+        progress, status = self._state_port.progress, self._state_port.status
+        if progress is None:
+            return status.in_motion is TriState.TRUE and not self._moved_before
+        before = self._before.trajectory if self._before else 0
+        return progress.trajectory != before and progress.state not in _NOT_BEGUN
+
+    def _without_progress(self) -> None:
+        """PROGRESS does not come any more: where the robot stands, and for how long, decides."""
+        state = self._state_port.state
+        assert state is not None
+        still = state.status.in_motion is TriState.FALSE and self.is_complete
+        if not still or self.may_wait or self.progress.state is TrajectoryState.PAUSED:
+            self._stands_since = None
+            return
+        if self._stands_since is None:
+            self._stands_since = state.time
+        stood = state.time - self._stands_since
+        if self.stopping:
+            self.stopped()
+        elif self._deviation(state) <= GOAL_TOLERANCE:
+            if stood > _STANDS and state.time - self._began > self.planned_seconds - self.approach:
+                self._succeed()
+        elif stood > _STRANDED:
+            self.failed(
+                self._state_port.late(
+                    "the driver does not tell any more how far the motion is, and the robot stands "
+                    f"{self._deviation(state):.4f} (rad, m) from its end",
+                    "a STOP was sent; look at the robot, and at the controller's event log",
+                )
+            )
 
     def _is_silent(self) -> bool:
         """Whether nobody sees the robot any more: then it is over."""
@@ -192,12 +299,15 @@ class CommandedMotion(ABC):
             case TrajectoryState.FAILED | TrajectoryState.REFUSED:
                 point = self._index(told.point)
                 place = place_of(self._group, point, told.joint, self.noun)
+                reason = reason_of(told.reason)
                 found = fault(
                     "RG630",
                     f"the controller ended the motion{place}: {reason_text(told.reason)}",
-                    "look at the robot; what was executed is a prefix of what was asked",
+                    fix_of(
+                        reason,
+                        "look at the robot; what was executed is a prefix of what was asked",
+                    ),
                 )
-                reason = reason_of(told.reason)
                 self._end(MotionFailed, found, reason, point=point, joint=told.joint)
 
     def _index(self, point: int) -> int:
@@ -247,11 +357,17 @@ class CommandedMotion(ABC):
                 **self._state_port.evidence(),
             )
         )
+        self.is_settled = True
 
 
 def reason_of(number: int) -> Reason | None:
     """A reason of the wire; None for a number that is none."""
     return _REASONS.get(number)
+
+
+def fix_of(reason: Reason | None, otherwise: str) -> str:
+    """What to do about a reason of the wire."""
+    return _FIXES.get(reason, otherwise) if reason is not None else otherwise
 
 
 def reason_text(number: int) -> str:
@@ -269,7 +385,7 @@ def refused(
     return TrajectoryRefused.because(
         "RG620",
         f"the controller refused{place}: {text}",
-        "nothing moved",
+        fix_of(None if reason is None else reason_of(reason), "nothing moved"),
         reason=None if reason is None else reason_of(reason),
         point=point,
         joint=joint,

@@ -3,7 +3,7 @@
 from collections import deque
 from dataclasses import dataclass, field
 
-from rapidgen.wire.simple_message import FrameSplitter
+from rapidgen.wire.simple_message import FrameSplitter, messages
 from rapidgen.wire.simple_message.declaration import Content
 
 
@@ -13,6 +13,7 @@ class PendingReply:
 
     number: int
     reply: Content | None = None
+    is_stop: bool = False
 
 
 @dataclass(slots=True)
@@ -23,16 +24,28 @@ class RequestPort:
     pending: deque[PendingReply] = field(default_factory=deque)
     is_open: bool = False
 
-    def request(self, number: int) -> PendingReply:
-        """Expect a reply of this message type."""
-        waiting = PendingReply(number)
+    def request(self, number: int, *, is_stop: bool = False) -> PendingReply:
+        """Expect a reply of this message type; `is_stop`: to a STOP."""
+        waiting = PendingReply(number, is_stop=is_stop)
         self.pending.append(waiting)
         return waiting
 
-    def answered(self, number: int, reply: Content) -> bool:
-        """Give a reply to the oldest request of its type; False when there is none."""
+    def forget_orders(self) -> None:
+        """Expect no replies any more but those to STOP."""
+        self.pending = deque(waiting for waiting in self.pending if waiting.is_stop)
+
+    def answered(self, number: int, reply: Content, *, orders_have_data: bool) -> bool:
+        """Give a reply to the oldest request that it may answer; False when there is none.
+
+        An answer may have been lost: no STOP is answered with a trajectory, and where the driver
+        answers an order with data, a bare reply is that to a STOP.
+        """
+        of_order = isinstance(reply, messages.Accepted | messages.Refused)
+        stops = any(waiting.is_stop for waiting in self.pending)
+        of_stop = stops and orders_have_data and isinstance(reply, messages.Acknowledged)
         for waiting in self.pending:
-            if waiting.number == number:
+            fits = not (waiting.is_stop and of_order) and (waiting.is_stop or not of_stop)
+            if waiting.number == number and fits:
                 waiting.reply = reply
                 self.pending.remove(waiting)
                 return True

@@ -23,6 +23,7 @@ from rapidgen.client.core.checks import (
 from rapidgen.client.core.download import Download
 from rapidgen.client.core.group import PLAIN_CAPACITY, Group
 from rapidgen.client.core.heartbeat import HeartbeatSchedule
+from rapidgen.client.core.motion import Phase, fix_of
 from rapidgen.client.core.program_checks import CheckedProgram, check_program, require_program
 from rapidgen.client.core.request_port import PendingReply, RequestPort
 from rapidgen.client.core.state_port import Evidence, StatePort
@@ -51,7 +52,9 @@ from rapidgen.wire.simple_message.spec import (
     Comm,
     Feature,
     Port,
+    Reason,
     Sequence,
+    TrajectoryState,
     TriState,
 )
 
@@ -61,6 +64,16 @@ STOP_FRAME = encode(
 _SIMULATION = 1.2
 """Pace beyond which a clock is no controller's."""
 _SLACK = 3
+_FRESH = 1.0
+"""s for which an answer on the control port tells that STOP works there."""
+_ASK_AGAIN = 1.0
+"""s between two requests for PROGRESS."""
+_UNDER_WAY = (
+    TrajectoryState.RECEIVING,
+    TrajectoryState.MOVING,
+    TrajectoryState.PAUSED,
+    TrajectoryState.STARVED,
+)
 _HELD_UP = 0.5
 """s without a look at what has come: this process was held up, not the robot."""
 
@@ -132,6 +145,10 @@ class Core:
         """Share of the programmed speed that was asked for."""
         self.heartbeat = HeartbeatSchedule(timeouts.heartbeat)
         self._stopped_blindly: Download | PointStream | None = None
+        self.may_reach_control = False
+        """Whether a control port that is not connected is worth another try."""
+        self._control_heard = clock()
+        self._asked_again = clock()
         self._looked = clock()
         self._streams = 0
         self._outbox: deque[tuple[PendingReply, bytes]] = deque()
@@ -178,19 +195,38 @@ class Core:
 
     def _replies(self, port: Port, data: bytes) -> None:
         talk = self.ports[port]
+        if port is Port.CONTROL:
+            self._control_heard = self.clock()
         talk.splitter.feed(data)
         while (frame := talk.splitter.next()) is not None:
             self.state_port.keep(frame)
             try:
                 content = decode(frame)
             except ContentError as error:
-                self.state_port.note(str(error))
+                self._senseless(port, str(error))
                 continue
             if isinstance(content, messages.Stopped):
                 self._stood(content)
                 continue
-            if frame.comm != Comm.REPLY or not talk.answered(frame.number, content):
-                self.state_port.note("nobody asked for this message")
+            has_data = self.state_port.driver.is_rapidgen
+            if frame.comm != Comm.REPLY or not talk.answered(
+                frame.number, content, orders_have_data=has_data
+            ):
+                self._senseless(port, "nobody asked for this message")
+
+    def _senseless(self, port: Port, text: str) -> None:
+        """A message that answers nothing; where an answer to an order is awaited, it was that."""
+        self.state_port.note(text)
+        motion = self.motion
+        if port is Port.MOTION and motion is not None and motion.awaits_answer:
+            motion.failed(
+                ProtocolError.because(
+                    "RG604",
+                    f"what should answer an order on the motion port makes no sense: {text}",
+                    "a STOP was sent; look at the robot",
+                    **self.evidence(),
+                )
+            )
 
     def _stood(self, told: messages.Stopped) -> None:
         """The controller says where the robot stands after a halt."""
@@ -214,11 +250,19 @@ class Core:
         self.fault = error
         self.state_port.note(str(error), logging.INFO)
         if port is Port.CONTROL:
+            self.may_reach_control = True
             # Takes nothing from a motion under way; the controller stops it by itself where it
             # awaited a heartbeat there.
             self.heartbeat.forget()
         elif self.motion is not None:
             self.motion.failed(error)
+
+    def dropped(self, port: Port) -> None:
+        """This client closed a connection."""
+        if port is Port.STATE:
+            self.state_open = False
+        else:
+            self.ports[port].is_open = False
 
     def closed(self) -> None:
         """The caller closed all connections."""
@@ -262,6 +306,8 @@ class Core:
 
     def due(self, port: Port) -> bytes | None:
         """The next frame for this connection, None: nothing. It is taken for sent."""
+        if port is Port.STATE:
+            return self._ask_again()
         if port not in self.ports or not self.ports[port].is_open:
             return None
         if port is Port.CONTROL:
@@ -274,6 +320,17 @@ class Core:
         if isinstance(run, PointStream) and run.has_due:
             return run.next_frame(self.ports[port].request(run.queue.number))
         return None
+
+    def _ask_again(self) -> bytes | None:
+        """HELLO on the state port: PROGRESS of a motion under way does not come any more."""
+        run, now = self.motion, self.clock()
+        if run is None or run.phase is not Phase.MOVING or not self.state_port.is_progress_lost:
+            return None
+        if now - self._asked_again < _ASK_AGAIN:
+            return None
+        self._asked_again = now
+        self.state_port.note("PROGRESS does not come any more: asked for again")
+        return self.hello()
 
     def _beat(self) -> bytes | None:
         if self.heartbeat.is_refused:
@@ -314,7 +371,10 @@ class Core:
         blind = ConnectionLost | RobotTimeout | ProtocolError
         if run is None or run is self._stopped_blindly or not isinstance(run.error, blind):
             return []
+        if run.is_settled:
+            return []
         self._stopped_blindly = run
+        self.ports[Port.MOTION].forget_orders()
         # Should no STOP get through, the controller misses the heartbeat.
         self.heartbeat.forget()
         ports = [port for port, talk in self.ports.items() if talk.is_open]
@@ -340,8 +400,24 @@ class Core:
         """The last messages and states, for an exception."""
         return self.state_port.evidence()
 
-    def without_control(self, why: str) -> None:
-        """There is no control connection, though the driver has the port."""
+    @property
+    def is_control_fresh(self) -> bool:
+        """Whether the control port has answered a moment ago."""
+        return self.clock() - self._control_heard < _FRESH
+
+    @property
+    def is_another_moving(self) -> bool:
+        """Whether the robot executes a motion that is not this client's."""
+        if self.motion is not None and not self.motion.is_over:
+            return False
+        progress = self.state_port.progress
+        under_way = progress is not None and progress.state in _UNDER_WAY
+        return under_way or self.state_port.status.in_motion is TriState.TRUE
+
+    def without_control(self, why: str, *, again: bool = False) -> None:
+        """There is no control connection, though the driver has the port; `again`: it is worth
+        another try."""
+        self.may_reach_control = again
         self.state_port.note(f"no control connection: {why}", logging.INFO)
         self.state_port.driver = replace(self.state_port.driver, control_fault=why)
 
@@ -461,11 +537,15 @@ class Core:
     def hindrances(self) -> list[str]:
         """Why the robot cannot move now, by its own word."""
         status = self.state_port.status
+        has_ended = status.motion_possible is TriState.FALSE and status.error is Reason.TASK_ENDED
         pairs = (
+            (has_ended, f"{Reason.TASK_ENDED.text}, so it takes no motion"),
             (status.e_stopped is TriState.TRUE, "an emergency stop is active"),
             (status.drives is TriState.FALSE, "the motors are off"),
             (
-                status.motion_possible is TriState.FALSE and status.in_motion is not TriState.TRUE,
+                status.motion_possible is TriState.FALSE
+                and status.in_motion is not TriState.TRUE
+                and not has_ended,
                 "the controller says that motion is not possible",
             ),
         )
@@ -486,7 +566,7 @@ class Core:
             raise NotReady.because(
                 "RG621",
                 f"the robot cannot move: {text}",
-                "mend that at the robot",
+                fix_of(self.state_port.status.error, "mend that at the robot"),
                 **self.evidence(),
             )
 
@@ -542,7 +622,7 @@ class Core:
         """A STOP is about to be sent on this connection."""
         if self.motion is not None:
             self.motion.stopping = True
-        return self.ports[port].request(JOINT_TRAJ_PT.number)
+        return self.ports[port].request(JOINT_TRAJ_PT.number, is_stop=True)
 
 
 def _unknown() -> NotReady:

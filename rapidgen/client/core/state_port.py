@@ -6,7 +6,7 @@ A State is made only when somebody looks: one hundred robots are watched by one 
 import logging
 from collections import deque
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Protocol, TypedDict
 
 from rapidgen.client.core.group import Group
@@ -24,13 +24,17 @@ from rapidgen.client.errors import RobotTimeout
 from rapidgen.wire.simple_message import ContentError, FrameSplitter, decode, messages
 from rapidgen.wire.simple_message.declaration import Content
 from rapidgen.wire.simple_message.frames import Frame
-from rapidgen.wire.simple_message.spec import FEEDBACK_WRAP, EventType
+from rapidgen.wire.simple_message.spec import FEEDBACK_WRAP, EventType, Feature
 
 _LOG = logging.getLogger("rapidgen.client")
 KEPT_EVENTS = 64
 KEPT_MESSAGES = 32
 KEPT_STATES = 16
 _RATE_WINDOW = 16
+_UNTOLD = 5
+"""Joint messages, and ..."""
+_UNTOLD_FOR = 0.5
+"""... s, without PROGRESS, which comes with each of them, after which it is lost."""
 _NOISE = 1e-4
 """rad or m"""
 _NAMES = {message.number: message.name for message in messages.MESSAGES}
@@ -75,6 +79,8 @@ class StatePort:
         self.hello: messages.HelloReply | messages.HelloRefusal | None = None
         self.samples = 0
         self.progresses = 0
+        self._progress_at = (0.0, 0)
+        """When PROGRESS came last, and how many joint messages had come then."""
         self._pace = PaceMeter()
         self.events: deque[Event] = deque(maxlen=KEPT_EVENTS)
         """The last entries of the controller's log, oldest first."""
@@ -152,14 +158,17 @@ class StatePort:
             case messages.ProgressReport():
                 self.progress = content
                 self.progresses += 1
+                self._progress_at = now, self.samples
             case messages.JointFeedback():
                 self._fed(content, now)
             case messages.EventReport():
                 self.event_count += 1
                 self.events.append(_event(content, now, self.event_count))
             case messages.HelloReply():
+                if self.hello is None:
+                    self._progress_at = now, self.samples
                 self.hello = content
-                self.driver = Driver(content)
+                self.driver = replace(self.driver, hello=content)
             case messages.HelloRefusal():
                 self.hello = content
 
@@ -210,6 +219,14 @@ class StatePort:
     def wire_joints(self) -> tuple[float, ...] | None:
         """The newest joints as the wire has them, None before the first."""
         return self._recent[-1].joints if self._recent else None
+
+    @property
+    def is_progress_lost(self) -> bool:
+        """Whether PROGRESS does not come with the states any more, as it was asked for."""
+        if Feature.PROGRESS not in self.driver.features:
+            return False
+        came, number = self._progress_at
+        return self.samples - number >= _UNTOLD and self.heard - came > _UNTOLD_FOR
 
     def samples_since(self, number: int) -> list[Sample]:
         """The joint messages behind the `number`th, as far as they are kept, oldest first."""

@@ -168,6 +168,16 @@ class PointStream(CommandedMotion):
         return self.total - self._sent
 
     @property
+    def awaits_answer(self) -> bool:
+        """See CommandedMotion."""
+        return bool(self._flights) and not self.is_over
+
+    @property
+    def is_complete(self) -> bool:
+        """See CommandedMotion."""
+        return self._end_is_sent and not self._flights
+
+    @property
     def is_paused(self) -> bool:
         """Whether the controller holds the motion on its path."""
         return self._state is TrajectoryState.PAUSED
@@ -177,6 +187,8 @@ class PointStream(CommandedMotion):
     def goes_on(self, durations: Sequence[float], goal: Sequence[float]) -> None:
         """So many more wait in the queue, for so many s each, up to this posture."""
         self.goal = goal
+        if not self.total:
+            self.approach = float(durations[0])
         self.total += len(durations)
         self.planned_seconds += float(sum(durations))
         self.longest = max(self.longest, *map(float, durations))
@@ -227,6 +239,7 @@ class PointStream(CommandedMotion):
             self._is_filled = True
         frame = self.queue.frame(self.stream, self._sent, size, flags)
         self._sent += size
+        self.is_ordered = True
         self._flights.append(_Flight(pending, self._sent, self._state_port.clock()))
         return frame
 

@@ -19,6 +19,9 @@ from rapidgen.wire.simple_message.spec import MAX_JOINTS, PROTOCOL_VERSION, Feat
 
 _RETRY = 0.5
 """s between two attempts to connect again."""
+SILENT = "the control port takes a connection, and nobody answers there"
+"""Why there is no control connection: the task behind it does not run."""
+OTHERS_MOTION = "to connect there would end another client's motion"
 _SILENT_STATES = 4
 """So many joints without an answer to HELLO among them come from a plain driver."""
 
@@ -67,7 +70,28 @@ def _open(core: Core) -> Flow[None]:
     if core.watch:
         return
     yield Open(Port.MOTION, limits.connect)
-    if Feature.CONTROL in state_port.driver.features:
+    if Feature.CONTROL not in state_port.driver.features:
+        return
+    # The driver serves the newest client there, and ends the motion of the one before: whether it
+    # has one is told by STATUS, and by PROGRESS behind the answer to HELLO.
+    seen = state_port.samples
+    yield Wait(
+        lambda: (
+            state_port.progress is not None or state_port.samples >= seen + 2 or not core.state_open
+        ),
+        limits.hello,
+    )
+    if core.is_another_moving:
+        core.without_control(OTHERS_MOTION, again=True)
+    else:
+        yield from _meet_control(core)
+
+
+def reach_control(core: Core) -> Flow[None]:
+    """Open the control connection where that was left for later, or failed."""
+    if core.may_reach_control and not core.ports[Port.CONTROL].is_open:
+        core.may_reach_control = False
+        core.without_control("")
         yield from _meet_control(core)
 
 
@@ -85,12 +109,12 @@ def _meet_control(core: Core) -> Flow[None]:
         if isinstance(told, messages.HelloReply) and told.same_driver(known):
             return
         if told is None:
-            trouble = "nobody answers on the control port"
+            trouble = SILENT
         if control.is_open:
             yield Close(Port.CONTROL)
     except (ConnectionFailed, ConnectionLost, RobotTimeout) as error:
         trouble = str(error)
-    core.without_control(trouble)
+    core.without_control(trouble, again=trouble == SILENT)
 
 
 def _meet(core: Core, hello: messages.HelloReply | messages.HelloRefusal | None) -> None:

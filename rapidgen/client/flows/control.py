@@ -5,7 +5,7 @@ import logging
 from rapidgen.client.core.motion import reason_of, reason_text
 from rapidgen.client.core.robot import Core
 from rapidgen.client.errors import NotSupported, RequestRefused
-from rapidgen.client.flows.connect import alive
+from rapidgen.client.flows.connect import alive, reach_control
 from rapidgen.client.flows.effects import Flow, Wait
 from rapidgen.diagnostics import suggest
 from rapidgen.wire.simple_message import messages
@@ -83,6 +83,7 @@ def _index(core: Core, which: str | int, *, writes: bool) -> int:
 def ask(core: Core, content: Content, what: str) -> Flow[Content]:
     """A request over the control port and its reply."""
     yield from alive(core)
+    yield from reach_control(core)
     control = core.ports[Port.CONTROL]
     if not control.is_open:
         has_port = Feature.CONTROL in core.state_port.driver.features

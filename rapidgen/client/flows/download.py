@@ -5,7 +5,7 @@ from rapidgen.client.core.job import Job
 from rapidgen.client.core.robot import Core
 from rapidgen.client.errors import RobotError
 from rapidgen.client.flows.effects import INTERRUPTIONS, Flow, Send, Wait
-from rapidgen.client.flows.stop import PER_POINT, stop
+from rapidgen.client.flows.stop import PER_POINT, ended, stop
 from rapidgen.wire.simple_message.bulk import FRAME_BYTES, encode_trajectory
 from rapidgen.wire.simple_message.messages import JOINT_TRAJ_PT
 from rapidgen.wire.simple_message.spec import Port
@@ -23,7 +23,7 @@ def download(core: Core, checked: CheckedTrajectory) -> Flow[Job]:
         raise
     except RobotError as error:
         sending.motion.failed(error)
-        raise
+        raise (yield from ended(core, sending.motion)) from error.__cause__
     return sending.job()
 
 

@@ -8,10 +8,11 @@ interruption is thrown in; flows that wait for a motion answer it with a STOP.
 
 from asyncio import CancelledError
 from collections.abc import Callable, Generator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TypeVar
 
 from rapidgen.client.core.motion import CommandedMotion
+from rapidgen.client.errors import RobotError
 from rapidgen.wire.simple_message.spec import Port
 
 T = TypeVar("T")
@@ -28,21 +29,29 @@ class Open:
 
 @dataclass(frozen=True, slots=True)
 class Send:
-    """Send bytes: `urgent` ones at the next frame boundary, ahead of whatever is being sent.
-
-    Points of a `motion` are cut short, by MotionStopped, once somebody asked it to stop.
-    """
+    """Send bytes. Points of a `motion` are cut short, by MotionStopped, once somebody asked it to
+    stop."""
 
     port: Port
     data: bytes
     timeout: float
-    urgent: bool = False
     motion: CommandedMotion | None = None
 
     @property
     def is_stopped(self) -> bool:
         """Whether these points must not be sent any more."""
         return self.motion is not None and self.motion.stopping
+
+
+@dataclass(frozen=True, slots=True)
+class SendAtOnce:
+    """Send a frame on several connections, ahead of whatever is being sent there, at the next frame
+    boundary. None of them waits for another; `failures` receives why one could not take it."""
+
+    ports: tuple[Port, ...]
+    data: bytes
+    timeout: float
+    failures: dict[Port, RobotError] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,5 +74,5 @@ class HangUp:
     """Close all connections."""
 
 
-Effect = Open | Send | Wait | Close | HangUp
+Effect = Open | Send | SendAtOnce | Wait | Close | HangUp
 Flow = Generator[Effect, bool | None, T]

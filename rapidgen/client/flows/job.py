@@ -15,8 +15,8 @@ from rapidgen.client.core.stream import PointStream
 from rapidgen.client.errors import InvalidTrajectory
 from rapidgen.client.flows.download import download
 from rapidgen.client.flows.effects import Flow
-from rapidgen.client.flows.motion import patience, ready, until, wait_for_result
-from rapidgen.client.flows.stop import stop
+from rapidgen.client.flows.motion import armed, patience, ready, until, wait_for_result
+from rapidgen.client.flows.stop import ended, stop
 from rapidgen.client.trajectory import Trajectory
 
 _AHEAD = 2
@@ -28,6 +28,7 @@ def execute(core: Core, trajectory: Trajectory, way: Way | None) -> Flow[Job]:
     yield from ready(core)
     core.ready()
     checked = core.check(trajectory, way)
+    yield from armed(core)
     if isinstance(checked, CheckedTrajectory):
         return (yield from download(core, checked))
     job = Job(core)
@@ -66,6 +67,7 @@ def append(job: Job, times: npt.ArrayLike, positions: npt.ArrayLike) -> Flow[Non
     if stream is None:
         core.ready()
         checked = check_points(points, core.known_group, before=None, start=core.start)
+        yield from armed(core)
         stream = job.begin(checked)
         yield from taken(core, stream)
     else:
@@ -128,7 +130,8 @@ def result(job: Job, timeout: float | None = None) -> Flow[Result]:
 
 def cancel(job: Job) -> Flow[State | None]:
     """Stop this motion; the state in which the robot stands. Nothing when it is over."""
-    if job.motion is not None and not job.motion.is_over:
+    motion = job.motion
+    if motion is not None and (not motion.is_over or motion.needs_stop):
         job.stopped = yield from stop(job.core)
     return job.stopped
 
@@ -139,8 +142,8 @@ def taken(core: Core, stream: PointStream) -> Flow[None]:
     A caller that comes late may find it over already: then its result tells how it ended.
     """
     yield from _until(core, stream, lambda: stream.is_taken)
-    if stream.error is not None and not stream.is_taken:
-        raise stream.error
+    if stream.error is not None and (stream.needs_stop or not stream.is_taken):
+        raise (yield from ended(core, stream))
 
 
 def _going_on(core: Core, stream: PointStream) -> Flow[None]:
@@ -148,7 +151,7 @@ def _going_on(core: Core, stream: PointStream) -> Flow[None]:
     ahead = _AHEAD * stream.batch
     yield from _until(core, stream, lambda: stream.refusal is None and stream.backlog <= ahead)
     if stream.error is not None:
-        raise stream.error
+        raise (yield from ended(core, stream))
 
 
 def _until(core: Core, stream: PointStream, condition: Callable[[], bool]) -> Flow[None]:

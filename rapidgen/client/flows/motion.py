@@ -3,18 +3,44 @@
 from collections.abc import Callable
 from functools import partial
 
-from rapidgen.client.core.motion import CommandedMotion, Result
+from rapidgen.client.core.motion import CommandedMotion, Result, fix_of
 from rapidgen.client.core.robot import Core
-from rapidgen.client.flows.connect import alive
-from rapidgen.client.flows.effects import INTERRUPTIONS, Flow, Wait
-from rapidgen.client.flows.stop import stop
-from rapidgen.wire.simple_message.spec import TrajectoryState
+from rapidgen.client.errors import NotReady
+from rapidgen.client.flows.connect import SILENT, alive, reach_control
+from rapidgen.client.flows.effects import INTERRUPTIONS, Close, Flow, Send, Wait
+from rapidgen.client.flows.stop import ended, stop
+from rapidgen.wire.simple_message.messages import HELLO
+from rapidgen.wire.simple_message.spec import Port, Reason, TrajectoryState
 
 
 def ready(core: Core) -> Flow[None]:
     """Connected, and no reason why the robot could not move, or none that passes soon."""
     yield from alive(core, to_move=True)
     yield Wait(lambda: not core.hindrances() or not core.state_open, core.timeouts.ready)
+
+
+def armed(core: Core) -> Flow[None]:
+    """The control port, where the driver has one, is connected and answers. Raises NotReady.
+
+    The last before an order: to connect there ends the motion of the client before.
+    """
+    yield from reach_control(core)
+    control = core.ports[Port.CONTROL]
+    if control.is_open and not core.is_control_fresh:
+        pending = control.request(HELLO.number)
+        yield Send(Port.CONTROL, core.hello(subscribe=False), core.timeouts.send)
+        yield Wait(lambda: pending.reply is not None or not control.is_open, core.timeouts.reply)
+        if pending.reply is None and control.is_open:
+            yield Close(Port.CONTROL)
+            core.without_control(SILENT, again=True)
+    if core.state_port.driver.control_fault == SILENT:
+        raise NotReady.because(
+            "RG621",
+            f"{SILENT}, so a STOP would not work: nothing was sent",
+            fix_of(Reason.TASK_ENDED, ""),
+            **core.evidence(),
+        )
+    core.ready()
 
 
 def patience(core: Core, motion: CommandedMotion) -> float:
@@ -59,7 +85,7 @@ def wait_for_result(core: Core, motion: CommandedMotion, timeout: float | None) 
     """Wait for the end of a motion, and raise its error."""
     yield from until(core, motion, lambda: False, timeout)
     if motion.error is not None:
-        raise motion.error
+        raise (yield from ended(core, motion))
     if motion.result is None:
         waited = patience(core, motion) if timeout is None else timeout
         raise core.state_port.late(

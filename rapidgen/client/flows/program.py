@@ -8,21 +8,21 @@ from rapidgen.axes.frames import Pose
 from rapidgen.client.core.checks import Way
 from rapidgen.client.core.group import Group
 from rapidgen.client.core.job import Job
-from rapidgen.client.core.motion import Result
+from rapidgen.client.core.motion import CommandedMotion, Result
 from rapidgen.client.core.robot import Core
 from rapidgen.client.core.state import Event
 from rapidgen.client.errors import (
     InvalidProgram,
     MotionFailed,
     NotSupported,
-    RobotTimeout,
+    RobotError,
     RoutineFailed,
     fault,
 )
-from rapidgen.client.flows.effects import Flow, Send, Wait
+from rapidgen.client.flows.effects import INTERRUPTIONS, Flow, Send, Wait
 from rapidgen.client.flows.job import result, taken
-from rapidgen.client.flows.motion import ready, until
-from rapidgen.client.flows.stop import stop
+from rapidgen.client.flows.motion import armed, ready, until
+from rapidgen.client.flows.stop import ended, stop
 from rapidgen.client.program import SLOW, Argument, Left, Program, SpeedLike, Target
 from rapidgen.config.model import OwnRoutine
 from rapidgen.diagnostics import suggest
@@ -51,6 +51,7 @@ def run(core: Core, program: Program, way: Way | None) -> Flow[Job]:
     yield from ready(core)
     core.ready()
     checked, chosen = core.check_program(program, way)
+    yield from armed(core)
     job = Job(core)
     job.program = program
     job.way, job.is_ended = chosen, True
@@ -82,13 +83,13 @@ def jog(core: Core, /, *, speed: SpeedLike = SLOW, **by: float) -> Flow[Result]:
     Raises NotSupported without a control connection, otherwise as `run`.
     """
     yield from ready(core)
-    if not core.ports[Port.CONTROL].is_open:
-        raise NotSupported.because(
-            "RG624", "nobody jogs without a control connection", "`ports.control`"
-        )
     state, group = core.state_port.state, core.known_group
     assert state is not None
     _check_steps(group, by)
+    if not (core.ports[Port.CONTROL].is_open or core.may_reach_control):
+        raise NotSupported.because(
+            "RG624", "nobody jogs without a control connection", "`ports.control`"
+        )
     if by and not set(by) & set(group.names):
         place, turn = group.poses.pose(group.map.to_controller(state.joints))
         x, y, z = (at + by.get(name, 0.0) for at, name in zip(place, DIRECTIONS, strict=True))
@@ -150,6 +151,24 @@ def call(
     job = yield from run(core, Program().call(routine, *arguments, timeout=limit), None)
     motion = job.motion
     assert motion is not None
+    try:
+        return (yield from _called(core, job, motion, routine, timeout))
+    except INTERRUPTIONS:
+        if not motion.is_over:
+            yield from stop(core)
+        raise
+    except RobotError as error:
+        # Without an answer nobody knows whether the routine still goes on.
+        motion.failed(error)
+        if motion.error is error:
+            raise (yield from ended(core, motion)) from error.__cause__
+        raise
+
+
+def _called(
+    core: Core, job: Job, motion: CommandedMotion, routine: str, timeout: float | None
+) -> Flow[tuple[Left, ...]]:
+    """Wait for the end of a routine, and ask what it left. Raises as `call`."""
     motion.longest = _ANY if timeout is None else timeout + _GRACE
     deadline = core.clock() + motion.longest
     told = yield from _told(core)
@@ -175,9 +194,6 @@ def call(
             name=told.text,
             **core.evidence(),
         ) from failed
-    except RobotTimeout:
-        yield from stop(core)
-        raise
     if told.trajectory != motion.number:
         # The motion's end came first: what is known is of the call before.
         told = yield from _told(core)

@@ -1,6 +1,7 @@
 """STOP, and the end."""
 
 import logging
+from collections.abc import Sequence
 
 from rapidgen.client.core.motion import CommandedMotion, Phase
 from rapidgen.client.core.request_port import PendingReply
@@ -9,108 +10,179 @@ from rapidgen.client.core.state import State
 from rapidgen.client.errors import (
     ConnectionFailed,
     ConnectionLost,
+    RobotError,
     RobotTimeout,
     StopFailed,
 )
-from rapidgen.client.flows.effects import Flow, HangUp, Open, Send, Wait
+from rapidgen.client.flows.effects import Close, Flow, HangUp, Open, SendAtOnce, Wait
 from rapidgen.wire.simple_message import messages
 from rapidgen.wire.simple_message.spec import Port, TriState
 
 PER_POINT = 0.02
 """s that a controller may take to read one point."""
+_SUPERSEDED = 0.5
+"""s in which PROGRESS tells of a motion that has taken this one's place."""
 _STILL_SAMPLES = 5
 """Joint messages without a movement after which a robot stands, whatever its status says."""
 
 
-def _send_stop(core: Core, port: Port) -> Flow[PendingReply]:
-    if not core.ports[port].is_open:
-        yield Open(port, core.timeouts.connect)
-    pending = core.request_stop(port)
-    core.state_port.note(f"STOP over the {port.name.lower()} port", logging.INFO)
-    yield Send(port, STOP_FRAME, core.timeouts.stop, urgent=True)
-    return pending
+def _send_stop(core: Core, ports: Sequence[Port]) -> Flow[dict[Port, PendingReply]]:
+    """STOP on open connections, on all of them before anything is waited for; those that took it,
+    with the reply to come."""
+    pending = {port: core.request_stop(port) for port in ports}
+    for port in ports:
+        core.state_port.note(f"STOP over the {port.name.lower()} port", logging.INFO)
+    order = SendAtOnce(tuple(ports), STOP_FRAME, core.timeouts.stop)
+    yield order
+    for port, error in order.failures.items():
+        core.state_port.note(f"STOP could not be sent over the {port.name.lower()} port ({error})")
+    return {port: reply for port, reply in pending.items() if port not in order.failures}
+
+
+def _connect_and_send(core: Core, port: Port) -> Flow[dict[Port, PendingReply]]:
+    """STOP on a connection that is made for it. Raises StopFailed."""
+    try:
+        yield Open(port, min(core.timeouts.connect, core.timeouts.stop))
+    except (ConnectionFailed, ConnectionLost, RobotTimeout) as error:
+        raise _not_stopped(core, f"STOP could not be sent ({error})") from error
+    sent = yield from _send_stop(core, [port])
+    if not sent:
+        raise _not_stopped(core, f"STOP could not be sent over the {port.name.lower()} port")
+    return sent
 
 
 def stop(core: Core) -> Flow[State | None]:
     """Stop at once, whatever else is under way; the state in which the robot stands.
 
-    STOP is written before anything is waited for. Without a connection the motion port alone is
-    opened, nobody sees the robot stand, and None is returned. Raises StopFailed: use the
-    emergency stop.
+    STOP is written to both ports before anything is waited for. Without a connection the motion
+    port alone is opened, nobody sees the robot stand, and None is returned. Raises StopFailed: use
+    the emergency stop.
     """
-    # Over the control port where there is one, which no point delays; and over the motion port
-    # when what was sent there is not all answered: it may be read after the STOP. Where the
-    # motion port cannot be reached, the control port of whoever is there is the last that is left.
     motion = core.motion
-    ports = core.ports
-    control = ports[Port.CONTROL]
-    limit = core.timeouts.stop
-    heard = None
-    if control.is_open:
-        try:
-            heard = yield from _send_stop(core, Port.CONTROL)
-        except (ConnectionLost, RobotTimeout) as error:
-            core.state_port.note(f"STOP could not be sent over the control port ({error})")
-    read = None
-    if heard is None or ports[Port.MOTION].pending:
-        try:
-            read = yield from _stop_behind_points(core)
-        except StopFailed:
-            if heard is not None or control.is_open:
-                raise
-            heard = yield from _stop_as_a_stranger(core)
-            if heard is None:
-                raise
-            control = ports[Port.CONTROL]
-    if heard is not None:
-        yield Wait(lambda: heard.reply is not None or not control.is_open, limit / 2)
-        if heard.reply is None and read is None:
-            core.state_port.note("the control port did not answer STOP")
-            read = yield from _stop_behind_points(core)
-    if read is not None:
-        left = limit + PER_POINT * _unread(motion)
-        yield Wait(lambda: read.reply is not None or not ports[Port.MOTION].is_open, left)
-    asked = [pending for pending in (heard, read) if pending is not None]
-    if any(isinstance(pending.reply, messages.Failure) for pending in asked):
-        raise _not_stopped(core, "the controller could not stop")
-    last = asked[-1]
-    if last.reply is None:
-        raise _not_stopped(core, "the controller did not answer STOP")
-    if not isinstance(last.reply, messages.Acknowledged):
-        raise _not_stopped(core, "the controller could not stop")
+    yield from _confirmed(core)
     if not core.state_open:
         return None
     state = yield from _until_standing(core)
-    if motion is not None and not motion.is_over:
-        motion.stopped()
+    if motion is not None:
+        if not motion.is_over:
+            motion.stopped()
+        motion.is_settled = True
     return state
+
+
+def _confirmed(core: Core) -> Flow[None]:
+    """STOP on its way, and answered. Raises StopFailed."""
+    # No point delays STOP on the control port; on the motion port it is read behind what was sent
+    # there. Where something there is unanswered only that answer tells that it is over: it may be
+    # read after the STOP of the control port.
+    motion, ports, limit = core.motion, core.ports, core.timeouts.stop
+    behind = bool(ports[Port.MOTION].pending) or (motion is not None and motion.needs_stop)
+    # The quicker way first, in the same step.
+    first = (Port.CONTROL, Port.MOTION)
+    asked = yield from _send_stop(core, [port for port in first if ports[port].is_open])
+    if Port.MOTION not in asked and (behind or not asked):
+        try:
+            asked |= yield from _connect_and_send(core, Port.MOTION)
+        except StopFailed:
+            # The control port of whoever is there is the last that is left.
+            if asked or ports[Port.CONTROL].is_open:
+                raise
+            asked |= yield from _connect_and_send(core, Port.CONTROL)
+    elif Port.CONTROL not in asked and core.may_reach_control:
+        try:
+            asked |= yield from _connect_and_send(core, Port.CONTROL)
+        except StopFailed as error:
+            core.state_port.note(str(error))
+    heard, read = asked.get(Port.CONTROL), asked.get(Port.MOTION)
+    if heard is not None:
+        control = ports[Port.CONTROL]
+        yield Wait(lambda: heard.reply is not None or not control.is_open, limit / 2)
+        if heard.reply is None:
+            core.state_port.note("the control port did not answer STOP")
+            if read is None:
+                read = (yield from _connect_and_send(core, Port.MOTION))[Port.MOTION]
+    needed = read is not None and (behind or heard is None or heard.reply is None)
+    if read is not None and needed:
+        left, talk = limit + PER_POINT * _unread(motion), ports[Port.MOTION]
+        yield Wait(lambda: read.reply is not None or not talk.is_open, left)
+    told = [one.reply for one in (heard, read) if one is not None and one.reply is not None]
+    last = read if needed else heard
+    assert last is not None
+    if any(not isinstance(reply, messages.Acknowledged) for reply in told):
+        raise _not_stopped(core, "the controller could not stop")
+    if last.reply is None:
+        raise _not_stopped(core, "the controller did not answer STOP")
+
+
+def ended(core: Core, motion: CommandedMotion) -> Flow[RobotError]:
+    """The error of a motion that is over, once the robot stands, or with what is not known of it.
+
+    What was sent and not answered may be carried out at any moment, also behind this error.
+    """
+    error = motion.error
+    assert error is not None
+    if not motion.needs_stop:
+        return error
+    motion.is_settled = True
+    if motion.is_taken and core.state_open and not any(t.is_open for t in core.ports.values()):
+        # To connect anew and stop would stop the motion of the client that has taken this one's
+        # place; without one the driver itself stops for the connections that it has lost.
+        yield Wait(lambda: motion.is_superseded or not core.state_open, _SUPERSEDED)
+        if motion.is_superseded:
+            error.amend("another motion has taken its place", "the robot moves for another client")
+            return error
+    reopened = False
+    unknown = ""
+    state = None
+    try:
+        yield from _confirmed(core)
+    except StopFailed as failed:
+        unknown = failed.diagnostics[0].message
+    hello, driver = core.state_port.hello, core.state_port.driver
+    if not core.state_open:
+        reopened = yield from _see_again(core)
+    if core.state_open:
+        try:
+            state = yield from _until_standing(core)
+        except StopFailed as failed:
+            unknown = unknown or failed.diagnostics[0].message
+    if reopened:
+        yield Close(Port.STATE)
+        core.fault = error
+        core.state_port.hello, core.state_port.driver = hello, driver
+    if state is not None and not unknown:
+        if motion.stood is None:
+            motion.stood = state.joints
+        error.amend("a STOP was sent, and the robot stands", "look at the robot, then go on")
+        return error
+    unknown = unknown or "STOP was answered, and the state port tells nothing any more"
+    error.amend(
+        f"it is not known whether the robot stands ({unknown})",
+        "look at the robot; use the emergency stop if it moves",
+    )
+    return error
+
+
+def _see_again(core: Core) -> Flow[bool]:
+    """Open the state port once more, only to see the robot stand; whether it is open."""
+    try:
+        yield Open(Port.STATE, min(core.timeouts.connect, core.timeouts.stop))
+    except (ConnectionFailed, RobotTimeout) as error:
+        core.state_port.note(str(error))
+        return False
+    return True
 
 
 def close(core: Core) -> Flow[None]:
     """Close all connections. A motion under way is stopped first."""
     motion = core.motion
     try:
-        if motion is not None and not motion.is_over and core.ports[Port.MOTION].is_open:
+        if motion is not None and motion.needs_stop:
+            yield from ended(core, motion)
+        elif motion is not None and not motion.is_over and core.ports[Port.MOTION].is_open:
             yield from stop(core)
     finally:
         yield HangUp()
-
-
-def _stop_behind_points(core: Core) -> Flow[PendingReply]:
-    """STOP over the motion port: carried out after what was sent there."""
-    try:
-        return (yield from _send_stop(core, Port.MOTION))
-    except (ConnectionFailed, ConnectionLost, RobotTimeout) as error:
-        raise _not_stopped(core, f"STOP could not be sent ({error})") from error
-
-
-def _stop_as_a_stranger(core: Core) -> Flow[PendingReply | None]:
-    """STOP over the control port, though nobody asked who is there: the last that is left."""
-    try:
-        return (yield from _send_stop(core, Port.CONTROL))
-    except (ConnectionFailed, ConnectionLost, RobotTimeout) as error:
-        core.state_port.note(str(error))
-        return None
 
 
 def _unread(motion: CommandedMotion | None) -> int:

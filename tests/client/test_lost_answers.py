@@ -1,0 +1,185 @@
+"""No call raises before the robot stands, where the answer to an order is lost.
+
+What was sent and not answered may begin at any moment: the client stops the robot, sees it stand,
+and raises then.
+"""
+
+from contextlib import contextmanager
+
+import numpy as np
+import pytest
+from both_clients import Simulated
+from driven import booted, robot_of, wiggle
+from fake_stream import StreamModel
+from lossy import FAULTS, Proxy, alter_loop, cut, once, swallowed, wrong_direction
+
+from rapidgen.client import (
+    ConnectionLost,
+    NotReady,
+    Program,
+    ProtocolError,
+    RobotError,
+    RobotTimeout,
+    Timeouts,
+    Trajectory,
+)
+from rapidgen.testing.asyncio_clock import VirtualLoop
+from rapidgen.wire.simple_message.spec import Port
+
+LONG = Trajectory.from_points([[0.0] * 6, [0.2] * 6, [0.4] * 6, [0.2] * 6, [0.0] * 6], seconds=2.0)
+LOST = (ConnectionLost, ProtocolError, RobotTimeout)
+
+
+@contextmanager
+def lossy(alter, **timeouts):
+    """A robot of the driver on the virtual clock, behind altered answers, and its controller."""
+    controller, config = booted()
+    group = config.groups[0]
+    loop = VirtualLoop(controller)
+    ports = {group.ports.motion: "motion", group.ports.state: "state"}
+    open_ends = alter_loop(loop, {**ports, group.ports.control: "control"}, alter)
+    with controller, Simulated(robot_of(config, timeouts=Timeouts(**timeouts)), loop) as robot:
+        yield robot, controller
+        for transport in open_ends:
+            transport.abort()
+        robot.sleep(0.1)
+
+
+def stands(robot, controller):
+    """Whether the robot stands, and goes on to stand."""
+    before = list(controller.positions().values())
+    robot.sleep(3)
+    return np.allclose(before, list(controller.positions().values()), atol=1e-6)
+
+
+@pytest.mark.parametrize("fault", FAULTS, ids=lambda fault: fault.__name__)
+@pytest.mark.parametrize("way", ["download", "stream"])
+def test_the_robot_stands_when_execute_raises(fault, way):
+    kind = {"download": 11, "stream": 1302}[way]
+    with lossy(once("motion", fault, kind=kind)) as (robot, controller):
+        with pytest.raises(LOST, match="the robot stands") as error:
+            robot.execute(wiggle(robot), way=way)
+        assert "then go on" in error.value.diagnostics[0].help
+        assert stands(robot, controller)
+
+
+def test_the_robot_stands_when_a_program_is_not_answered():
+    with lossy(once("motion", cut, kind=1309)) as (robot, controller):
+        there = robot.state.joints[0] + 0.3, *robot.state.joints[1:]
+        with pytest.raises(LOST, match="the robot stands"):
+            robot.run(Program().move_joints(there))
+        assert stands(robot, controller)
+
+
+@pytest.mark.parametrize("port", ["state", "motion"])
+def test_the_robot_stands_when_result_raises(port):
+    alive = []
+
+    def alter(which, number, message):
+        return message if which != port or not alive else cut(message)
+
+    with lossy(alter) as (robot, controller):
+        moving = robot.execute(wiggle(robot))
+        robot.sleep(0.3)
+        alive.append(True)
+        link = robot._carrier._links[Port.MOTION]
+        if port == "motion":
+            # Nothing comes there by itself.
+            link.connection_lost(None)
+        with pytest.raises(LOST, match="the robot stands"):
+            moving.result()
+        alive.clear()
+        assert stands(robot, controller)
+        link.transport.abort()
+
+
+def test_nothing_can_be_seen_any_more_is_said():
+    silent = []
+
+    def alter(which, number, message):
+        return swallowed(message) if silent else message
+
+    with lossy(alter, stop=1.0) as (robot, _):
+        moving = robot.execute(wiggle(robot))
+        silent.append(True)
+        with pytest.raises(RobotTimeout, match="not known whether the robot stands") as error:
+            moving.result()
+        assert "emergency stop" in error.value.diagnostics[0].help
+
+
+def test_without_progress_a_motion_ends_when_the_robot_stands_at_its_end():
+    lost = []
+
+    def alter(which, number, message):
+        kind = int.from_bytes(message[4:8], "little")
+        return b"" if lost and which == "state" and kind == 1301 else message
+
+    for way in ("download", "stream"):
+        lost.clear()
+        with lossy(alter) as (robot, controller):
+            path = wiggle(robot)
+            moving = robot.execute(path, way=way)
+            lost.append(True)
+            began = robot.time()
+            result = moving.result()
+            assert result.deviation < 1e-3
+            assert robot.time() - began < path.duration + 5
+            assert stands(robot, controller)
+
+
+def test_progress_is_asked_for_again():
+    """A state server that has forgotten who asked for PROGRESS sends it after another HELLO."""
+    told = {"lost": False, "hellos": 0}
+
+    def alter(which, number, message):
+        kind = int.from_bytes(message[4:8], "little")
+        if which == "state" and kind == 1300:
+            told["hellos"] += 1
+            told["lost"] = False
+        return b"" if told["lost"] and which == "state" and kind == 1301 else message
+
+    with lossy(alter) as (robot, _):
+        here = robot.state.joints
+        path = Trajectory([0, 4], [here, (here[0] + 0.3, *here[1:])])
+        moving = robot.execute(path)
+        told["lost"] = True
+        result = moving.result()
+        assert (told["hellos"], told["lost"]) == (2, False)
+        assert result.seconds == pytest.approx(4, abs=0.5)
+
+
+def test_no_motion_begins_where_the_control_port_takes_a_connection_and_says_nothing():
+    dead = []
+
+    def alter(which, number, message):
+        return b"" if dead and which == "control" else message
+
+    with lossy(alter, reply=1.0) as (robot, controller):
+        robot.sleep(2)
+        dead.append(True)
+        for _ in range(2):
+            with pytest.raises(NotReady, match="STOP would not work") as error:
+                robot.execute(wiggle(robot))
+            assert "restart the controller" in error.value.diagnostics[0].help
+        assert stands(robot, controller)
+        dead.clear()
+        robot.execute(wiggle(robot)).result()
+
+
+@pytest.mark.parametrize("fault", [cut, swallowed, wrong_direction], ids=lambda f: f.__name__)
+@pytest.mark.parametrize("way", ["download", "stream"])
+def test_both_clients_raise_when_the_robot_stands(fake, client, fault, way):
+    """Real sockets: an answer that is lost, and a robot that is on its way already."""
+    kind = {"download": 11, "stream": 1302}[way]
+    controller = fake(control=True, stream=StreamModel(ring=100, preload=0.1, batch=20))
+    proxy = Proxy(controller, once("motion", fault, kind=kind))
+    try:
+        with client(proxy.address) as robot:
+            with pytest.raises(RobotError, match="the robot stands"):
+                robot.execute(LONG, way=way)
+            with controller.lock:
+                assert controller.stops
+                assert not controller._moving
+                assert not controller.script.stream.is_moving
+    finally:
+        proxy.close()
