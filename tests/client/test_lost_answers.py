@@ -127,6 +127,29 @@ def test_without_progress_a_motion_ends_when_the_robot_stands_at_its_end():
             assert stands(robot, controller)
 
 
+def test_without_progress_a_long_stand_on_the_way_is_not_stopped():
+    """A wait of a program, and a dwell of a trajectory: the robot stands for 6 s elsewhere."""
+    lost = []
+
+    def alter(which, number, message):
+        kind = int.from_bytes(message[4:8], "little")
+        return b"" if lost and which == "state" and kind == 1301 else message
+
+    for is_program in (True, False):
+        lost.clear()
+        with lossy(alter) as (robot, controller):
+            here = robot.state.joints
+            there, goal = ((here[0] + turn, *here[1:]) for turn in (0.2, 0.4))
+            if is_program:
+                moving = robot.run(Program().move_joints(there).wait(6).move_joints(goal))
+            else:
+                moving = robot.execute(Trajectory([0, 2, 8, 10], [here, there, there, goal]))
+            lost.append(True)
+            assert moving.result().deviation < 1e-3
+            assert robot.state.joints[0] == pytest.approx(goal[0], abs=1e-3)
+            assert stands(robot, controller)
+
+
 def test_progress_is_asked_for_again():
     """A state server that has forgotten who asked for PROGRESS sends it after another HELLO."""
     told = {"lost": False, "hellos": 0}

@@ -80,8 +80,6 @@ class CommandedMotion(ABC):
         """Bytes have gone out by which the controller may begin to move."""
         self.is_settled = False
         """The controller has said how it ended, or the robot stands behind a STOP."""
-        self.may_wait = False
-        """Whether the robot may stand still on the way, for a signal or a routine."""
         self._unanswered_since: float | None = None
         self._stands_since: float | None = None
         self.stopping = False
@@ -233,8 +231,9 @@ class CommandedMotion(ABC):
         """PROGRESS does not come any more: where the robot stands, and for how long, decides."""
         state = self._state_port.state
         assert state is not None
+        # STATUS has in_motion 1 while a motion is active, also where the robot waits on its way.
         still = state.status.in_motion is TriState.FALSE and self.is_complete
-        if not still or self.may_wait or self.progress.state is TrajectoryState.PAUSED:
+        if not still or self.progress.state is TrajectoryState.PAUSED:
             self._stands_since = None
             return
         if self._stands_since is None:
