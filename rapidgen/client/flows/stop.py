@@ -83,11 +83,15 @@ def _confirmed(core: Core) -> Flow[None]:
     if Port.MOTION not in asked and (behind or not asked):
         try:
             asked |= yield from _connect_and_send(core, Port.MOTION)
-        except StopFailed:
-            # The control port of whoever is there is the last that is left.
+        except StopFailed as failed:
             if asked or ports[Port.CONTROL].is_open:
                 raise
-            asked |= yield from _connect_and_send(core, Port.CONTROL)
+            # The control port is the last way, also where HELLO has not told of it.
+            try:
+                asked |= yield from _connect_and_send(core, Port.CONTROL)
+            except StopFailed as error:
+                core.state_port.note(str(error))
+                raise failed from None
     elif Port.CONTROL not in asked and core.may_reach_control:
         try:
             asked |= yield from _connect_and_send(core, Port.CONTROL)
