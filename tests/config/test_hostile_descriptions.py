@@ -63,6 +63,15 @@ EXPRESSIONS = {
     "deep signs": "-" * 4900 + "1",
     "long expression": "1+" * 100_000 + "1",
     "large number": "int('9' * 99999)",
+    "round to many places": "round(10, -10**9)",
+    "product": "math.prod(list(range(1, 99999)))",
+    "least common multiple": "math.lcm(*[i**300 for i in range(2, 999)])",
+    "sum of lists": "sum([[0]] * 49999, [])",
+    "map that makes lists": "list(map(range, [99999] * 9999))",
+    "lists in a comprehension": "[list(range(99999)) for i in range(9999)]",
+    "format that repeats": "'%(a)s' * 9000 % dict(a='x' * 99999)",
+    "yaml of a sexagesimal number": "xacro.load_yaml('sexagesimal.yaml')",
+    "yaml of a deep list": "xacro.load_yaml('deep.yaml')",
     "environment": "env('HOME')",
     "assignment": "(a := 1)",
     "await": "await x",
@@ -119,6 +128,8 @@ def place(tmp_path):
     rows = ["a0: &a0 [x, x, x, x, x, x, x, x, x]"]
     rows += [f"a{n}: &a{n} [{', '.join([f'*a{n - 1}'] * 9)}]" for n in range(1, 20)]
     (folder / "bomb.yaml").write_text("\n".join(rows))
+    (folder / "sexagesimal.yaml").write_text("a: 1" + ":1" * 300_000)
+    (folder / "deep.yaml").write_text("[" * 100_000)
     (folder / "object.yaml").write_text("!!python/object/apply:os.system ['touch canary']")
     return folder
 
@@ -193,6 +204,19 @@ def test_ordinary_expression_is_evaluated(expression, value, place):
         f'<link name="${{{{{expression}}}}}"/>'.replace("{{{{", "{{").replace("}}}}", "}}"),
     )
     assert f'<link name="{value}"/>' in made.text
+
+
+@pytest.mark.parametrize(
+    "params", ["a:=${{1 + 1}}/${{'x y'}}", "a:='x y' b:=$(arg side)", "*origin a:=^|0"]
+)
+def test_defaults_of_parameters_are_those_of_xacro(params):
+    import xacro
+
+    from rapidgen.config.urdf.sandbox import _MACRO_PARAMETER
+
+    text = params.replace("{{", "{").replace("}}", "}")
+    found = [re.match(text) for re in (xacro.re_macro_arg, _MACRO_PARAMETER)]
+    assert [match and match.groups() for match in found] == [found[0] and found[0].groups()] * 2
 
 
 def test_folder_of_a_package_path_may_be_included(place):

@@ -6,8 +6,9 @@ conditional expressions, comprehensions, xacro's own functions and those of `mat
 an error. There is no attribute access but to keys of dictionaries, to namespaces, and to the few
 methods of text and dictionaries that are listed below.
 
-The size of every value is limited when it is made, so no step of an expression takes long, and an
-`Allowance` limits the CPU time of all expressions of one description together.
+The size of every value is limited when it is made, and functions whose cost grows faster than
+their arguments have limits of their own, so no step of an expression takes long. An `Allowance`
+limits the CPU time and the number of items made of all expressions of one description together.
 """
 
 import ast
@@ -28,6 +29,10 @@ MAX_BITS = 4_096
 """Bits of a whole number."""
 MAX_SECONDS = 4.0
 """s of CPU time for one description."""
+MAX_MADE = 5_000_000
+"""Items and characters that all expressions of one description may make."""
+MAX_DIGITS = 400
+"""Places to which a number is rounded: a float has no more."""
 
 Data: TypeAlias = object
 Function: TypeAlias = Callable[..., Data]
@@ -38,28 +43,36 @@ class ExpressionError(ValueError):
 
 
 class Allowance:
-    """CPU time that one description may use, in s."""
+    """CPU time (s) and items that one description may use."""
 
-    def __init__(self, seconds: float = MAX_SECONDS) -> None:
-        self._end = time.thread_time() + seconds
+    def __init__(self, seconds: float = MAX_SECONDS, items: int = MAX_MADE) -> None:
+        self._end, self._items = time.thread_time() + seconds, items
 
-    def spend(self) -> None:
-        """Raise ExpressionError if the time is over."""
+    def spend(self, items: int = 0) -> None:
+        """Take items from what is left. Raises ExpressionError if time or items are used up."""
+        self._items -= items
+        if self._items < 0:
+            raise ExpressionError("its expressions make too many items")
         if time.thread_time() > self._end:
             raise ExpressionError("it takes too long to expand")
 
+    def take(self, value: Data) -> Data:
+        """Return a value that was made, whose size is allowed. Raises ExpressionError."""
+        self.spend(size_of(value))
+        return value
 
-def bounded(value: Data) -> Data:
-    """Return a value whose size is allowed; raises ExpressionError."""
+
+def size_of(value: Data) -> int:
+    """Return the items and characters of a value. Raises ExpressionError if there are too many."""
     if isinstance(value, int):
-        if value.bit_length() > MAX_BITS:
-            raise ExpressionError("a number of the expression is too large")
+        _limit_bits(value.bit_length())
     elif isinstance(value, str):
         if len(value) > MAX_TEXT:
             raise ExpressionError("a text of the expression is too long")
+        return len(value)
     elif isinstance(value, list | tuple | set | frozenset | dict):
-        _count(value, MAX_ITEMS)
-    return value
+        return MAX_ITEMS - _count(value, MAX_ITEMS)
+    return 1
 
 
 def _count(value: Data, left: int) -> int:
@@ -109,6 +122,9 @@ def _multiply(left: Data, right: Data) -> Data:
 def _remainder(left: Data, right: Data) -> Data:
     if isinstance(left, str):
         _check_format(left)
+        # Each place of the format may take the whole of what is given.
+        if left.count("%") * size_of(right) > MAX_TEXT and not isinstance(right, tuple):
+            raise ExpressionError("a text of the expression is too long")
     return operator.mod(left, right)
 
 
@@ -175,6 +191,33 @@ def _small(function: Function, largest: int) -> Function:
     return limited
 
 
+def _round(number: Data, digits: Data = None) -> Data:
+    if isinstance(digits, int) and abs(digits) > MAX_DIGITS:
+        raise ExpressionError("a number is rounded to too many places")
+    return round(number, digits)  # type: ignore[call-overload]
+
+
+def _sum(items: Iterable[Data], start: Data = 0) -> Data:
+    # Lists would be copied once for each of them.
+    if not isinstance(start, int | float):
+        raise ExpressionError("'sum' takes numbers")
+    return sum(items, start)  # type: ignore[arg-type]
+
+
+def _product(function: Function) -> Function:
+    """A function whose result may have the bits of all its arguments together."""
+
+    def limited(*arguments: Data, **named: Data) -> Data:
+        numbers = [*arguments, *named.values()]
+        for given in arguments:
+            if isinstance(given, list | tuple | set | frozenset):
+                numbers.extend(given)
+        _limit_bits(sum(n.bit_length() for n in numbers if isinstance(n, int)))
+        return function(*arguments, **named)
+
+    return limited
+
+
 def _listed(function: Callable[..., Iterable[Data]]) -> Function:
     """A function of iterators, as a list: lists have a size."""
     return lambda *arguments: list(function(*arguments))
@@ -186,7 +229,9 @@ _MATH: dict[str, Data] = {
 _MATH |= {
     "factorial": _small(math.factorial, 300),
     "comb": _small(math.comb, 1_000),
+    "lcm": _product(math.lcm),
     "perm": _small(math.perm, 300),
+    "prod": _product(math.prod),
 }
 _PYTHON: dict[str, Data] = {
     "abs": abs,
@@ -196,21 +241,19 @@ _PYTHON: dict[str, Data] = {
     "dict": dict,
     "divmod": divmod,
     "enumerate": _listed(enumerate),
-    "filter": _listed(filter),
     "float": float,
     "int": _int,
     "len": len,
     "list": list,
-    "map": _listed(map),
     "max": max,
     "min": min,
     "range": _range,
     "reversed": _listed(reversed),
-    "round": round,
+    "round": _round,
     "set": set,
     "sorted": sorted,
     "str": str,
-    "sum": sum,
+    "sum": _sum,
     "tuple": tuple,
     "zip": _listed(zip),
     "True": True,
@@ -256,8 +299,14 @@ class Expressions:
 
     def __init__(self, functions: Mapping[str, Data], allowance: Allowance) -> None:
         """`functions` are those of xacro: by plain name, and as the namespace `xacro`."""
-        self._plain = {**PLAIN, **functions}
-        self._namespaces: dict[str, Mapping[str, Data]] = {**NAMESPACES, "xacro": functions}
+        own: dict[str, Data] = {"map": self._map, "filter": self._filter}
+        self._plain = {**PLAIN, **own, **functions}
+        python = {**NAMESPACES["python"], **own}
+        self._namespaces: dict[str, Mapping[str, Data]] = {
+            **NAMESPACES,
+            "python": python,
+            "xacro": functions,
+        }
         self._functions = frozenset(
             id(value)
             for names in (self._plain, *self._namespaces.values())
@@ -281,6 +330,18 @@ class Expressions:
             raise SyntaxError("the expression nests too deep") from None
         return _Evaluation(self, names, {}).value(tree.body)
 
+    def _map(self, function: Function, *lists: Iterable[Data]) -> list[Data]:
+        """A list, each of whose items is taken from the allowance as it is made."""
+        return [self._allowance.take(function(*items)) for items in zip(*lists, strict=False)]
+
+    def _filter(self, function: Function | None, items: Iterable[Data]) -> list[Data]:
+        chosen = []
+        for item in items:
+            self._allowance.spend(1)
+            if item if function is None else function(item):
+                chosen.append(item)
+        return chosen
+
     def _name(self, name: str, names: Mapping[str, Data]) -> Data:
         if name.startswith("__"):
             raise ExpressionError(f"the name '{name}' is not allowed")
@@ -303,8 +364,12 @@ class _Evaluation:
 
     def value(self, node: ast.expr) -> Data:
         """Return the value of a part."""
-        self._rules._allowance.spend()
-        return bounded(self._value(node))
+        allowance = self._rules._allowance
+        # What a name or a key stands for was counted when it was made.
+        if isinstance(node, ast.Name | ast.Attribute | ast.Constant):
+            allowance.spend()
+            return self._value(node)
+        return allowance.take(self._value(node))
 
     def _value(self, node: ast.expr) -> Data:
         match node:

@@ -21,7 +21,7 @@ from rapidgen.config.urdf.expressions import (
     Allowance,
     ExpressionError,
     Expressions,
-    bounded,
+    size_of,
 )
 
 MAX_CALLS = 50_000
@@ -29,12 +29,13 @@ MAX_CALLS = 50_000
 MAX_FILES = 1_000
 """Files that one pattern of an include may name."""
 MAX_YAML_BYTES = 1_000_000
+_LONGEST_NUMBER = 400
 _Made = TypeVar("_Made")
 # As in xacro, but each character can be matched in one way only: unbalanced quotes make xacro's own
 # pattern try exponentially many.
 _MACRO_PARAMETER = re.compile(
     r"""^\s*([^\s:=]+?)\s*:?=\s*(\^\|?)?"""
-    r"""(\$\{[^}]*\}|\$\([^)]*\)|(?:'[^']*'|"[^"]*"|[^\s'"])+|)(?:\s+|$)(.*)"""
+    r"""((?:\$\{[^}]*\}|\$\([^)]*\)|'[^']*'|"[^"]*"|\$(?![{(])|[^\s'"$])+|)(?:\s+|$)(.*)"""
 )
 
 
@@ -60,10 +61,19 @@ def restricted(
             raise ExpressionError(f"{path.name} is larger than {MAX_YAML_BYTES:,} characters")
         import yaml  # type: ignore[import-untyped]
 
+        class Loader(yaml.SafeLoader):  # type: ignore[misc]
+            """A loader without numbers that take long to convert, as `1:1:1:...` does."""
+
+            def construct_scalar(self, node: yaml.ScalarNode) -> str:
+                if node.tag.endswith((":int", ":float")) and len(node.value) > _LONGEST_NUMBER:
+                    raise ExpressionError(f"{path.name} has a number of too many digits")
+                scalar: str = super().construct_scalar(node)
+                return scalar
+
         for unit in xacro.ConstructUnits:
-            yaml.SafeLoader.add_constructor(unit.value.tag, unit.constructor)
+            Loader.add_constructor(unit.value.tag, unit.constructor)
         try:
-            return xacro.YamlListWrapper.wrap(bounded(yaml.safe_load(text)))
+            return xacro.YamlListWrapper.wrap(allowance.take(yaml.load(text, Loader=Loader)))
         except yaml.YAMLError as fault:
             place = getattr(fault, "problem_mark", None)
             line = f" in line {place.line + 1}" if place else ""
@@ -119,7 +129,9 @@ def restricted(
         allowance.spend()
         if isinstance(text, str) and len(text) > MAX_TEXT and "$" in text:
             raise ExpressionError(f"a text with expressions is longer than {MAX_TEXT:,} characters")
-        return bounded(original["eval_text"](text, symbols))
+        value = original["eval_text"](text, symbols)
+        size_of(value)
+        return value
 
     def handle_macro_call(*given: object) -> object:
         nonlocal calls
