@@ -75,7 +75,7 @@ wheel: $(STAMP) $(PAGE)
 
 # The generated driver for some simulated hours; `make driver-day` is the long form.
 driver-hours: $(STAMP)
-	time $(BIN)/python benchmarks/campaign.py days --hours 1 --watched 0.25
+	time $(BIN)/python tools/driver_campaign.py days --hours 1 --watched 0.25
 
 # The documentation as a site: build/site/index.html. A warning is an error, a link into nothing is one,
 # and so is a question of docs/start/questions.md that the site's search does not find.
@@ -99,11 +99,11 @@ unit: $(STAMP) $(PAGE)
 # What a release runs: every test, and the driver for four simulated hours.
 test-long: export PYTEST_XDIST_AUTO_NUM_WORKERS ?= $(shell echo $$(( $$(getconf _NPROCESSORS_ONLN) * 3 / 2 )))
 test-long: $(STAMP) $(PAGE)
-	$(BIN)/python benchmarks/campaign.py days --hours 4 --watched 0.25
+	$(BIN)/python tools/driver_campaign.py days --hours 4 --watched 0.25
 	$(BIN)/python -m pytest -n auto
 
 # The tests of a room, or all, in processes that are held up at HELD_UP of their calls: what is red is red by chance.
-held-up: export PYTHONPATH = $(CURDIR)/tests/held_up
+held-up: export PYTHONPATH = $(CURDIR)/tools/held_up
 held-up: export HELD_UP ?= 0.05
 held-up: export SEED ?= 1
 held-up: $(STAMP) $(PAGE)
@@ -112,7 +112,7 @@ held-up: $(STAMP) $(PAGE)
 # The same in processes that are stopped for moments, anywhere; another SEED, other moments.
 stopped: SEED ?= 1
 stopped: $(STAMP) $(PAGE)
-	$(BIN)/python tests/held_up/stopped.py --seed $(SEED) $(BIN)/python -m pytest -n 6 tests/$(ROOM)
+	$(BIN)/python tools/held_up/stopped.py --seed $(SEED) $(BIN)/python -m pytest -n 6 tests/$(ROOM)
 
 # The pictures of docs/develop/architecture.md (rooms, a trajectory's life) and docs/start/robots.md, drawn again from the code.
 picture: $(STAMP)
@@ -124,7 +124,7 @@ picture: $(STAMP)
 # PROGRAM the trial (abb_driver, backups, deployed, descriptions, godel, irb140, keyence, motion_program_exec, open_abb, rfl, ros2, ros_nodes, rws_suites, text_pairs, text_servers; default: any).
 PROGRAM = trial
 foreign: $(STAMP)
-	$(BIN)/python -m tests.foreign.$(PROGRAM) $(FOREIGN)
+	$(BIN)/python -m tools.foreign.$(PROGRAM) $(FOREIGN)
 
 # What takes too long for `make test`, each with its time on two cores: `make campaigns` lists them.
 campaigns:
@@ -141,19 +141,19 @@ triples: $(STAMP) ## 15 min: the same where any three assumptions about controll
 	$(BIN)/rapidgen test irb120 --together 3 --seeds 0
 
 signature: $(STAMP) ## 3 h: the same on every example, and on any two of profile, commissioning, main, control
-	$(BIN)/python benchmarks/signature.py
+	$(BIN)/python tools/signature.py
 
 mutants: $(STAMP) ## 5 min: a defect of the front end that turns it red, for each conformance file
-	$(BIN)/python benchmarks/conformance_mutants.py
+	$(BIN)/python tools/conformance_mutants.py
 
 runtime-mutants: $(STAMP) ## 15 min: the same for the conformance files of the runtime
-	$(BIN)/python benchmarks/conformance_mutants_runtime.py
+	$(BIN)/python tools/conformance_mutants_runtime.py
 
 source-mutants: $(STAMP) ## 30 min: which mutants of client, servers, ros, deploy and machine their tests detect
 	$(BIN)/python tools/source_mutants.py --jobs 2 --output build/source-mutants.jsonl
 
 driver-mutants: $(STAMP) ## 12 min: which mutants of the generated modules the suite notices
-	$(BIN)/python benchmarks/mutation.py --jobs 2 --budget 4 --output build/mutation.jsonl irb120
+	$(BIN)/python tools/driver_mutants.py --jobs 2 --budget 4 --output build/mutation.jsonl irb120
 
 # A Dask scheduler and WORKERS workers as processes of this machine, until Ctrl-C, for
 # `rapidgen test ... --cluster tcp://127.0.0.1:8786`.
@@ -164,14 +164,14 @@ cluster: $(STAMP)
 .PHONY: cluster
 
 program-mutants: $(STAMP) ## 15 min: the same for the modules of motion programs, in a cell with signals, tools, routines and data
-	$(BIN)/python benchmarks/mutation.py --jobs 2 --budget 8 --output build/program-mutation.jsonl --themes programs "own routines" "own data" speed --only ROS_programs ROS_execution ROS_data -- benchmarks/cell.yaml
+	$(BIN)/python tools/driver_mutants.py --jobs 2 --budget 8 --output build/program-mutation.jsonl --themes programs "own routines" "own data" speed --only ROS_programs ROS_execution ROS_data -- tools/cell.yaml
 
 program-campaign: $(STAMP) ## 5 min: random motion programs beside the same ones written in RAPID
 	for robot in irb120 irb2400 irb460 irb910sc; do \
 		$(BIN)/rapidgen test $$robot --case program-like-rapid --quick --seeds 0 --programs 20 || exit 1; done
 
 motion-campaign: $(STAMP) ## 10 min: 10,000 random programs with random stops
-	$(BIN)/python -m tests.motion.campaign
+	$(BIN)/python -m tools.motion_campaign
 
 reach: $(STAMP) ## 3 min: 10,000 poses of every shipped model, by formula or search
 	$(BIN)/python benchmarks/reach.py
@@ -180,23 +180,23 @@ two-workers: $(STAMP) ## 2 min: what a second worker of a campaign is worth, bes
 	$(BIN)/python benchmarks/two_workers.py
 
 exploration: $(STAMP) ## 1 min: schedules until known defects of drivers are found
-	$(BIN)/python benchmarks/exploration.py --jobs 2
+	$(BIN)/python tools/exploration.py --jobs 2
 
 # RESULTS keeps them: the next call goes on there.
 RESULTS ?= build/schedules
 EXPLORED := irb120 robots/examples/irb2400-rw5.yaml robots/examples/irb910sc-rw6.yaml \
 	robots/examples/irb120_basic-rw6.yaml robots/examples/irb460-rw7.yaml
 schedules-100k: $(STAMP) ## 2 h: 100,000 random schedules of the drivers of five robots, the curve of new pairs
-	$(BIN)/python benchmarks/exploration.py --of $(EXPLORED) --seeds 20000 --jobs 2 --results $(RESULTS)
+	$(BIN)/python tools/exploration.py --of $(EXPLORED) --seeds 20000 --jobs 2 --results $(RESULTS)
 
 ceiling: $(STAMP) ## 2 min: how fast the TCP is in 1,000 random trajectories under a ceiling
 	$(BIN)/python benchmarks/ceiling.py
 
 schedules: $(STAMP) ## 20 min: 20,000 emergency stops and power failures at 80 % of an axis' speed
-	$(BIN)/python benchmarks/fast_stops.py --jobs 2 --pairs irb120 irb6700
+	$(BIN)/python tools/fast_stops.py --jobs 2 --pairs irb120 irb6700
 
 ros-goals: $(STAMP) ## 20 min: 10,000 goals of FollowJointTrajectory by lot, with faults at any moment
-	$(BIN)/python benchmarks/ros_goals.py
+	$(BIN)/python tools/ros_goals.py
 
 # In a shell that has sourced ROS 2, with its Python: make ros-node ROS_PYTHON=.../bin/python
 ROS_PYTHON ?= python3
@@ -210,22 +210,22 @@ stop-trials: $(STAMP) ## 5 min: 2,000 random stops with up to three operator act
 	$(BIN)/python tools/stop_trials.py --jobs 2
 
 driver-frames: $(STAMP) ## 1 h: 200,000 hostile openings on all ports, half of them with boundary values, a good client after each
-	$(BIN)/python benchmarks/campaign.py frames --jobs 2
+	$(BIN)/python tools/driver_campaign.py frames --jobs 2
 
 driver-day: $(STAMP) ## 1 min: 24 simulated hours, a trajectory every ten minutes, the state read
-	$(BIN)/python benchmarks/campaign.py days --hours 24 --watched 0.25
+	$(BIN)/python tools/driver_campaign.py days --hours 24 --watched 0.25
 
 driver-days: $(STAMP) ## 2 h: 30 simulated days, the state read all the time
-	$(BIN)/python benchmarks/campaign.py days --hours 720
+	$(BIN)/python tools/driver_campaign.py days --hours 720
 
 deploy-cuts: $(STAMP) ## 10 min: every cut of every deployment, garbled answers of servers
 	$(BIN)/python benchmarks/deploy.py --cuts
 
 rws-answers: $(STAMP) ## 1 min: 10,000 flows of the web services' client with hostile answers
-	$(BIN)/python -m tests.faces.rws.campaign answers 10000
+	$(BIN)/python -m tools.rws_campaign answers 10000
 
 rws-requests: $(STAMP) ## 1 min: 100,000 hostile requests to the face, a good client after each thousand
-	$(BIN)/python -m tests.faces.rws.campaign requests 100000
+	$(BIN)/python -m tools.rws_campaign requests 100000
 
 rws-cuts: $(STAMP) ## 1 h: deployments over the web services cut at every request, before and after it was done
 	RAPIDGEN_LONG=1 $(BIN)/python -m pytest -n 2 -v --timeout 0 tests/deploy/rws/test_cuts.py
@@ -244,7 +244,7 @@ bench: $(STAMP) ## 10 min: the figures of docs/develop/performance.md that need 
 	for name in $(BENCHES); do $(BIN)/python benchmarks/$$name.py || exit 1; done
 
 # OLD and NEW are interpreters of environments that have two trees of this project in them. (Whether
-# they behave the same: `python benchmarks/unmoved.py`.)
+# they behave the same: `python tools/unmoved.py`.)
 side-by-side: $(STAMP) ## 15 min: what has become slower between two trees; OLD=... NEW=...
 	$(BIN)/python benchmarks/side_by_side.py $(OLD) $(NEW)
 

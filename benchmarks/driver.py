@@ -25,7 +25,7 @@ from rapidgen.motion import MotionSettings
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import STOP, point_frame
 from rapidgen.proving.track import off
-from tests.foreign.abb_driver import read_system
+from tools.foreign.abb_driver import read_system
 
 ROUNDING = 1e-4
 """s: what num and the steps of the planner leave of an exact time."""

@@ -36,7 +36,7 @@ from rapidgen.proving.settings import Setting
 from rapidgen.system.model import System
 from rapidgen.wire.simple_message.bulk import encode_points
 from rapidgen.wire.simple_message.spec import StreamFlag
-from tests.foreign.abb_driver import read_system
+from tools.foreign.abb_driver import read_system
 
 BATCH = 35
 RING = 127

@@ -28,16 +28,25 @@ def test_every_campaign_has_a_time_and_is_a_target():
 
 
 @pytest.mark.parametrize("path", sorted((ROOT / "benchmarks").glob("*.py")), ids=lambda p: p.stem)
-def test_every_script_is_run_by_a_target(path):
+def test_every_benchmark_is_run_by_a_target(path):
     benches = re.search(r"^BENCHES := (.+)$", MAKEFILE, re.MULTILINE)[1].split()
     assert path.stem in benches or f"benchmarks/{path.name}" in MAKEFILE
+
+
+MAIN = '__name__ == "__main__"'
+TOOLS = [p for p in sorted((ROOT / "tools").glob("*.py")) if MAIN in p.read_text("utf-8")]
+
+
+@pytest.mark.parametrize("path", TOOLS, ids=lambda p: p.stem)
+def test_every_tool_is_run_by_a_target(path):
+    assert re.search(rf"tools[/.]{path.stem}\b", MAKEFILE)
 
 
 def test_the_trials_of_foreign_programs_are_named():
     named = re.search(r"PROGRAM the trial \((.+?); default", MAKEFILE)[1].split(", ")
     there = {
         path.stem
-        for path in (ROOT / "tests" / "foreign").glob("*.py")
-        if '__name__ == "__main__"' in path.read_text(encoding="utf-8")
+        for path in (ROOT / "tools" / "foreign").glob("*.py")
+        if MAIN in path.read_text(encoding="utf-8")
     }
     assert set(named) == there - {"trial"}

@@ -11,7 +11,7 @@ from rapidgen.rapid.builtins import signatures
 from rapidgen.rapid.syntax import nodes
 
 ROBOTS = ["irb120", "irb14000"]
-CELL = Path(__file__).parents[2] / "benchmarks" / "cell.yaml"
+CELL = Path(__file__).parents[2] / "tools" / "cell.yaml"
 
 
 def declared(module):

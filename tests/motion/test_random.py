@@ -3,7 +3,7 @@
 import pytest
 
 from rapidgen.motion import smoothing
-from tests.motion import campaign
+from tools import motion_campaign as campaign
 
 
 @pytest.mark.parametrize("seed", range(60))

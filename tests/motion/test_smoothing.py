@@ -11,8 +11,8 @@ from rapidgen.machine.scheduler import S
 from rapidgen.motion import MotionSettings, smoothing
 from rapidgen.motion.moves import JointMove, MoveSpeed
 from rapidgen.motion.timelaw import brake, plan
-from tests.motion.campaign import disturb
 from tests.motion.test_timelaw import Stretch, paths
+from tools.motion_campaign import disturb
 
 WIDTH = 0.05
 

@@ -39,7 +39,7 @@ SYMPTOMS = {
 
 @pytest.mark.parametrize("defect", DEFECTS)
 def test_a_known_defect_is_found_soon(defect):
-    """Also `benchmarks/exploration.py`: how soon in the median of many campaigns."""
+    """Also `tools/exploration.py`: how soon in the median of many campaigns."""
     system = small_driver(defect)
     guide = Guide(ground_of(SMALL, system))
     for number in range(30):

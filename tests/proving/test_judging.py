@@ -15,7 +15,8 @@ from rapidgen.proving.results import Results
 from rapidgen.proving.suite import CASES
 from rapidgen.proving.workers import ForkFailed, Local, each, in_a_fork
 from rapidgen.rapid import parse
-from tests.proving.judging import (
+from tools.mutation.driver import Mutant, mutants
+from tools.mutation.judging import (
     Judge,
     Learned,
     Learning,
@@ -25,7 +26,6 @@ from tests.proving.judging import (
     judged,
     verdicts,
 )
-from tests.proving.mutation import Mutant, mutants
 
 SIX_AXES = load_config("irb120")
 SYSTEM = make_system(SIX_AXES, build(SIX_AXES))

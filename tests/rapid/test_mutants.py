@@ -1,4 +1,4 @@
-"""Conformance files are red for defects: a sample; all in benchmarks/conformance_mutants.py."""
+"""Conformance files are red for defects: a sample; all in tools/conformance_mutants.py."""
 
 import gc
 import signal
@@ -8,10 +8,10 @@ from types import SimpleNamespace
 
 import pytest
 
-from tests.rapid import campaign as trials
-from tests.rapid.campaign import BROAD, Campaign
 from tests.rapid.conformance_files import all_files
-from tests.rapid.mutants import NoProgram, of_builtins, of_functions, of_tables
+from tools.mutation import conformance as trials
+from tools.mutation.conformance import BROAD, Campaign
+from tools.mutation.front_end import NoProgram, of_builtins, of_functions, of_tables
 
 SAMPLE = all_files()[::40]
 

@@ -1,12 +1,12 @@
 """Conformance files are red for defects: a sample; all in
-benchmarks/conformance_mutants_runtime.py."""
+tools/conformance_mutants_runtime.py."""
 
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
-from tests.runtime.campaign import BROAD, GREEN, RED, Campaign, all_files, outcome
+from tools.mutation.runtime import BROAD, GREEN, RED, Campaign, all_files, outcome
 
 FILES = {file.path.stem: file for file in all_files()}
 SAMPLE = [FILES[name] for name in ("goto", "for_counts")]

@@ -17,7 +17,7 @@ import operator
 import re
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from typing import TypeAlias
+from typing import TypeAlias, cast
 
 MAX_EXPRESSION = 5_000
 """Characters of one expression."""
@@ -194,14 +194,14 @@ def _small(function: Function, largest: int) -> Function:
 def _round(number: Data, digits: Data = None) -> Data:
     if isinstance(digits, int) and abs(digits) > MAX_DIGITS:
         raise ExpressionError("a number is rounded to too many places")
-    return round(number, digits)  # type: ignore[call-overload]
+    return round(cast(float, number), cast(int | None, digits))
 
 
 def _sum(items: Iterable[Data], start: Data = 0) -> Data:
     # Lists would be copied once for each of them.
     if not isinstance(start, int | float):
         raise ExpressionError("'sum' takes numbers")
-    return sum(items, start)  # type: ignore[arg-type]
+    return sum(cast(Iterable[float], items), start)
 
 
 def _product(function: Function) -> Function:

@@ -59,7 +59,7 @@ def restricted(
         text = read(path)
         if len(text) > MAX_YAML_BYTES:
             raise ExpressionError(f"{path.name} is larger than {MAX_YAML_BYTES:,} characters")
-        import yaml  # type: ignore[import-untyped]
+        import yaml
 
         class Loader(yaml.SafeLoader):  # type: ignore[misc]
             """A loader without numbers that take long to convert, as `1:1:1:...` does."""

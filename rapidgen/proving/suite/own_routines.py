@@ -60,7 +60,7 @@ _MODULE = b"""MODULE cell
 ENDMODULE
 """
 WELD, LONG, ABSENT, TEACH = range(4)
-"""Numbers of the routines that a configuration for these cases has (benchmarks/cell.yaml)."""
+"""Numbers of the routines that a configuration for these cases has (tools/cell.yaml)."""
 _THESE = {
     "cell:weld": ("num", "bool", "bool", "string"),
     "cell:wait_long": (),

@@ -1,0 +1,59 @@
+"""Is each conformance file of the runtime red for a defect of its own?
+
+    python tools/conformance_mutants_runtime.py [--every N] [--share PERCENT] [-v] [FILE...]
+
+Makes mutants of machine, motion, runtime and controller until
+each conformance file of tests/runtime and tests/runtime/builtins has one that turns it
+red. A mutant counts when it turns at most PERCENT of all files red (default 10); for a file that
+has no such mutant, up to half of them, told apart. Hangs and crashes do not count. Tried first is
+what the fewest files execute; each trial is a process of its own.
+
+Exits 1 and lists the files that no mutant turns red.
+"""
+
+import argparse
+import sys
+import time
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+
+from tools.mutation.runtime import BROAD, GREEN, Campaign, all_files, outcome
+
+
+def main():
+    options = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    options.add_argument("--every", type=int, default=1, help="take each N-th file only")
+    options.add_argument("--share", type=float, default=10, help="per cent of files, at most")
+    options.add_argument("-v", action="store_true", help="show the mutant of each file")
+    options.add_argument("file", nargs="*", help="names of conformance files")
+    given = options.parse_args()
+    everything = all_files()
+    files = [f for f in everything if not given.file or f.path.stem in given.file][:: given.every]
+    failing = [file for file in files if outcome(file) != GREEN]
+    if failing:
+        raise SystemExit("not green without a mutant: " + ", ".join(map(str, failing)))
+    started = time.monotonic()
+    campaign = Campaign(files, everything, given.share)
+    print(f"{len(files)} of {len(everything)} files; {campaign.limit} red at most", flush=True)
+
+    def tell(file):
+        mutant, count = campaign.shown.get(file, (None, 0))
+        if given.v:
+            print(f"{file}: {mutant} ({count} red)" if mutant else f"{file}: -", flush=True)
+
+    campaign.search(tell)
+    own = len(campaign.shown)
+    if campaign.left:
+        campaign.broader(BROAD)
+        campaign.search(tell)
+    spent = time.monotonic() - started
+    print(f"{own} red for a mutant of few files, {len(campaign.shown) - own} for a broad one,")
+    print(f"{len(campaign.left)} for none; {campaign.tried} mutants, {spent:.0f} s")
+    for file in campaign.left:
+        print(file)
+    raise SystemExit(1 if campaign.left else 0)
+
+
+if __name__ == "__main__":
+    main()

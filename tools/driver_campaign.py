@@ -1,0 +1,146 @@
+"""Long runs of the generated driver: malformed frames, and days on the virtual clock.
+
+    python tools/driver_campaign.py frames [--count N] [--jobs N] [ROBOT]
+    python tools/driver_campaign.py days [--hours N] [--watched SHARE] [ROBOT]
+
+`frames`: N (default 200,000) hostile openings on all ports, under the strictest readings together,
+half of them messages of which half of the fields have boundary values,
+each followed by a good client, which must be served; none may move the robot or end a task. `days`:
+N simulated hours (default 24) with a trajectory every ten minutes; a client reads the state for
+SHARE of the time (default all of it), and each STATUS has to come within one period of its turn.
+Memory is looked at every hour.
+"""
+
+import argparse
+import gc
+import sys
+import time
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+
+from rapidgen.config import load_config
+from rapidgen.generate import build, make_system
+from rapidgen.proving.bench import FAILURES, Bench
+from rapidgen.proving.messages import STATUS
+from rapidgen.proving.settings import Setting
+from rapidgen.proving.suite.hostile import campaign
+from rapidgen.rapid.switches import parse_switches
+
+CHUNK = 500
+"""Openings for one controller."""
+STRICT = parse_switches(
+    "unpack_ulint=error,argument_error=fatal,pack_beyond=error,negative_mod=error"
+)
+"""Beside the default, under which an error that no routine handles ends its task."""
+ROUND = 600.0
+"""Simulated s from one trajectory to the next."""
+
+
+def frames_of(seed):
+    """What went wrong with one controller's share."""
+    bench = Bench(CONFIG, SYSTEM, Setting(seed=seed, dialect=STRICT))
+    try:
+        campaign(bench, CHUNK, boundary=0.5)
+        bench.healthy()
+    except FAILURES as error:
+        return f"seed {seed}: {error}"
+    finally:
+        bench.close()
+    return ""
+
+
+def frames(count, jobs):
+    chunks = -(-count // CHUNK)
+    started, wrong = time.monotonic(), []
+    with ProcessPoolExecutor(jobs, mp_context=get_context("fork")) as pool:
+        for done, fault in enumerate(pool.map(frames_of, range(chunks)), 1):
+            if fault:
+                wrong.append(fault)
+                print(fault, flush=True)
+            if done % 20 == 0:
+                print(f"{done * CHUNK} after {time.monotonic() - started:.0f} s", flush=True)
+    print(
+        f"{chunks * CHUNK} hostile openings on all ports, each followed by a good client: "
+        f"{len(wrong)} controllers of {chunks} failed; {time.monotonic() - started:.0f} s"
+    )
+    return bool(wrong)
+
+
+def resident():
+    """MB of this process."""
+    gc.collect()
+    pages = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[1])
+    return pages * 4096 / 1e6
+
+
+def days(hours, share):
+    bench = Bench(CONFIG, SYSTEM)
+    period = CONFIG.state_period
+    started, worst, moved = time.monotonic(), 0.0, 0
+    sizes = []
+    state = bench.state() if share >= 1 else None
+    bench.run(1)
+    first = None
+    while bench.now < hours * 3600:
+        begun = bench.now
+        link = bench.motion()
+        bench.moves_through(link, bench.wave(4))
+        link.close()
+        moved += 1
+        reader = state if state is not None else bench.state()
+        until = begun + ROUND * share
+        while until - bench.now > 1e-3:
+            bench.run(min(60.0, until - bench.now))
+            stamps = [when for when, f in reader.frames if f.number == STATUS]
+            for when in stamps:
+                if first is None:
+                    first, turn = when, 0
+                worst = max(worst, abs(when - first - turn * period))
+                turn += 1
+            reader.forget()
+        if state is None:
+            reader.close()
+            first = None
+        bench.run(max(0.0, begun + ROUND - bench.now))
+        bench.forget()
+        bench.controller.log.clear()
+        if moved % 6 == 0:
+            sizes.append(resident())
+            if moved % 144 == 0:
+                print(
+                    f"{bench.now / 3600:.0f} h: {sizes[-1]:.1f} MB, worst {worst * 1000:.1f} ms "
+                    f"off, {time.monotonic() - started:.0f} s",
+                    flush=True,
+                )
+    bench.healthy()
+    bench.close()
+    # The first hour fills what is kept: caches, logs.
+    later = sizes[1:] or sizes
+    spread = max(later) - min(later)
+    taken = time.monotonic() - started
+    print(
+        f"{hours} simulated hours, {moved} trajectories, state read for {share:.0%} of the time: "
+        f"worst STATUS {worst * 1000:.1f} ms off its turn (period {period * 1000:.0f} ms), memory "
+        f"{sizes[-1]:.1f} MB within {spread:.1f} MB; {taken:.0f} s, "
+        f"{hours * 3600 / taken:.0f} x real time"
+    )
+    return worst > period or spread > 10
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("what", choices=("frames", "days"))
+    parser.add_argument("robot", nargs="?", default="irb120")
+    parser.add_argument("--count", type=int, default=200_000)
+    parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--hours", type=int, default=24)
+    parser.add_argument("--watched", type=float, default=1.0)
+    GIVEN = parser.parse_args()
+    CONFIG = load_config(GIVEN.robot)
+    SYSTEM = make_system(CONFIG, build(CONFIG))
+    if GIVEN.what == "frames":
+        sys.exit(frames(GIVEN.count, GIVEN.jobs))
+    sys.exit(days(GIVEN.hours, GIVEN.watched))

@@ -1,0 +1,177 @@
+"""How many schedules does the exploration need to find what is known of drivers in use?
+
+    python tools/exploration.py [--campaigns N] [--seeds N] [--jobs N] [FOLDER]
+    python tools/exploration.py --of ROBOT... [--seeds N] [--jobs N] [--results FOLDER]
+
+R1, R5, R7a, R7b and R12 (tests/proving/defective says what they are), each in a small driver of
+our own that has nothing else wrong: of N campaigns from other seeds, schedules until the first
+finding, the median and all. The same driver without a defect, and the generated one, where nothing
+may be found; and how many pairs of statements of two tasks they have met. With FOLDER,
+which has abb_driver's six modules, also these, unchanged: a finding there is counted for what its
+story and the places of the tasks show.
+
+`--of`: only the generated drivers of these robots, N schedules each: findings, the curve of pairs,
+what a schedule costs and what a million would. Results are kept in FOLDER, where a run that was
+broken off goes on.
+"""
+
+import argparse
+import resource
+import statistics
+import sys
+import time
+from dataclasses import replace
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+
+from rapidgen.cli.progress import Bars
+from rapidgen.config import load_config
+from rapidgen.generate import build, make_system
+from rapidgen.proving.explore import ground_of
+from rapidgen.proving.guide import Guide
+from rapidgen.proving.run import DriverUnderTest, prove, schedules
+from rapidgen.proving.workers import Call, Local, in_order
+from tests.proving.defective import CAPACITY, DEFECTS, small_driver
+from tools.foreign.abb_driver import read_system
+
+ABB_CAPACITY = 100
+
+
+def kind_of(finding):
+    """Which of the five a finding in modules with several of them is; "other" if none."""
+    places = "\n".join(finding.log)
+    if "that nothing disturbed ended" in finding.detail:
+        return "R1"
+    if "set free, and got" in finding.detail:
+        return "R5"
+    if "WaitTestAndSet" in places:
+        return "R7a" if "pp-to-main" in finding.plan else "R7b"
+    if "good client" in finding.detail or "STOP is answered" in finding.detail:
+        return "R12"
+    return "other"
+
+
+def explored(config, system, seeds, workers, first=0, enough=lambda found: False):
+    """Findings by number, until `enough` of them; how many schedules; s; the guide."""
+    guide = Guide(ground_of(config, system), first)
+    started, found, count = time.monotonic(), {}, 0
+    work = schedules(seeds, guide)
+
+    def make(number):
+        return Call(number, work.function, work.item(number))
+
+    for result in in_order(workers, seeds, make, work.needs, lambda: enough(found)):
+        guide.take(result)
+        if enough(found):
+            continue
+        if result.finding is not None:
+            found[count] = result.finding
+        count += 1
+    return found, count, time.monotonic() - started, guide
+
+
+def cpu():
+    """s that this process and the workers that it has dismissed have used."""
+    used = map(resource.getrusage, (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))
+    return sum(one.ru_utime + one.ru_stime for one in used)
+
+
+def at(curve, count):
+    """Pairs that so many schedules have met."""
+    return max((pairs for schedules, pairs in curve if schedules <= count), default=0)
+
+
+def long_run(robot, seeds, jobs, folder):
+    """Schedules of one robot's generated driver; whether anything was found."""
+    path = folder and folder / f"{Path(robot).stem}.jsonl"
+    known = path.read_bytes().count(b"\n") - 1 if path and path.exists() else 0
+    started, before = time.monotonic(), cpu()
+    with Bars() as progress:
+        report = prove(
+            load_config(robot),
+            seeds=seeds,
+            jobs=jobs,
+            cases=False,
+            progress=progress,
+            results=path,
+            resume=True,
+        )
+    new = report.schedules - max(known, 0)
+    seconds, used = time.monotonic() - started, cpu() - before
+    print(f"{robot}: {len(report.findings)} findings in {report.schedules} schedules")
+    if new > 0:
+        print(
+            f"  {new} new ones in {seconds:.0f} s, {used / new:.3f} s of CPU each; "
+            f"a million: {used / new * 1e6 / 3600:.0f} h of CPU"
+        )
+    marks = [n for d in range(1, 7) for n in (10**d, 3 * 10**d) if n < report.schedules]
+    shown = " ".join(f"{n}:{at(report.curve, n)}" for n in (*marks, report.schedules))
+    print(f"  pairs: {shown}; the last new one in schedule {report.curve[-1][0]}")
+    for finding in report.findings:
+        print(f"  --replay {finding.schedule}: {finding.detail}")
+    sys.stdout.flush()
+    return bool(report.findings) or report.broken_off
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("folder", nargs="?", type=Path)
+    parser.add_argument("--seeds", type=int, default=300)
+    parser.add_argument("--campaigns", type=int, default=9)
+    parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--of", nargs="+", metavar="ROBOT", default=())
+    parser.add_argument("--results", type=Path, metavar="FOLDER")
+    given = parser.parse_args()
+    if given.of:
+        if given.results:
+            given.results.mkdir(parents=True, exist_ok=True)
+        found = [long_run(robot, given.seeds, given.jobs, given.results) for robot in given.of]
+        return any(found)
+    config = load_config("irb120")
+    small = replace(config, trajectory=replace(config.trajectory, capacity=CAPACITY))
+    for defect in DEFECTS:
+        system, firsts, seconds = small_driver(defect), [], 0.0
+        with Local(DriverUnderTest(small, system), given.jobs) as workers:
+            for campaign in range(given.campaigns):
+                found, count, spent, _ = explored(
+                    small, system, given.seeds, workers, 10_000 * campaign, bool
+                )
+                firsts.append(min(found, default=count) + 1)
+                seconds += spent
+        each_one = " ".join(str(first) for first in sorted(firsts))
+        print(
+            f"{defect:10} schedule {statistics.median(firsts):4g} in the median, "
+            f"{seconds / given.campaigns:.1f} s: {each_one}",
+            flush=True,
+        )
+    for name, own, system in (
+        ("no defect", small, small_driver()),
+        ("generated", config, make_system(config, build(config))),
+    ):
+        with Local(DriverUnderTest(own, system), given.jobs) as workers:
+            found, count, seconds, guide = explored(own, system, given.seeds, workers)
+        print(f"{name:10} {len(found)} findings in {count} schedules, {seconds:.0f} s", flush=True)
+        print(f"           pairs: {' '.join(f'{n}:{pairs}' for n, pairs in guide.curve[::10])}")
+        for finding in found.values():
+            print(f"           --replay {finding.schedule}: {finding.detail}")
+    if given.folder is not None:
+        foreign = replace(config, trajectory=replace(config.trajectory, capacity=ABB_CAPACITY))
+        system = read_system(given.folder)
+        with Local(DriverUnderTest(foreign, system), given.jobs) as workers:
+            found, count, seconds, _ = explored(foreign, system, given.seeds, workers)
+        print(f"abb_driver {len(found)} findings in {count} schedules, {seconds:.0f} s")
+        for kind in (*DEFECTS, "other"):
+            own = {seed: f for seed, f in found.items() if kind_of(f) == kind}
+            if own:
+                first = min(own)
+                print(
+                    f"  {kind:6} {len(own):4}, first in schedule {first + 1}: {own[first].detail}"
+                )
+            else:
+                print(f"  {kind:6} not found")
+    return False
+
+
+if __name__ == "__main__":
+    sys.exit(main())

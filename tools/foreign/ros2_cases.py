@@ -1,0 +1,414 @@
+"""Cases of the trial with a real rclpy: `python -m tools.foreign.ros2` runs them on each RMW."""
+
+import json
+import os
+import signal
+import sys
+import time
+import traceback
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import rclpy.action.server
+import rclpy.lifecycle.node
+import rclpy.node
+import rclpy.parameter
+import rclpy.qos_overriding_options
+from lifecycle_msgs.msg import Transition
+from lifecycle_msgs.srv import ChangeState
+from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
+from rcl_interfaces.srv import GetParameters, SetParameters
+from rclpy.qos import DurabilityPolicy, ReliabilityPolicy
+
+from tools.foreign.ros import until
+from tools.foreign.ros2_cell import ABORTED, CANCELED, ENDINGS, SUCCEEDED, Cell
+
+
+class Findings:
+    """Sentences, each with whether it is as it should be."""
+
+    def __init__(self) -> None:
+        self.lines: list[tuple[bool, str]] = []
+
+    def must(self, holds: object, text: str) -> None:
+        """What should hold."""
+        self.lines.append((bool(holds), text))
+
+    def ends(self, sent, status: int, code: int = 0, words: str = "", seconds: float = 60) -> None:
+        """A goal has to end so."""
+        was, error, text = sent.end(seconds)
+        good = was == status and error == code and words in text
+        self.must(good, f"{ENDINGS.get(was, was)} {error} after {sent.took:.2f} s: {text!r}")
+
+    def next_one(self, cell: Cell) -> None:
+        """The next goal has to be executed."""
+        here = cell.sim.positions()[: len(cell.names("rob1"))]
+        self.ends(cell.send(cell.goal([here, [h + 0.05 for h in here]], 1.0)), SUCCEEDED)
+
+    def stands(self, cell: Cell, seconds: float = 1.0) -> None:
+        """The robot has to stand so soon."""
+        begin = time.monotonic()
+        until(cell.sim.standing, 15, "it never stood")
+        took = time.monotonic() - begin
+        self.must(took < seconds, f"stands {took:.2f} s later")
+
+    def __str__(self) -> str:
+        return "\n".join(f"  {'' if good else 'NOT: '}{text}" for good, text in self.lines)
+
+
+@dataclass(frozen=True)
+class Case:
+    """What is tried, with which robot."""
+
+    run: Callable[[Cell, Findings], None]
+    robot: str = "irb120"
+    options: tuple[str, ...] = ()
+    parameters: tuple[str, ...] = ()
+
+
+CASES: dict[str, Case] = {}
+
+
+def case(**what):
+    """Enter a function into CASES."""
+
+    def enter(function):
+        CASES[function.__name__] = Case(function, **what)
+        return function
+
+    return enter
+
+
+def signatures():
+    """Calls as the stand-in's record has them for this distribution, and as they are."""
+    sys.path.append(str(Path(__file__).parents[2] / "tests" / "ros"))
+    from record import RECORDED, signature
+
+    modules = (rclpy.node, rclpy.lifecycle.node, rclpy.action.server, rclpy.parameter)
+    modules += (rclpy.qos_overriding_options,)
+    known = json.loads(RECORDED.read_text())
+    for call, told in known.get(os.environ.get("ROS_DISTRO"), {}).get("calls", {}).items():
+        owner, method = call.split(".")
+        (found,) = {getattr(m, owner) for m in modules if hasattr(m, owner)}
+        yield call, told, signature(getattr(found, method))
+
+
+def _way(count: int, to: float = 0.5) -> list[float]:
+    return [to * k / (count - 1) for k in range(count)]
+
+
+@case()
+def five_points(cell, found):
+    sent = cell.send(cell.goal(_way(5)))
+    found.ends(sent, SUCCEEDED)
+    found.must(len(sent.feedback) > 10, f"{len(sent.feedback)} feedbacks")
+    found.must(cell.at([0.5] * 6), "the robot is there")
+    last = cell.heard["states"][-1][1]
+    found.must(len(last.velocity) == 6 and last.name == cell.names("rob1"), "joint_states whole")
+    stamps = [m.header.stamp.sec + m.header.stamp.nanosec * 1e-9 for _, m in cell.heard["states"]]
+    found.must(sorted(set(stamps)) == stamps, f"{len(stamps)} stamps, each later")
+    back = cell.goal([0.5, 0.4])
+    back.trajectory.joint_names = back.trajectory.joint_names[::-1]
+    found.ends(cell.send(back), SUCCEEDED)
+
+
+@case(options=("--speed", "5"))
+def five_hundred_points(cell, found):
+    sent = cell.send(cell.goal(_way(500, 1.0), 0.1))
+    found.ends(sent, SUCCEEDED, seconds=120)
+    found.must(cell.at([1.0] * 6), f"the robot is there, {len(sent.feedback)} feedbacks")
+
+
+@case(options=("--speed", "10"))
+def five_thousand_points(cell, found):
+    rows = [0.5 * (k % 1000) / 1000 if k % 2000 < 1000 else 0.5 - 0.5 * (k % 1000) / 1000
+            for k in range(5000)]  # fmt: skip
+    sent = cell.send(cell.goal(rows, 0.1))
+    found.ends(sent, SUCCEEDED, seconds=300)
+    found.must(cell.at([rows[-1]] * 6), f"the robot is there, {len(sent.feedback)} feedbacks")
+
+
+@case()
+def refused(cell, found):
+    wrong = cell.goal([0.0, 0.1])
+    wrong.trajectory.joint_names = ["a", *wrong.trajectory.joint_names[1:]]
+    for goal, code, words in (
+        (wrong, -2, "unknown: a"),
+        (cell.goal([0.0, 9.0, 0.0]), -1, "outside its limits"),
+        (cell.goal(_way(20), 0.05), -1, "shorter than the path planner follows"),
+        (cell.goal([0.0, 1.0], 0.15), -1, "too fast"),
+        (cell.goal([0.4, 0.5]), -1, "does not start where the robot stands"),
+        (cell.goal([]), -1, "no points"),
+    ):
+        found.ends(cell.send(goal), ABORTED, code, words)
+    found.must(cell.at([0.0] * 6), "nothing moved")
+    found.next_one(cell)
+
+
+@case()
+def cancelled(cell, found):
+    sent = cell.moving()
+    sent.cancel()
+    found.ends(sent, CANCELED)
+    found.must(cell.sim.standing(), "the robot stands when that is told")
+    found.next_one(cell)
+
+
+@case()
+def second_goal_is_refused(cell, found):
+    first = cell.moving(0.3, 3.0)
+    found.ends(cell.send(cell.goal([0.0, 0.1])), ABORTED, -1, "another goal is executed")
+    found.ends(first, SUCCEEDED)
+
+
+@case(parameters=("replace:=approach",))
+def second_goal_replaces(cell, found):
+    first = cell.moving()
+    second = cell.send(cell.goal([[0.2, 0, 0, 0, 0, 0], [0.3, 0, 0, 0, 0, 0]], 1.0))
+    found.ends(first, ABORTED, -1, "replaced by a newer goal")
+    found.ends(second, SUCCEEDED)
+    found.must(cell.at([0.3, 0, 0, 0, 0, 0]), "the robot is there")
+
+
+@case()
+def emergency_stop(cell, found):
+    sent = cell.moving()
+    cell.sim.ask("e-stop")
+    found.ends(sent, ABORTED, -4, "emergency stop")
+    found.must(cell.sim.standing(), "the robot stands")
+    words = [s.message for s in cell.heard["health"][-1][1].status]
+    found.must("an emergency stop is active" in words, f"diagnostics: {words}")
+    for step in ("reset-e-stop", "motors-on", "start"):
+        cell.sim.ask(step)
+    time.sleep(1)
+    found.must(cell.sim.standing(), "nothing resumes")
+    found.next_one(cell)
+
+
+@case()
+def program_stopped(cell, found):
+    sent = cell.moving()
+    cell.sim.ask("stop")
+    found.ends(sent, ABORTED, -4, "program was stopped")
+    found.ends(cell.send(cell.goal([0.0, 0.1])), ABORTED, -1)
+    cell.sim.ask("start")
+    time.sleep(1)
+    found.next_one(cell)
+
+
+@case()
+def controller_restarted(cell, found):
+    sent = cell.moving()
+    cell.sim.restart()
+    found.ends(sent, ABORTED, -4)
+    begin = time.monotonic()
+    cell.ready()
+    found.must(time.monotonic() - begin < 8, f"states {time.monotonic() - begin:.1f} s later")
+    found.next_one(cell)
+
+
+@case()
+def controller_gone(cell, found):
+    cell.sim.close()
+    until(lambda: "no link" in cell.heard["health"][-1][1].status[0].message, 20, "it never said")
+    since = time.monotonic()
+    found.ends(cell.send(cell.goal([0.0, 0.1])), ABORTED, -1, "no link to the robot")
+    time.sleep(1.5)
+    found.must(not cell.state_since(since), "joint_states are not told again")
+    cell.sim.restart()
+    cell.ready()
+    found.next_one(cell)
+
+
+@case()
+def node_killed(cell, found):
+    for number in (signal.SIGKILL, signal.SIGTERM, signal.SIGINT):
+        sent = cell.moving()
+        code = cell.node.end(number)
+        found.must(code is not None, f"signal {number}: exit code {code}")
+        found.stands(cell)
+        if number != signal.SIGKILL:
+            found.must(sent.is_over and sent.end()[0] == ABORTED, "its goal was aborted before")
+        cell.start_node()
+        found.next_one(cell)
+
+
+@case()
+def services_and_speed(cell, found):
+    sent = cell.moving(0.5, 4.0)
+    told = cell.trigger("pause")
+    found.must(told.success and cell.sim.standing(), f"pause: {told.message}")
+    told = cell.trigger("resume")
+    found.must(told.success, f"resume: {told.message}")
+    value = ParameterValue(type=ParameterType.PARAMETER_DOUBLE, double_value=50.0)
+    request = SetParameters.Request(parameters=[Parameter(name="speed", value=value)])
+    (answer,) = cell.call(SetParameters, "/rapidgen/set_parameters", request).results
+    found.must(answer.successful, f"speed 50: {answer.reason}")
+    request.parameters[0].value.double_value = 500.0
+    (answer,) = cell.call(SetParameters, "/rapidgen/set_parameters", request).results
+    found.must(not answer.successful, f"speed 500: {answer.reason}")
+    found.ends(sent, SUCCEEDED)
+    found.must(sent.took > 5, f"slower: {sent.took:.1f} s of 4")
+    asked = GetParameters.Request(names=["speed"])
+    (value,) = cell.call(GetParameters, "/rapidgen/get_parameters", asked).values
+    found.must(value.double_value == 100.0, f"speed is {value.double_value:g} behind it")
+    sent = cell.moving(0.0)
+    told = cell.trigger("stop")
+    found.must(told.success, f"stop: {told.message}")
+    found.ends(sent, ABORTED, -4)
+    told = cell.trigger("resume")
+    found.must(not told.success, f"resume: {told.message}")
+
+
+@case(parameters=("qos_overrides./joint_states.publisher.depth:=3",))
+def quality_of_service(cell, found):
+    for topic in ("/joint_states", "/diagnostics"):
+        (one,) = [
+            info
+            for info in cell.client.get_publishers_info_by_topic(topic)
+            if info.node_name == "rapidgen"
+        ]
+        qos = one.qos_profile
+        good = (qos.reliability, qos.durability) == (
+            ReliabilityPolicy.RELIABLE,
+            DurabilityPolicy.VOLATILE,
+        )
+        found.must(good, f"{topic}: {qos.reliability.name}, {qos.durability.name}, {qos.depth}")
+    for call, recorded, here in signatures():
+        found.must(here == recorded, f"{call}({here})")
+    names = {name for name, _ in cell.client.get_topic_names_and_types()}
+    found.must("/robot_status" in names, f"topics: {sorted(names)}")
+
+
+@case(parameters=("publish_clock:=true",), options=("--speed", "4"))
+def clock_of_a_simulator(cell, found):
+    from rosgraph_msgs.msg import Clock
+
+    heard = []
+    cell.client.create_subscription(
+        Clock, "/clock", lambda m: heard.append((time.monotonic(), m.clock)), 50
+    )
+    until(lambda: len(heard) > 20, 20, "no clock")
+    (a, first), (b, last) = heard[0], heard[-1]
+    passed = last.sec - first.sec + (last.nanosec - first.nanosec) * 1e-9
+    found.must(3 < passed / (b - a) < 5, f"{passed / (b - a):.2f} s of the controller in a second")
+
+
+@case()
+def life_cycle(cell, found):
+    def change(transition: int) -> bool:
+        request = ChangeState.Request(transition=Transition(id=transition))
+        return cell.call(ChangeState, "/rapidgen/change_state", request).success
+
+    sent = cell.moving()
+    found.must(change(Transition.TRANSITION_DEACTIVATE), "deactivated in a motion")
+    found.must(cell.sim.standing(), "the robot stands")
+    found.must(sent.end(20)[0] == ABORTED, "its goal is aborted")
+    found.must(change(Transition.TRANSITION_CLEANUP), "cleaned up")
+    time.sleep(1)
+    topics = {
+        name for name, _ in cell.client.get_publisher_names_and_types_by_node("rapidgen", "/")
+    }
+    found.must("/joint_states" not in topics, "no joint_states any more")
+    found.must(change(Transition.TRANSITION_CONFIGURE), "configured")
+    found.must(change(Transition.TRANSITION_ACTIVATE), "active")
+    cell.ready()
+    found.next_one(cell)
+
+
+@case(robot="irb14000")
+def two_groups(cell, found):
+    sent, both = {}, set(cell.names("rob_l") + cell.names("rob_r"))
+    until(
+        lambda: both <= {name for _, told in cell.heard["states"] for name in told.name},
+        30,
+        "no joint_states of both groups",
+    )
+    for group in ("rob_l", "rob_r"):
+        here = cell.sim.positions(group)
+        names = cell.names(group)
+        states = [message for _, message in cell.heard["states"]]
+        now = next(
+            dict(zip(told.name, told.position, strict=True))
+            for told in reversed(states)
+            if set(told.name) == set(names)
+        )
+        rows = [[now[n] for n in names], [now[n] + 0.1 for n in names]]
+        sent[group] = here, cell.send(cell.goal(rows, 2.0, group), group)
+    for _, one in sent.values():
+        found.ends(one, SUCCEEDED)
+    services = {name for name, _ in cell.client.get_service_names_and_types()}
+    found.must({"/rob_l/stop", "/rob_r/stop"} <= services, "services of each group")
+
+
+@case(robot="irb2400")
+def coupled(cell, found):
+    found.ends(cell.send(cell.goal([0.0, [0, 0.4, -0.3, 0, 0, 0]], 2.0)), SUCCEEDED)
+    found.must(cell.at([0, 0.4, 0.1, 0, 0, 0]), f"axes at {cell.sim.positions()[:4]}")
+    last = cell.heard["states"][-1][1]
+    found.must(abs(last.position[2] + 0.3) < 1e-3, f"joint_states: {last.position[2]:.4f}")
+
+
+@case(robot="irb120_track")
+def track(cell, found):
+    names = cell.names("rob1")
+    row = [0.5 if n == "track" else 1.0 if n == "positioner" else 0.1 for n in names]
+    start = cell.heard["states"][-1][1]
+    now = dict(zip(start.name, start.position, strict=True))
+    found.ends(cell.send(cell.goal([[now[n] for n in names], row], 4.0)), SUCCEEDED)
+    last = cell.heard["states"][-1][1]
+    off = max(abs(a - b) for a, b in zip(last.position, row, strict=True))
+    found.must(off < 1e-3, f"{len(names)} joints, {off:.1e} off")
+
+
+@case(options=("--speed", "20"))
+def many_goals(cell, found):
+    count, ends, begin = int(os.environ.get("RAPIDGEN_GOALS", "300")), {}, time.monotonic()
+    here, grown = 0.0, []
+    for number in range(count):
+        if number % max(count // 10, 1) == 0:
+            grown.append(cell.memory())
+        there = 0.02 if here == 0.0 else 0.0
+        kind = number % 4
+        goal = cell.goal([9.0, 9.1] if kind == 3 else [here, there], 0.2)
+        status, code, text = cell.send(goal).end(60)
+        if status == SUCCEEDED:
+            here = there
+        key = f"{ENDINGS[status]} {code}"
+        ends[key] = ends.get(key, 0) + 1
+        if status != (ABORTED if kind == 3 else SUCCEEDED):
+            found.must(False, f"goal {number}: {key}: {text}")
+            here = cell.sim.positions()[0]
+    grown.append(cell.memory())
+    took = (time.monotonic() - begin) / count * 1e3
+    found.must(True, f"{ends}, {took:.0f} ms a goal")
+    told = ", ".join(f"{mb - grown[1]:+.1f}" for mb in grown)
+    found.must(grown[-1] - grown[1] <= 10, f"MB against the end of the first tenth: {told}")
+
+
+def run(name: str, one: Case) -> bool:
+    """One case; whether it came out as it should."""
+    found, cell = Findings(), None
+    try:
+        cell = Cell(one.robot, *one.options, parameters=one.parameters)
+        one.run(cell, found)
+    except AssertionError as error:
+        place = traceback.extract_tb(error.__traceback__)[-1]
+        found.must(False, f"{error} ({place.name}:{place.lineno})")
+    finally:
+        if cell is not None:
+            cell.close()
+    good = all(good for good, _ in found.lines)
+    print(f"{name}: {'good' if good else 'NOT GOOD'}\n{found}", flush=True)
+    if cell is not None and not good:
+        print(*[f"    {line[:300]}" for _, line in cell.node.lines[-12:]], sep="\n", flush=True)
+    return good
+
+
+def run_all(wanted: list[str], goals: int) -> int:
+    """The cases, all if none is named; 1 if one has not come out as it should."""
+    os.environ["RAPIDGEN_GOALS"] = str(goals)
+    bad = [name for name in wanted or CASES if not run(name, CASES[name])]
+    print(f"failed: {', '.join(bad) or 'none'}")
+    return int(bool(bad))

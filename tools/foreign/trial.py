@@ -1,0 +1,161 @@
+"""Trial: every RAPID program below a folder, as it is, on the virtual controller, cell guessed.
+
+    python -m tools.foreign.trial FOLDER [ROBOT]     (or: make foreign FOREIGN=FOLDER)
+
+Nothing of a program is changed. It is what `rapidgen run PROGRAM --cell guess` does, and where the
+guessed robot does not reach a position on the one with which it gets furthest: what no module
+declares is made up, an input that the program waits for and a dialog answer, and nobody else does.
+A backup moves its own robot. For each program it says how it ended (whole; waits for a partner:
+socket, file, guide; stops behind a partner: a dialog was answered before; goes round and round;
+stops with an error; does not load), what of its lines was reached, and why not further. The last
+lines are the sums.
+"""
+
+import re
+import statistics
+import sys
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from rapidgen.controller import VirtualController
+from rapidgen.controller.booting import Wishes, load_target
+from rapidgen.controller.controller import Cycle
+from rapidgen.controller.passes import run_through
+from rapidgen.controller.tracing import Coverage
+from rapidgen.diagnostics import DiagnosticError, Severity
+from rapidgen.rapid import check
+from tools.foreign.called import lines_called
+from tools.foreign.programs import Program, programs
+
+ROBOTS = (
+    *("irb120", "irb1200", "IRB 140-6/0.81", "irb1600", "irb2400", "IRB 2600-12/1.65", "irb4600"),
+    *("irb6640", "irb6700", "irb660", "irb14000", "crb15000", "irb910sc"),
+)
+"""Tried behind the guessed one, in this order, while a position cannot be reached."""
+_MISFIT = re.compile("REACH|ROBLIMIT|not compatible|singularity")
+_PARTNER = re.compile(
+    r"Socket|bytes from|waits for an answer|message|ERR_SOCK|ERR_FILE|ERR_TP_|EGM partner|ERR_UDPUC"
+)
+_TIME = 300.0
+_STATEMENTS = 2_000_000
+_LITTLE = 0.6
+GOOD = ("whole", "waits for a partner", "stops behind a partner", "goes round")
+"""A program that was answered and then stops has come to its first partner."""
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """How far a program ran."""
+
+    end: str
+    reached: int = 0
+    lines: int = 0
+    called: int = 0
+    """Lines of the routines that anything calls."""
+    notes: tuple[str, ...] = ()
+
+    @property
+    def share(self) -> float:
+        """Of the lines."""
+        return self.reached / self.lines if self.lines else 0.0
+
+
+def trial(program: Program, robot: str = "") -> Outcome:
+    """One cycle of main; where that reaches little, and looks at inputs, cycles for a while."""
+    once = cycles(program, robot, "once")
+    if once.end == "whole" and once.share < _LITTLE:
+        more = cycles(program, robot, "forever")
+        return replace(more, end="whole" if more.end == "goes round" else more.end)
+    return once
+
+
+def cycles(program: Program, robot: str, cycle: Cycle) -> Outcome:
+    """Load, start, run until it ends, or for a while."""
+    try:
+        found = load_target(program.files, Wishes(cell="guess", robot=robot))
+        errors = [d for d in check(found.system, gaps=True) if d.severity is Severity.ERROR]
+        if errors:
+            raise DiagnosticError(errors)
+        controller = VirtualController.boot(found, cycle=cycle, tracing=True, autostart=False)
+    except DiagnosticError as error:
+        wrong = [d for d in error.diagnostics if d.severity is Severity.ERROR]
+        notes = tuple(
+            f"{d.code} {Path(d.span.path).name if d.span else ''}:{d.span.line if d.span else ''} "
+            f"{d.message}"
+            for d in wrong[:4]
+        )
+        return Outcome(f"does not load ({len(wrong)} errors)", notes=notes)
+    with controller:
+        covered = Coverage(controller)
+        controller.operator.attach()
+        controller.start_program()
+        ended = run_through(controller, max_time=_TIME, max_statements=_STATEMENTS)
+        by_file = covered.lines()
+        lines = [hits for file in by_file.values() for hits in file.values()]
+        called = lines_called(controller)
+        count = sum(1 for f, rows in by_file.items() for line in rows if line in called.get(f, ()))
+        faults = [f"{t.name}: {t.fault}" for t in controller.tasks.values() if t.fault is not None]
+        waits = controller.where()
+        guessed = found.guessed
+        notes = [*faults, *waits]
+        if guessed is not None and guessed.unknown:
+            notes.append(
+                "in no module: " + ", ".join(f"{u.type} {u.name}" for u in guessed.unknown[:5])
+            )
+        # Sockets, and dialogs and stops with texts or places; data and signals are no partner.
+        asked = any(w == "SocketReceive" or " " in w for w, _ in controller.guessed.answered)
+        end = _end(ended, faults, waits, asked=asked)
+        if controller.guessed.missed:
+            notes.append(f"the guessed robot missed {len(set(controller.guessed.missed))} places")
+        reached = sum(1 for hits in lines if hits)
+        return Outcome(end, reached, len(lines), max(reached, count), tuple(notes))
+
+
+def _end(ended: str, faults: Sequence[str], waits: Sequence[str], *, asked: bool) -> str:
+    if faults and not all(map(_PARTNER.search, faults)):
+        return "stops behind a partner" if asked else "stops"
+    if faults:
+        return "waits for a partner"
+    if ended == "finished":
+        return "whole"
+    if any(_PARTNER.search(where) for where in waits):
+        return "waits for a partner"
+    return "goes round" if ended in ("time", "statements") else "waits for ever"
+
+
+def best(program: Program, robots: Sequence[str]) -> tuple[str, Outcome]:
+    """The robot with which a program gets furthest, and how far."""
+    found: list[tuple[str, Outcome]] = []
+    for robot in robots:
+        found.append((robot or "its own or guessed", trial(program, robot)))
+        if not any(note for note in found[-1][1].notes if _MISFIT.search(note)):
+            break
+    return max(found, key=lambda one: (one[1].end in GOOD, one[1].reached))
+
+
+def main(folder: Path, robots: Sequence[str]) -> None:
+    """Print one paragraph for each program, and the sums."""
+    ends: Counter[str] = Counter()
+    shares: list[tuple[float, float]] = []
+    for program in programs(folder):
+        backup = program.is_backup
+        robot, outcome = best(program, ("",) if backup else ("", *robots))
+        ends[("backups: " if backup else "mains: ") + outcome.end.split(" (")[0]] += 1
+        if not backup:
+            shares.append((outcome.share, outcome.reached / max(1, outcome.called)))
+        print(f"{program.name}: {robot}: {outcome.end} {outcome.reached} of {outcome.lines} lines")
+        for note in outcome.notes:
+            print(f"    {note}", flush=True)
+    for end, count in sorted(ends.items()):
+        print(f"{count:5} {end}")
+    if shares:
+        all_lines, called = (statistics.median(column) for column in zip(*shares, strict=True))
+        print(
+            f"median of the lines of mains: {all_lines:.0%}, of those that are called {called:.0%}"
+        )
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]), sys.argv[2:] or ROBOTS)

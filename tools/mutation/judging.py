@@ -1,0 +1,345 @@
+"""Which mutants does the suite notice?
+
+The cases run once on the driver as it is, with coverage; a mutant is then judged only by the cases
+that execute its statement, those that have noticed most around it for their time first.
+"""
+
+import hashlib
+import math
+import os
+import signal
+from collections import Counter
+from collections.abc import Callable, Collection, Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, field, replace
+from functools import partial
+from pathlib import Path
+
+from pydantic import TypeAdapter
+
+from rapidgen.config.model import RobotConfig
+from rapidgen.diagnostics import DiagnosticError
+from rapidgen.proving.behaviour import Behaviour
+from rapidgen.proving.bench import FAILURES, Bench, with_module
+from rapidgen.proving.campaign import Workload
+from rapidgen.proving.model import NothingToProve
+from rapidgen.proving.run import Starter
+from rapidgen.proving.settings import Setting
+from rapidgen.proving.suite import CASES
+from rapidgen.proving.workers import Workers, each, in_a_fork
+from rapidgen.rapid import parse
+from rapidgen.runtime.errors import FatalError
+from rapidgen.system.model import System
+from tools.mutation.driver import Mutant
+
+PATIENCE = (2.0, 12.0)
+"""A case has this many s of CPU, or so many times what it takes on the driver as it is, whatever
+is more. A mutant that takes longer hangs the driver: whoever runs the suite sees that."""
+HANGS = " (hangs)"
+FAILS = " (fails)"
+STUMBLES = (ArithmeticError, AssertionError, AttributeError, LookupError, TypeError, ValueError)
+"""What a case may raise that expected an answer of another shape: it notices, without words."""
+NEAR = 12
+"""Lines: what a case has noticed this near to a mutant counts more than what it has elsewhere."""
+
+
+BEHIND = 16
+"""Mutants that may be under way: what comes of these is not known to the next one."""
+_CASES = {case.name: case for case in CASES}
+
+
+class _Hung(Exception):
+    pass
+
+
+@dataclass(frozen=True, slots=True)
+class Noticed:
+    """What became of a mutant at `path` and `line`: `by` names the case that noticed it, empty:
+    none did.
+
+    `tried`: the cases that were; `left`: how many more execute it and were not tried; `elapsed`:
+    s of CPU.
+    """
+
+    path: str
+    line: int
+    by: str
+    elapsed: float = 0.0
+    tried: tuple[str, ...] = ()
+    left: int = 0
+
+
+VERDICTS = TypeAdapter(Noticed)
+
+
+@dataclass(frozen=True, slots=True)
+class Learned:
+    """How many mutants each case has noticed: near to one, and elsewhere."""
+
+    near: dict[str, int] = field(default_factory=dict)
+    elsewhere: dict[str, int] = field(default_factory=dict)
+
+
+class Learning:
+    """What the verdicts so far say about a mutant that comes next."""
+
+    def __init__(self, names: Collection[str]) -> None:
+        self._names = frozenset(names)
+        self._noticed: list[tuple[str, int, str]] = []
+
+    def learn(self, verdict: Noticed) -> None:
+        """A mutant was noticed by this case: it may well notice the next one, too."""
+        name = verdict.by.removesuffix(HANGS).removesuffix(FAILS)
+        if name in self._names:
+            self._noticed.append((verdict.path, verdict.line, name))
+
+    def about(self, mutant: Mutant) -> Learned:
+        """What counts for this mutant."""
+        near: Counter[str] = Counter()
+        elsewhere: Counter[str] = Counter()
+        for path, line, name in self._noticed:
+            is_near = path == mutant.path and abs(line - mutant.line) <= NEAR
+            (near if is_near else elsewhere)[name] += 1
+        return Learned(dict(near), dict(elsewhere))
+
+
+@dataclass(frozen=True, slots=True)
+class Question:
+    """A mutant to be judged with `budget` s of CPU; `already` did not notice it."""
+
+    mutant: Mutant
+    budget: float = math.inf
+    already: tuple[str, ...] = ()
+    learned: Learned = field(default_factory=Learned)
+
+
+@dataclass(frozen=True, slots=True)
+class Grounds:
+    """What every worker has: a system, its cases by name, and what these do with it as it is."""
+
+    config: RobotConfig
+    system: System
+    cases: tuple[str, ...]
+    setting: Setting
+    text: str
+    """Of the program that judges; another one is refused."""
+    row: str = ""
+    """Behind the names of tried cases: what the setting is called."""
+    usual: dict[str, float] = field(default_factory=dict)
+    """s of CPU of each case: how long a mutant is waited for."""
+    costs: dict[str, int] = field(default_factory=dict)
+    """Statements that each case executes: what is cheap is tried first, on any machine."""
+    lines: dict[str, set[tuple[str, int]]] = field(default_factory=dict)
+    """What each case executes."""
+    kept: "list[Starter | Judge]" = field(default_factory=list)
+    """What a worker keeps between two pieces."""
+
+
+def grounds(
+    config: RobotConfig,
+    system: System,
+    cases: Sequence[Behaviour],
+    hire: Callable[[Grounds], Workers],
+    setting: Setting | None = None,
+    row: str = "",
+) -> Grounds:
+    """Run all cases once. Raises ValueError when one does not hold without a mutation."""
+    names = tuple(case.name for case in cases)
+    bare = Grounds(config, system, names, setting or Setting(), _own_text(), row)
+    with hire(bare) as workers:
+        outcomes = list(each(workers, names, _as_it_is))
+    for outcome in outcomes:
+        if not outcome.passed:
+            raise ValueError(f"{outcome.case} does not hold: {outcome.detail}")
+    usual = {o.case: o.elapsed for o in outcomes}
+    lines = {
+        o.case: {(p, n) for p, lines in o.lines.items() for n, hits in lines.items() if hits}
+        for o in outcomes
+    }
+    costs = {o.case: 1 + sum(sum(own.values()) for own in o.lines.values()) for o in outcomes}
+    return replace(bare, usual=usual, costs=costs, lines=lines, kept=[])
+
+
+def _own_text() -> str:
+    folder = Path(__file__).parent
+    texts = [(folder / name).read_bytes() for name in ("judging.py", "driver.py")]
+    return hashlib.sha256(b"\0".join(texts)).hexdigest()
+
+
+def _same_text(given: Grounds) -> None:
+    """Refuse to work for a checkout of another state. Raises RuntimeError."""
+    if given.text != _own_text():
+        raise RuntimeError("this worker's checkout is not that of whoever asks")
+
+
+def _as_it_is(given: Grounds, name: str):
+    _same_text(given)
+    if not given.kept:
+        setting = replace(given.setting, coverage=True)
+        given.kept.append(Starter(given.config, given.system, setting))
+    # Plots and the log are of no use here.
+    return replace(given.kept[0].attempt(_CASES[name]), series=(), log=())
+
+
+def judged(given: Grounds, question: Question) -> Noticed:
+    """A piece of work: the verdict on one mutant."""
+    _same_text(given)
+    if not given.kept:
+        given.kept.append(Judge(given))
+    return given.kept[0].judge(question)
+
+
+def verdicts(
+    questions: Sequence[Question], learning: Learning, key: Callable[[int], str]
+) -> Workload[Question, Noticed]:
+    """Mutants in their order; each is asked about with what was learned from all but the last
+    few before it, whoever works and however many do. `key` of a question's number."""
+
+    def item(number: int) -> Question:
+        question = questions[number]
+        return replace(question, learned=learning.about(question.mutant))
+
+    def take(verdict: Noticed) -> Noticed:
+        learning.learn(verdict)
+        return verdict
+
+    numbers = {id(question.mutant): number for number, question in enumerate(questions)}
+    return Workload(
+        "mutants",
+        len(questions),
+        judged,
+        item,
+        lambda question: key(numbers[id(question.mutant)]),
+        VERDICTS,
+        lambda _: False,
+        needs=lambda number: max(0, number - BEHIND),
+        take=take,
+    )
+
+
+class Judge:
+    """Judges mutants of one system in copies of a booted controller."""
+
+    def __init__(self, given: Grounds) -> None:
+        self._usual, self._costs, self._lines = given.usual, given.costs, given.lines
+        self._worth = _worth(given.lines)
+        self._names, self._row = given.cases, given.row
+        self._bench = Bench(given.config, given.system, given.setting)
+        self._bench.compile()
+
+    def concerned(self, mutant: Mutant, learned: Learned) -> list[Behaviour]:
+        """The cases that execute the mutant's statement, in the order to be tried."""
+        place = (mutant.path, mutant.statement)
+        names = [n for n in self._names if not mutant.statement or place in self._lines[n]]
+        worth = {name: self._worth[name].get(mutant.path, 1.0) for name in names}
+        for name in names:
+            worth[name] += 50 * learned.near.get(name, 0) + 0.05 * learned.elsewhere.get(name, 0)
+        names.sort(key=lambda n: -worth[n] / self._costs[n])
+        return [_CASES[name] for name in names]
+
+    def judge(self, question: Question) -> Noticed:
+        """Try one case after another until one notices it, or its budget is spent."""
+        started = _spent()
+        by, tried, left = in_a_fork(partial(self._try, question))
+        mutant = question.mutant
+        return Noticed(mutant.path, mutant.line, by, _spent() - started, tried, left)
+
+    def close(self) -> None:
+        """Give the controller back."""
+        self._bench.close()
+
+    def _try(self, question: Question) -> tuple[str, tuple[str, ...], int]:
+        """Who notices the mutant, who was tried, and how many were left out."""
+        started, mutant = _spent(), question.mutant
+        try:
+            exchange(self._bench, mutant.path, mutant.text)
+        except DiagnosticError:
+            return "(not loaded)", (), 0
+        concerned = [
+            case
+            for case in self.concerned(mutant, question.learned)
+            if case.name + self._row not in question.already
+        ]
+        tried: tuple[str, ...] = ()
+        for case in concerned:
+            if _spent() - started >= question.budget:
+                return "", tried, len(concerned) - len(tried)
+            tried = (*tried, case.name + self._row)
+            try:
+                by = in_a_fork(partial(self._noticed_by, case))
+            except STUMBLES:
+                by = case.name + FAILS
+            if by:
+                return by, tried, 0
+        return "", tried, 0
+
+    def _noticed_by(self, case: Behaviour) -> str:
+        least, times = PATIENCE
+        signal.signal(signal.SIGPROF, _hang)
+        signal.setitimer(signal.ITIMER_PROF, max(least, times * self._usual[case.name]))
+        try:
+            case.prove(self._bench)
+            self._bench.healthy()
+        except NothingToProve:
+            return ""
+        except (*FAILURES, DiagnosticError):
+            return case.name
+        except _Hung:
+            return case.name + HANGS
+        return ""
+
+
+def _worth(reached: Mapping[str, set[tuple[str, int]]]) -> dict[str, dict[str, float]]:
+    """What each case is likely to notice in each file: a line counts by how few cases get there."""
+    common = Counter(place for places in reached.values() for place in places)
+    found: dict[str, dict[str, float]] = {}
+    for name, places in reached.items():
+        own = found[name] = {}
+        for path, line in places:
+            own[path] = own.get(path, 0.0) + 1 / common[path, line]
+    return found
+
+
+def _spent() -> float:
+    """s of CPU of this process and of those that it has waited for."""
+    times = os.times()
+    return times.user + times.system + times.children_user + times.children_system
+
+
+def _hang(_signal: int, _frame) -> None:
+    raise _Hung
+
+
+def exchange(bench: Bench, path: str, data: bytes) -> None:
+    """Give a module file another text, as if the controller had been booted with it.
+
+    For a bench that has not run yet, and a text that differs inside of routines only; that
+    takes a fraction of a boot's time. Raises DiagnosticError when it is no module.
+    """
+    tree = parse(data, path=path)
+    if tree.diagnostics:
+        raise DiagnosticError(*tree.diagnostics)
+    bench.system = with_module(bench.system, path, data)
+    for task in bench.controller.rapid_tasks.values():
+        for module in task.program.modules.values():
+            if module.file.path == path:
+                _exchange(task.program, module, tree)
+
+
+def _exchange(program, module, tree):
+    """Put the routines of `tree` that differ in the place of a module's own."""
+    before, module.tree = module.tree, tree
+    known = {r.name.casefold(): r for r in before.routines}
+    for node in tree.routines:
+        old = known[node.name.casefold()]
+        new_tokens = tree.source.tokens[node.first : node.last + 1]
+        if new_tokens == before.source.tokens[old.first : old.last + 1]:
+            continue
+        routine = module.routines[node.name.casefold()]
+        routine.node = node
+        program.codes.pop(program.code_name(routine), None)
+        program._linked.discard(routine)
+        program.space[routine.code] = program._stub(routine)
+        # What cannot be linked ends its task when it is called, not here.
+        with suppress(FatalError):
+            program.function(routine)

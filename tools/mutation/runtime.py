@@ -1,0 +1,202 @@
+"""A mutant of the runtime that turns it red, for each conformance file.
+
+See tools/conformance_mutants_runtime.py. Mutants are made as those of the front end
+(tools/mutation/front_end.py).
+Each is tried in a process of its own: whatever it breaks, breaks there.
+"""
+
+import os
+import signal
+import sys
+from collections import defaultdict
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+import rapidgen
+from rapidgen.machine.process import Process
+from tests.runtime.test_conformance import FILES, test_program_does_what_its_source_says
+from tools.mutation.front_end import Mutant, NoProgram, of_functions
+
+ROOMS = ("machine", "motion", "runtime", "controller")
+ROOTS = [Path(rapidgen.__file__).parent / room for room in ROOMS]
+BROAD = 50
+"""Per cent of all files that a mutant may turn red for a file that has no other."""
+SECONDS = 1.0
+"""CPU time after which a mutant hangs; a file takes some hundredths."""
+LARGEST_TRIAL = 400
+"""Mutants of rare lines that are tried for one file before its commonest lines are."""
+GREEN, RED, BROKEN = 0, 1, 2
+
+Place = tuple[str, int]
+
+
+@dataclass(frozen=True)
+class File:
+    """A conformance file and what judges it (AssertionError: red)."""
+
+    path: Path
+    judge: Callable[[Path], None]
+
+    def __str__(self) -> str:
+        return f"{self.path.parents[1].name}/{self.path.parent.name}/{self.path.name}"
+
+
+def all_files() -> list[File]:
+    """Every conformance file of the runtime."""
+    return [File(path, test_program_does_what_its_source_says) for path in FILES]
+
+
+# -- a file in a process of its own ----------------------------------------------------------
+
+
+def _apart(work: Callable[[], int], pipe: int | None = None) -> int:
+    """What `work` returns in a child; BROKEN when it dies, hangs or raises."""
+    child = os.fork()
+    if not child:
+        signal.signal(signal.SIGVTALRM, signal.SIG_DFL)
+        signal.setitimer(signal.ITIMER_VIRTUAL, SECONDS if pipe is None else 100 * SECONDS)
+        silent = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(silent, 1)
+        os.dup2(silent, 2)
+        try:
+            os._exit(work())
+        finally:
+            os._exit(BROKEN)
+    if pipe is not None:
+        return child
+    _, status = os.waitpid(child, 0)
+    return os.waitstatus_to_exitcode(status) if os.WIFEXITED(status) else BROKEN
+
+
+def _judged(file: File) -> int:
+    try:
+        file.judge(file.path)
+    except AssertionError:
+        return RED
+    return GREEN
+
+
+def outcome(file: File, mutant: Mutant | None = None) -> int:
+    """Whether a file is GREEN or RED with a mutant, or the mutant is BROKEN."""
+
+    def work() -> int:
+        if mutant is None:
+            return _judged(file)
+        try:
+            with mutant.made():
+                return _judged(file)
+        except NoProgram:
+            return BROKEN
+
+    return _apart(work)
+
+
+def executed(file: File) -> set[Place]:
+    """Lines of the runtime that a file executes."""
+    reader, writer = os.pipe()
+
+    def work() -> int:
+        lines: set[Place] = set()
+        root = tuple(map(str, ROOTS))
+
+        def local(frame, event, argument):
+            lines.add((frame.f_code.co_filename, frame.f_lineno))
+            return local
+
+        def called(frame, event, argument):
+            if frame.f_code.co_filename.startswith(root):
+                return local(frame, event, argument)
+            return None
+
+        launch = Process.launch
+
+        def traced(process: Process, body: Callable[[], None]) -> None:
+            def inside() -> None:  # every greenlet has a trace function of its own
+                sys.settrace(called)
+                body()
+
+            launch(process, inside)
+
+        Process.launch = traced  # type: ignore[method-assign]
+        sys.settrace(called)
+        try:
+            return _judged(file)
+        finally:
+            sys.settrace(None)
+            with os.fdopen(writer, "w") as stream:
+                stream.writelines(f"{line} {path}\n" for path, line in lines)
+
+    child = _apart(work, reader)
+    os.close(writer)
+    with os.fdopen(reader) as stream:
+        rows = [row.rstrip("\n").split(" ", 1) for row in stream]
+    os.waitpid(child, 0)
+    return {(path, int(line)) for line, path in rows}
+
+
+# -- the campaign ----------------------------------------------------------------------------
+
+
+class Campaign:
+    """Looks for a mutant for each file."""
+
+    def __init__(self, files: Iterable[File], every: list[File], share: float) -> None:
+        self.files = list(files)
+        self.all = every
+        self.limit = max(1, int(len(every) * share / 100))
+        self.shown: dict[File, tuple[Mutant, int]] = {}
+        """The mutant of a file, and how many files it turns red."""
+        self.tried = 0
+        self._done: set[Mutant] = set()
+        self.runs: dict[Place, list[File]] = defaultdict(list)
+        self._lines: dict[File, set[Place]] = {}
+        for file in every:
+            self._lines[file] = executed(file)
+            for place in self._lines[file]:
+                self.runs[place].append(file)
+        self._mutants: dict[Place, list[Mutant]] = defaultdict(list)
+        for root in ROOTS:
+            for mutant in of_functions(root=root, package=f"rapidgen.{root.name}"):
+                self._mutants[str(mutant.path), mutant.line].append(mutant)
+
+    @property
+    def left(self) -> list[File]:
+        """Files that no mutant has turned red."""
+        return [file for file in self.files if file not in self.shown]
+
+    def broader(self, share: float) -> None:
+        """Let mutants turn more files red from now on."""
+        self.limit = int(len(self.all) * share / 100)
+        self._done.clear()
+
+    def search(self, tell: Callable[[File], None] = lambda file: None) -> None:
+        """Try the mutants of the lines that a file executes, the rarest first."""
+        for file in self.left:
+            places = sorted(
+                self._lines[file] & self._mutants.keys(), key=lambda p: (len(self.runs[p]), p)
+            )
+            candidates = [(m, place) for place in places for m in self._mutants[place]]
+            if len(candidates) > 2 * LARGEST_TRIAL:
+                candidates = candidates[:LARGEST_TRIAL] + candidates[-LARGEST_TRIAL:]
+            for mutant, place in candidates:
+                if mutant not in self._done and self._try(mutant, file, self.runs[place]):
+                    break
+            tell(file)
+
+    def _try(self, mutant: Mutant, file: File, others: list[File]) -> bool:
+        """Whether the mutant turns `file` red, and few of `others`."""
+        self.tried += 1
+        if outcome(file, mutant) != RED:
+            return False
+        self._done.add(mutant)
+        found = [file]
+        for other in others:
+            if other is not file and outcome(other, mutant) == RED:
+                found.append(other)
+                if len(found) > self.limit:
+                    return False
+        for one in found:
+            if one in self.files:
+                self.shown.setdefault(one, (mutant, len(found)))
+        return True
