@@ -100,9 +100,9 @@ def sim(
 
     What a controller would not load is refused: all its errors are told, nothing runs. When
     its servers may be reached, stdout gets one line: `ready` and a JSON object with the ports of
-    each group, of the control socket, and of the file servers with their login. What the
-    operator and the event log would show goes to stderr. Ctrl-C ends it. The other verbs find it
-    by `--to sim`.
+    each group, of the control socket with its token, and of the file servers with their login.
+    What the operator and the event log would show goes to stderr. Ctrl-C ends it. The other verbs
+    find it by `--to sim`.
     """
     from rapidgen.cli.bootable import chosen
     from rapidgen.cli.observed import Outputs, observing
@@ -156,7 +156,7 @@ def sim(
             _recording(cabinet, look, record, watch or ()),
             observing(cabinet, wanted),
         ):
-            return _serve(cabinet, found, host, speed, {"control": control, **faces, **page})
+            return _serve(cabinet, found, host, speed, {**control, **faces, **page})
 
 
 def _serve(
@@ -219,27 +219,29 @@ def _serve(
 
 
 @contextmanager
-def _control(cabinet: "Cabinet") -> "Iterator[int]":
-    """The control socket, again after each restart; its port."""
-    from rapidgen.faces.control_commands import commands, subscribe
+def _control(cabinet: "Cabinet") -> "Iterator[Members]":
+    """The control socket, again after each restart; its port and token."""
+    from rapidgen.faces.control_commands import READABLE, commands, subscribe
     from rapidgen.faces.control_socket import ControlSocket
 
-    def opened(port: int) -> ControlSocket:
+    def opened(port: int, token: str) -> ControlSocket:
         controller = cabinet.controller
-        # Whoever may command the controller is on this machine, whoever may reach its servers.
+        # Loopback whatever `--host` says.
         return ControlSocket(
             controller.scheduler,
             commands(controller),
-            lambda listener: subscribe(controller, listener),
+            lambda listener, trusted: subscribe(controller, listener, trusted),
+            readable=READABLE,
             port=port,
+            token=token,
         )
 
-    control = opened(0)
-    port = control.address[1]
+    control = opened(0, "")
+    port, token = control.address[1], control.token
 
     def again() -> None:
         nonlocal control
-        control = opened(port)
+        control = opened(port, token)
 
     def down() -> None:
         control.close()
@@ -247,7 +249,7 @@ def _control(cabinet: "Cabinet") -> "Iterator[int]":
     cabinet.on_restart.append(down)
     cabinet.on_boot.append(again)
     try:
-        yield port
+        yield {"control": port, "token": token}
     finally:
         control.close()
 

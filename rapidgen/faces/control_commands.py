@@ -19,6 +19,9 @@ from rapidgen.runtime.values import Type
 _LARGEST = 1e300
 _MODES: tuple[OperatingMode, ...] = get_args(OperatingMode)
 
+READABLE = frozenset({"status", "signals", "get", "log", "screen", "questions", "where"})
+"""Requests that change nothing; a new one needs the token unless it is listed here."""
+
 
 def commands(controller: VirtualController) -> dict[str, Command]:
     """Every request's function, by the word in `do`."""
@@ -43,8 +46,13 @@ def commands(controller: VirtualController) -> dict[str, Command]:
     return found
 
 
-def subscribe(controller: VirtualController, listener: Listener) -> Callable[[], None]:
-    """Send new log entries, texts on the screen and dialogs; the result ends that."""
+def subscribe(
+    controller: VirtualController, listener: Listener, trusted: bool = True
+) -> Callable[[], None]:
+    """Send new log entries, texts on the screen and dialogs; the result ends that.
+
+    Dialogs wait for the client only if it is `trusted`: another one could not answer.
+    """
     known: set[int] = set()
 
     def asked() -> None:
@@ -58,8 +66,9 @@ def subscribe(controller: VirtualController, listener: Listener) -> Callable[[],
         controller.operator.subscribe(
             lambda task, text: listener({"event": "screen", "task": task, "text": text})
         ),
-        controller.operator.attach(),
     ]
+    if trusted:
+        ends.append(controller.operator.attach())
     controller.operator.asked.add(asked)
 
     def end() -> None:

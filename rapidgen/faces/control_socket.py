@@ -1,18 +1,22 @@
 """A JSON socket beside the controller: one JSON object a line, one answer a line.
 
 Request `{"do": "signals", ...}` with an optional `id`; answer `{"ok": true, "result": ...}` or
-`{"ok": false, "error": "..."}` with the same `id`. After `{"do": "subscribe"}` events come in
-between as `{"event": ...}`. What can be done is `control_commands.py`'s; here are lines, limits and
-clients that misbehave. The connection is closed at a line that is no JSON object: a web page
-can send an HTTP request here, whose body would be carried out behind its header. It also closes
-at a line that is too long, and where a client reads too slowly.
+`{"ok": false, "error": "..."}` with the same `id`. What changes something is refused without the
+`token`, which only those have who started the simulator or were given it. After
+`{"do": "subscribe"}` events come in between as `{"event": ...}`. What can be done is
+`control_commands.py`'s; here are lines, limits and clients that misbehave. The connection is
+closed at a line that is no JSON object: a web page can send an HTTP request here, whose body would
+be carried out behind its header. It also closes at a line that is too long, and where a client
+reads too slowly.
 """
 
+import hmac
 import json
 import math
+import secrets
 import selectors
 import socket
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from typing import TypeAlias
 
 from rapidgen._json import Json, Members
@@ -26,7 +30,8 @@ MAX_UNREAD = 1_048_576
 Command: TypeAlias = Callable[[Members], Json]
 """What carries out a request, and its result."""
 Listener: TypeAlias = Callable[[Members], None]
-Subscribe: TypeAlias = Callable[[Listener], Callable[[], None]]
+Subscribe: TypeAlias = Callable[[Listener, bool], Callable[[], None]]
+"""Begins a subscription; the flag says whether the client may change something."""
 
 
 def _finite(text: str) -> float:
@@ -55,8 +60,8 @@ class _Client:
 class ControlSocket:
     """Serves `commands` on a port of this machine, through the scheduler's selector.
 
-    `subscribe(listener)` makes events flow and returns what ends that. OSError: the port cannot
-    be had.
+    Those in `readable` need no token. `subscribe(listener, trusted)` makes events flow and
+    returns what ends that. OSError: the port cannot be had.
     """
 
     def __init__(
@@ -65,9 +70,14 @@ class ControlSocket:
         commands: Mapping[str, Command],
         subscribe: Subscribe,
         *,
+        readable: Collection[str] = (),
+        token: str = "",
         host: str = "127.0.0.1",
         port: int = 0,
     ) -> None:
+        self.token = token or secrets.token_urlsafe(24)
+        """What a request must have as `token` to change something."""
+        self._readable = frozenset(readable)
         self._scheduler = scheduler
         self._commands = commands
         self._subscribe = subscribe
@@ -169,15 +179,36 @@ class ControlSocket:
         return {**answer, "ok": True, "result": result}
 
     def _perform(self, client: _Client, name: str, request: Members) -> Json:
+        trusted = self._has_token(request)
         if name == "subscribe":
-            if client.end is None:
-                client.end = self._subscribe(lambda event: self._send(client, event))
+            former = client.end
+            if former is None or trusted:
+                client.end = self._subscribe(lambda event: self._send(client, event), trusted)
+                if former is not None:
+                    former()
             return None
         command = self._commands.get(name)
         if command is None:
             known = ", ".join(sorted([*self._commands, "subscribe"]))
             raise CommandError(f"cannot do '{name}'; can do {known}")
+        if name not in self._readable and not trusted:
+            raise CommandError(
+                f"'{name}' changes the controller and needs the 'token' that the line "
+                "'ready' of the simulator gives"
+            )
         return command(request)
+
+    def _has_token(self, request: Members) -> bool:
+        """Whether a request has the right token. CommandError: it has another one."""
+        if "token" not in request:
+            return False
+        given = request["token"]
+        # A JSON text may have half of a surrogate pair, which has no UTF-8.
+        if isinstance(given, str) and hmac.compare_digest(
+            given.encode("utf-8", "surrogatepass"), self.token.encode()
+        ):
+            return True
+        raise CommandError("the 'token' is not that of this simulator")
 
     def _send(self, client: _Client, message: Members) -> None:
         if client not in self._clients:

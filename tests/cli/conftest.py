@@ -29,6 +29,7 @@ class Running:
         return socket.create_connection((self.ready["host"], port), timeout=60)
 
     def control(self, **request):
+        request = {"token": self.ready["token"], **request}
         with self.connect(self.ready["control"]) as sock, sock.makefile("rw") as file:
             file.write(json.dumps(request) + "\n")
             file.flush()

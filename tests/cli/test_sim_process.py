@@ -51,6 +51,11 @@ def test_a_shipped_robot_serves_moves_and_ends_cleanly(start):
 def test_the_control_socket_commands_the_controller(start):
     sim = start("irb120", "--ports", "auto")
     assert sim.control(do="status")["result"]["motors_on"] is True
+    for token in ({"token": sim.ready["token"][:-1]}, {"token": ""}):
+        refused = sim.control(do="e-stop", **token)
+        assert not refused["ok"]
+        assert "token" in refused["error"]
+    assert sim.control(do="status")["result"]["e_stop"] is False
     assert sim.control(do="e-stop")["ok"]
     status = sim.control(do="status")["result"]
     assert (status["motors_on"], status["e_stop"]) == (False, True)

@@ -15,15 +15,23 @@ def served():
     scheduler = Scheduler(clock="real")
     listeners = []
 
-    def subscribe(listener):
-        listeners.append(listener)
-        return lambda: listeners.remove(listener)
+    def subscribe(listener, trusted):
+        listeners.append((listener, trusted))
+        return lambda: listeners.remove((listener, trusted))
 
     def fail(_request):
         raise CommandError("cannot be done")
 
-    commands = {"echo": lambda request: request.get("value"), "fail": fail}
-    control = ControlSocket(scheduler, commands, subscribe)
+    changed = []
+    commands = {
+        "echo": lambda request: request.get("value"),
+        "fail": fail,
+        "change": lambda request: changed.append(request["value"]),
+        "changes": lambda _request: [*changed],
+    }
+    control = ControlSocket(
+        scheduler, commands, subscribe, readable=("echo", "fail", "changes"), token="good-token"
+    )
     yield scheduler, control, listeners
     control.close()
     scheduler.close()
@@ -88,7 +96,7 @@ def test_requests_and_answers(served):
     [
         (b"{}", "object"),
         (b'{"do": 3}', "object"),
-        (b'{"do": "dance"}', "can do echo, fail, subscribe"),
+        (b'{"do": "dance"}', "can do change, changes, echo, fail, subscribe"),
     ],
 )
 def test_unknown_request_gets_an_answer_and_the_connection_stays(served, line, words):
@@ -99,6 +107,70 @@ def test_unknown_request_gets_an_answer_and_the_connection_stays(served, line, w
         assert answer["ok"] is False
         assert words in answer["error"]
         assert ask(scheduler, sock, {"do": "echo", "value": 1})[0]["ok"]
+
+
+@pytest.mark.parametrize(
+    "given",
+    [
+        {},
+        {"token": ""},
+        {"token": None},
+        {"token": "good-toke"},
+        {"token": "good-token "},
+        {"token": ["good-token"]},
+        {"token": "good-tok\u00e9n"},
+        {"token": "\ud800"},
+        {"Token": "good-token"},
+    ],
+)
+def test_a_change_without_the_token_is_refused_with_a_reason(served, given):
+    scheduler, control, _ = served
+    with client(control) as sock:
+        refused, changes, done, after = ask(
+            scheduler,
+            sock,
+            {"do": "change", "value": 1, "id": 1, **given},
+            {"do": "changes"},
+            {"do": "change", "value": 2, "token": "good-token"},
+            {"do": "changes"},
+        )
+    assert (refused["ok"], refused["id"]) == (False, 1)
+    assert "token" in refused["error"]
+    assert "good-token" not in refused["error"]
+    assert changes["result"] == []
+    assert done["ok"]
+    assert after["result"] == [2]
+
+
+def test_the_token_is_of_one_request_and_not_of_the_connection(served):
+    scheduler, control, _ = served
+    with client(control) as sock:
+        first, second = ask(
+            scheduler,
+            sock,
+            {"do": "change", "value": 1, "token": "good-token"},
+            {"do": "change", "value": 2},
+        )
+    assert (first["ok"], second["ok"]) == (True, False)
+
+
+def test_each_socket_makes_a_token_of_its_own():
+    scheduler = Scheduler(clock="real")
+    made = [ControlSocket(scheduler, {}, lambda *_: lambda: None) for _ in range(2)]
+    assert len({control.token for control in made}) == 2
+    assert all(len(control.token) >= 32 for control in made)
+    for control in made:
+        control.close()
+    scheduler.close()
+
+
+def test_a_subscription_is_trusted_with_the_token_only(served):
+    scheduler, control, listeners = served
+    token = {"token": "good-token"}
+    with client(control) as sock:
+        for given, trusted in (({}, False), (token, True), ({}, True), (token, True)):
+            ask(scheduler, sock, {"do": "subscribe", **given})
+            assert [flag for _, flag in listeners] == [trusted]
 
 
 def test_a_line_without_end_is_cut_off(served):
@@ -116,7 +188,7 @@ def test_events_flow_after_subscribe_and_end_with_the_client(served):
     scheduler, control, listeners = served
     with client(control) as sock:
         ask(scheduler, sock, {"do": "subscribe"})
-        listeners[0]({"event": "log", "code": 10_011})
+        listeners[0][0]({"event": "log", "code": 10_011})
         assert receive(scheduler, sock) == [{"event": "log", "code": 10_011}]
     until(scheduler, lambda: not listeners)
 
@@ -128,7 +200,7 @@ def test_a_client_that_does_not_read_is_dropped(served):
         for _ in range(2000):
             if not listeners:
                 break
-            listeners[0]({"event": "x", "text": "y" * 10_000})
+            listeners[0][0]({"event": "x", "text": "y" * 10_000})
         assert not listeners
 
 

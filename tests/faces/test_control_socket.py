@@ -8,7 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rapidgen.faces.control_commands import commands, subscribe
+from rapidgen.controller.operation import ACTIONS
+from rapidgen.faces.control_commands import READABLE, commands, subscribe
 from rapidgen.faces.control_socket import ControlSocket
 from rapidgen.system.model import SignalSpec
 from tests.runtime.booting import boot
@@ -29,8 +30,9 @@ PROGRAM = """
 class Client:
     """One connection: a line out, a line in."""
 
-    def __init__(self, port: int) -> None:
+    def __init__(self, port: int, token: str) -> None:
         self.port = port
+        self.token = token
         self.connect()
 
     def connect(self) -> None:
@@ -49,7 +51,7 @@ class Client:
         return answer
 
     def ask(self, do: str, **request: object) -> dict:
-        return self.send(json.dumps({"do": do, **request}).encode())
+        return self.send(json.dumps({"do": do, "token": self.token, **request}).encode())
 
     def close(self) -> None:
         self.file.close()
@@ -61,11 +63,14 @@ def client():
     controller, _ = boot(PROGRAM, signals=(SignalSpec("di", "DI"),), clock="real")
     with controller:
         control = ControlSocket(
-            controller.scheduler, commands(controller), lambda tell: subscribe(controller, tell)
+            controller.scheduler,
+            commands(controller),
+            lambda tell, trusted: subscribe(controller, tell, trusted),
+            readable=READABLE,
         )
         controller.start_program()
         controller.start()
-        made = Client(control.address[1])
+        made = Client(control.address[1], control.token)
         yield made
         made.close()
         controller.call(control.close)
@@ -82,6 +87,48 @@ def test_values(client: Client) -> None:
     for name in ("c", "sock", "nothing", "x:n"):
         assert not client.ask("set", task="T1", name=name, value="1")["ok"]
     assert not client.ask("get", task="T1", name="sock")["ok"]
+
+
+def test_every_request_that_may_change_something_needs_the_token(client: Client) -> None:
+    known = client.ask("?")["error"].split("can do ")[1].split(", ")
+    changing = sorted({*known} - READABLE - {"subscribe"})
+    assert {*ACTIONS, "mode", "override", "set", "set-signal", "answer", "step"} == {*changing}
+    before = client.ask("status")["result"]
+    request = {"task": "T1", "name": "di", "value": 1, "number": 1}
+    for do in changing:
+        answer = client.send(json.dumps({**request, "do": do}).encode())
+        assert not answer["ok"]
+        assert "token" in answer["error"]
+    after = client.ask("status")["result"]
+    assert {**before, "time": 0} == {**after, "time": 0}
+    assert client.ask("signals")["result"] == {"di": 0}
+    for do in sorted(READABLE):
+        answer = client.send(json.dumps({"do": do, "task": "T1", "name": "n"}).encode())
+        assert answer["ok"], answer
+
+
+DIALOG = """
+  VAR num n;
+  PROC main()
+    TPReadNum n, "how many";
+  ERROR
+    TPWrite "nobody";
+  ENDPROC
+"""
+
+
+@pytest.mark.parametrize(("trusted", "shown"), [(False, "nobody"), (True, None)])
+def test_a_dialog_waits_only_for_who_may_answer(trusted: bool, shown: str | None) -> None:
+    controller, _ = boot(DIALOG)
+    with controller:
+        told = []
+        end = subscribe(controller, told.append, trusted)
+        controller.start_program()
+        controller.run_for(1.0)
+        asked = [event["text"] for event in told if event["event"] == "question"]
+        wrote = [event["text"] for event in told if event["event"] == "screen"]
+        assert (asked, wrote) == ((["how many"], []) if trusted else ([], [shown]))
+        end()
 
 
 def test_step(client: Client) -> None:
@@ -143,13 +190,15 @@ WORDS = sorted(
 @given(
     st.sampled_from(WORDS) | st.text(),
     st.dictionaries(
-        st.sampled_from(["task", "name", "value", "number", "since", "group", "id"]), VALUES
+        st.sampled_from(["task", "name", "value", "number", "since", "group", "id", "without"]),
+        VALUES,
     ),
 )
 def test_any_request_gets_an_answer(client: Client, do: str, request: dict) -> None:
     if do in ("e-stop", "stop", "power-loss", "manual", "motors-off", "subscribe"):
         return
-    answer = client.send(json.dumps({**request, "do": do}).encode())
+    token = {} if "without" in request else {"token": client.token}
+    answer = client.send(json.dumps({**request, **token, "do": do}).encode())
     assert answer["ok"] or answer["error"]
 
 
@@ -167,9 +216,9 @@ def test_any_request_gets_an_answer(client: Client, do: str, request: dict) -> N
 )
 def test_request_of_a_web_page_is_not_executed(client: Client, header: bytes) -> None:
     client.ask("set", task="t1", name="m:n", value="1")
-    order = b'{"do": "set", "task": "t1", "name": "m:n", "value": "7"}\n'
-    other = Client(client.port)
-    other.socket.sendall(header + order)
+    order = {"do": "set", "token": client.token, "task": "t1", "name": "m:n", "value": "7"}
+    other = Client(client.port, client.token)
+    other.socket.sendall(header + json.dumps(order).encode() + b"\n")
     with contextlib.suppress(ConnectionResetError):
         answers = other.file.read().splitlines()
         assert [json.loads(answer)["ok"] for answer in answers] == [False]
@@ -179,7 +228,7 @@ def test_request_of_a_web_page_is_not_executed(client: Client, header: bytes) ->
 
 def test_a_line_without_end_is_cut_off(client: Client) -> None:
     port = client.socket.getpeername()[1]
-    other = Client(port)
+    other = Client(port, client.token)
     other.socket.sendall(b"x" * 100_000)
     assert not json.loads(other.file.readline())["ok"]
     with contextlib.suppress(ConnectionResetError):  # what was never read makes it a reset

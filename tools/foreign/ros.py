@@ -116,15 +116,17 @@ class Simulated:
     def _start(self) -> None:
         self.process = Process(self._command, {"NO_COLOR": "1"})
         ready = self.process.line_with("ready {", 60)
-        port = json.loads(ready.removeprefix("ready "))["control"]
-        self._socket = socket.create_connection(("127.0.0.1", port), timeout=20)
+        addresses = json.loads(ready.removeprefix("ready "))
+        self._token = addresses["token"]
+        self._socket = socket.create_connection(("127.0.0.1", addresses["control"]), timeout=20)
         self._lines = self._socket.makefile("rb")
         self._lock = threading.Lock()
 
     def ask(self, do: str, **what: object) -> object:
         """One request at the control socket."""
         with self._lock:
-            self._socket.sendall(json.dumps({"do": do, **what}).encode() + b"\n")
+            request = {"do": do, "token": self._token, **what}
+            self._socket.sendall(json.dumps(request).encode() + b"\n")
             answer = json.loads(self._lines.readline())
         assert answer["ok"], answer
         return answer["result"]
