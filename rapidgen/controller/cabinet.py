@@ -121,6 +121,8 @@ class Cabinet:
     def _restart(self) -> None:
         with self._lock:
             self._up = False
+        # What was taken is carried out: whoever posted it waits for it.
+        self.controller.scheduler.run_posted()
         for tell in tuple(self.on_restart):
             tell()
         old, programs = self.controller, self.programs

@@ -310,7 +310,7 @@ class Scheduler:
         until, stop = self._until, self._stop
         while True:
             if self._posted:
-                self._run_posted()
+                self.run_posted()
             if self._stopping or (stop is not None and stop()):
                 return "stop"
             if self._paused:
@@ -339,7 +339,7 @@ class Scheduler:
             if self._posted:
                 if not self._paused:
                     self._come_up(self._wall())
-                self._run_posted()
+                self.run_posted()
             if self._stopping or (stop is not None and stop()):
                 return "stop"
             if self._paused:
@@ -421,7 +421,8 @@ class Scheduler:
             except BlockingIOError:
                 return
 
-    def _run_posted(self) -> None:
+    def run_posted(self) -> None:
+        """Run what other threads posted; where nobody else does so any more."""
         for _ in range(len(self._posted)):
             self._posted.popleft()()
 
@@ -544,7 +545,7 @@ class Scheduler:
         self.running = None
         self._fire_before(end)
         if self._posted:
-            self._run_posted()
+            self.run_posted()
         over = end > process.slice_end
         if over and self.ready:
             self.ready.append(process)

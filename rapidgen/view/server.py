@@ -33,6 +33,8 @@ _TYPES: Final = {
 LOOKS: Final = 1 / 30
 """s between two looks at what is watched."""
 _LARGEST: Final = 1_048_576
+UNANSWERED: Final = 8
+"""Requests of one viewer that may wait for their answers; further ones stay in its connection."""
 Answer = Callable[[web.Request], Awaitable[web.StreamResponse]]
 
 
@@ -201,8 +203,15 @@ class _Server:
         def join() -> None:
             self._thread.soon(partial(self._begin, viewer, self.hub.join()))
 
+        # What is not read fills the connection, so that a viewer that floods only blocks itself.
+        places = asyncio.Semaphore(UNANSWERED)
+
+        def answer(frame: bytes) -> None:
+            places.release()
+            viewer.send(frame)
+
         def ask(text: str) -> None:
-            self._thread.soon(partial(viewer.send, text_frame(self.hub.ask(text).data)))
+            self._thread.soon(partial(answer, text_frame(self.hub.ask(text).data)))
 
         self._viewers[viewer] = socket
         _LOG.info("a page looks: %d now", len(self._viewers))
@@ -210,7 +219,9 @@ class _Server:
         try:
             async for message in socket:
                 if message.type is WSMsgType.TEXT:
-                    self._watched.post(partial(ask, message.data))
+                    await places.acquire()
+                    if not self._watched.post(partial(ask, message.data)):
+                        places.release()
         finally:
             del self._viewers[viewer]
             viewer.close()

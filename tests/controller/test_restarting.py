@@ -1,0 +1,23 @@
+"""A controller with a power switch: what was asked of it before a restart is done."""
+
+from rapidgen.controller.booting import load_target
+from rapidgen.controller.cabinet import Cabinet
+
+PROGRAM = "MODULE m\n PROC main()\n  WaitTime 100;\n ENDPROC\nENDMODULE\n"
+
+
+def test_what_was_taken_before_a_restart_is_carried_out(tmp_path):
+    path = tmp_path / "m.mod"
+    path.write_text(PROGRAM)
+    done, taken = [], []
+    with Cabinet.boot(load_target([path]), clock="real") as cabinet:
+
+        def restart_and_more():
+            cabinet.ask_restart()
+            taken.append(cabinet.post(lambda: done.append(cabinet.restarts)))
+
+        cabinet.on_restart.append(lambda: taken.append(cabinet.post(lambda: done.append(-1))))
+        cabinet.post(restart_and_more)
+        cabinet.run(lambda: cabinet.restarts == 1)
+    assert taken == [True, False]
+    assert done == [0]
