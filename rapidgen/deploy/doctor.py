@@ -203,6 +203,9 @@ def _live(plan: Plan, live: LivePlan, generation: Generation) -> Iterator[Check]
     if lacking:
         mend = "RobotStudio, User Authorization: give it to this user, or log in as another"
         yield Check("grants", "warn", f"the user lacks {', '.join(lacking)}", mend)
+    if live.silent:
+        what = f"{', '.join(live.silent)} of the driver stand: its ports do not answer"
+        yield Check("tasks", "fail", what, "`rapidgen deploy --restart`, or menu > Restart")
     if plan.is_pending:
         mend = "`rapidgen deploy --restart`, or menu > Restart"
         yield Check("restart", "warn", "everything is loaded: a restart is pending", mend)

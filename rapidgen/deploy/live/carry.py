@@ -14,6 +14,8 @@ from typing import TYPE_CHECKING
 
 from rapidgen.client.errors import NotReady, NotSupported, RobotError
 from rapidgen.client.rws import RwsError
+from rapidgen.client.rws.core import APPLICATION
+from rapidgen.client.rws.model import Holder
 from rapidgen.deploy.live.memory import forget_saved, rearrange
 from rapidgen.deploy.live.plan import LivePlan
 from rapidgen.deploy.live.proof import ReadBack, prove, way_back
@@ -32,6 +34,8 @@ _LOOK = 1.0
 """s between two looks whether a person has done it."""
 _PROMPT = 10.0
 """s that a question of RMMP stands on the pendant [RWS manual]."""
+_SESSION_ENDS = 310.0
+"""s after which the session of a run that was killed has ended: 300 s idle [RWS manual]."""
 _MANUAL = ("MANR", "MANF")
 _SCRATCH = "TEMP/rapidgen_{}.cfg"
 
@@ -84,6 +88,7 @@ def check(run: Live) -> None:
             f"the user lacks {', '.join(lacking)} at {target}",
             "give it in RobotStudio, or log in as another; nothing was changed",
         )
+    _await_earlier_run(run)
     _await(run)
     if run.plan.wanted is None and live.touches_memory and not run.rearranges:
         others = sorted(set(live.started) - set(live.owned))
@@ -92,6 +97,34 @@ def check(run: Live) -> None:
             f"taking modules out stops {', '.join(others)} on {target}, which is not the driver's",
             "say --restart: a warm start brings it back",
         )
+
+
+def _await_earlier_run(run: Live) -> None:
+    """Wait while another run of rapidgen has mastership, also one that was killed.
+
+    Nothing has been stopped or written yet. `_await` refuses what is still held then.
+    """
+    left, told = max(run.options.wait, _SESSION_ENDS), False
+    while (who := _holder(run)) is not None and who.application == APPLICATION and left > 0:
+        if not told:
+            run.work.say(
+                f"waiting for mastership of {who.domain}, which {who} has: another run of "
+                "rapidgen. If that was killed, the controller ends its session after five idle "
+                "minutes; nothing has been changed yet"
+            )
+            told = True
+        go_on(run.work)
+        run.options.pause(_LOOK)
+        left -= _LOOK
+
+
+def _holder(run: Live) -> Holder | None:
+    """Another session that has mastership of what is written."""
+    for domain in ("cfg", "rapid"):
+        who = run.services.holder(domain)
+        if who is not None and not who.mine:
+            return who
+    return None
 
 
 def _await(run: Live) -> None:
@@ -137,6 +170,9 @@ def _missing(run: Live, *, granted: bool) -> tuple[str, str] | None:
     if mode != "AUTO" and not (granted and mode in _MANUAL):
         what = f"{target} is in mode {mode or '?'}, which lets nobody write from afar"
         return what, "switch it to automatic at the pendant and acknowledge"
+    if (who := _holder(run)) is not None:
+        what = f"mastership of {who.domain} at {target} is held by {who}"
+        return what, "let them give it back, or end their session"
     stops = (run.options.restart and run.live.restart) or run.rearranges
     if stops and run.services.execution().running:
         what = f"the program of {target} runs, and what is planned stops it"
@@ -160,7 +196,7 @@ def before_files(run: Live) -> None:
     with _steps(run):
         _back_up(run)
         if run.plan.wanted is None and run.rearranges:
-            rearrange(run.services, run.work, run.live)
+            rearrange(run.services, run.work, run.live, run.options.wait)
             forget_saved(run.work, run.live)
         if not run.live.touches_cfg:
             return
@@ -192,7 +228,7 @@ def after_files(run: Live) -> None:
                     _delete(run, run.live.again)
                     _load(run)
             if run.rearranges:
-                rearrange(run.services, run.work, run.live)
+                rearrange(run.services, run.work, run.live, run.options.wait)
     if not run.live.restart:
         if run.plan.wanted is not None and run.rearranges:
             # NORMAL tasks that stood: their program is there, and waits to be started.

@@ -47,8 +47,10 @@ def save(services: "Controller", work: Work, module: InMemory) -> None:
     write(work, path, data)
 
 
-def rearrange(services: "Controller", work: Work, live: LivePlan) -> None:
+def rearrange(services: "Controller", work: Work, live: LivePlan, wait: float) -> None:
     """Take out what goes, bring in what comes; every background task stands afterwards.
+
+    `wait`: s for somebody else's mastership.
 
     Raises RobotError, TransportFault; DiagnosticError RG543 when a module is not where it should.
     """
@@ -56,9 +58,12 @@ def rearrange(services: "Controller", work: Work, live: LivePlan) -> None:
         work.say(f"saving {module.shown}")
         save(services, work, module)
     if live.started:
+        # What cannot be loaded shall not be stopped.
+        with services.mastership("rapid", wait=wait):
+            pass
         work.say(f"stopping {', '.join(live.started)}")
         services.stop(everything=True)
-    with services.mastership("rapid"):
+    with services.mastership("rapid", wait=wait):
         _leave(services, live)
         for module in (*live.clash, *live.unload):
             work.say(f"unloading {module.shown}")

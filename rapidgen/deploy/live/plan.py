@@ -87,6 +87,8 @@ class LivePlan:
     """Background tasks that run: whatever changes memory stops them."""
     owned: tuple[str, ...] = ()
     """Those of them that a deployment brought."""
+    silent: tuple[str, ...] = ()
+    """Background tasks of the driver that stand: a run that was killed had stopped them."""
     pointers: tuple[str, ...] = ()
     """NORMAL tasks that are not the driver's: where no pointer can be set alone, theirs go, too."""
     mains: tuple[tuple[str, str], ...] = ()
@@ -180,6 +182,12 @@ def make_live_plan(
         hot = set() if background else _loaded_whole(wanted, replace)
         stale = stale or any(view.builds.get(t) != wanted.build_id for t in needed - hot)
     known = needed | {t.casefold() for names in old.values() for t in names}
+    # Nobody starts them but a restart, also where all modules are those that are wanted.
+    silent = tuple(
+        t.name
+        for t in view.tasks
+        if t.kind != "normal" and t.execution != "started" and t.name.casefold() in needed
+    )
     needful = [t for t in load if not may_be_refused(t)]
     return LivePlan(
         view.id,
@@ -193,10 +201,11 @@ def make_live_plan(
         unload,
         replace,
         restore,
-        bool(delete or again or change or needful or stale or view.orphans),
+        bool(delete or again or change or needful or stale or silent or view.orphans),
         dict(symbols),
         tuple(t.name for t in background),
         tuple(t.name for t in background if t.name.casefold() in known),
+        silent,
         tuple(t.name for t in view.tasks if t.kind == "normal" and t.name.casefold() not in known),
         _mains(view, wanted),
         view.running,
@@ -284,6 +293,7 @@ def live_steps(
     if live.restart:
         others = sorted(set(live.started) - set(live.owned))
         beside = f"; it stops {', '.join(others)}, too" if others else ""
+        beside += f"; it starts {', '.join(live.silent)}, which stand" if live.silent else ""
         what = f"a warm start: --restart does it, or menu > Restart{beside}"
         steps.append(ManualStep("you", what, stops_motion=True))
     if verb != "uninstall":

@@ -11,6 +11,7 @@ from rapidgen.deploy.doctor import _contents
 from rapidgen.deploy.live.proof import ReadBack
 from rapidgen.deploy.session import check_plans, earlier_set, write_plans
 from rapidgen.deploy.show import plan_text
+from rapidgen.diagnostics import DiagnosticError
 from rapidgen.wire.rws.bodies import Generation
 from tests.refusal import refusal, refused
 
@@ -374,3 +375,88 @@ def test_no_password_in_what_is_said(rws, cell, wanted, tmp_path):
     told = [*said, plan_text(plan), (tmp_path / "plan.json").read_text(), repr(plan)]
     told += [repr(transport.services), repr(transport.services._core), repr(transport)]
     assert rws.PASSWORD not in "".join(told)
+
+
+def background(cabinet):
+    """States of the driver's background tasks."""
+    tasks = cabinet.controller.rapid_tasks.values()
+    return {task.state for task in tasks if task.spec.type != "NORMAL"}
+
+
+def killed_after(rws, cabinet, wanted, target):
+    """A run that is killed after a request; where later runs go, and what it had got done."""
+    line = rws.Line(cabinet, Generation.ONE)
+    line.cut = lambda number, got: "after" if target in got.target else None
+    killed = rws.connect(line)
+    with pytest.raises(DiagnosticError):
+        rws.run(killed, wanted)
+    assert line.dead
+    later = rws.Line(cabinet, Generation.ONE)
+    later.desk = line.desk  # the same controller: the session is still there
+    return rws.connect(later)
+
+
+@pytest.mark.parametrize("target", ["/rw/rapid/execution?action=stop", "action=loadmod"])
+def test_a_run_that_was_killed_while_tasks_stand_is_taken_up_again(rws, cell, wanted, target):
+    """The controller ends a session after 300 idle seconds [RWS manual]."""
+    cabinet, transport = cell
+    rws.run(transport, wanted)
+    newer = rws.build(Generation.ONE, "trajectory.capacity=500")
+    transport = killed_after(rws, cabinet, newer, target)
+    assert background(cabinet) == {"stopped"}
+    since, said = cabinet.now, []
+    rws.run(transport, newer, said=said, pause=lambda s: rws.pass_time(cabinet, s))
+    held = [text for text in said if text.startswith("waiting for mastership")]
+    # Whoever is killed while it stops tasks has no mastership.
+    assert len(held) == ("loadmod" in target)
+    assert (cabinet.now - since > 250) == ("loadmod" in target)
+    assert all("another run of rapidgen" in text for text in held)
+    assert background(cabinet) == {"running"}
+    assert transport.services.symbol("T_ROS_RECV/ROS_common/ROS_BUILD_ID") == newer.build_id
+
+
+def test_background_tasks_that_were_left_stopped_are_started_by_a_restart(rws, cell, wanted):
+    """Nothing is to be loaded: the killed run had only stopped them, or the old set is wanted."""
+    cabinet, transport = cell
+    rws.run(transport, wanted)
+    assert make_plan(transport, wanted).is_empty
+    transport.services.stop(everything=True)
+    assert background(cabinet) == {"stopped"}
+    plan = make_plan(transport, wanted)
+    assert plan.is_pending
+    names = ", ".join(plan.live.silent)
+    assert {"T_ROS_RECV", "T_ROS_STATE", "T_ROS_CONTROL"} <= {*plan.live.silent}
+    assert f"it starts {names}, which stand" in plan_text(plan)
+    found = {c.area: (c.verdict, c.found) for c in _contents(transport, wanted, ())}
+    assert found["tasks"] == ("fail", f"{names} of the driver stand: its ports do not answer")
+    rws.run(transport, wanted)
+    assert background(cabinet) == {"running"}
+    assert make_plan(transport, wanted).is_empty
+
+
+@pytest.mark.parametrize("domain", ["cfg", "rapid"])
+def test_where_somebody_else_has_mastership_nothing_is_stopped(rws, cell, wanted, domain):
+    cabinet, transport = cell
+    rws.run(transport, wanted)
+    line = rws.Line(cabinet, Generation.ONE)
+    line.desk = transport.services._carrier.line.desk
+    other = rws.connect(line).services
+    other.take_mastership(domain)
+    line.desk.sessions.all()[-1].application = "RobotStudio"
+    newer = rws.build(Generation.ONE, "trajectory.capacity=500")
+    before = rws.home_of(cabinet), rws.cfg_of(cabinet)
+    error = refusal(rws.run, transport, newer)
+    assert error.diagnostics[0].code == "RG542"
+    assert f"mastership of {domain} at rws://cell is held by " in error.diagnostics[0].message
+    assert "RobotStudio" in error.diagnostics[0].message
+    assert (rws.home_of(cabinet), rws.cfg_of(cabinet)) == before
+    assert background(cabinet) == {"running"}
+    said = []
+
+    def person(seconds):
+        rws.pass_time(cabinet, seconds)
+        other.give_mastership(domain)
+
+    rws.run(transport, newer, said=said, wait=30, pause=person)
+    assert any("waiting for a person: mastership of" in text for text in said)
+    assert background(cabinet) == {"running"}

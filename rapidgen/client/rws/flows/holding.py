@@ -112,10 +112,10 @@ def holder(core: RwsCore, domain: str = "rapid") -> Flow[Holder | None]:
 def _held_by(core: RwsCore, name: str) -> Flow[Held]:
     who = yield from holder(core, name)
     own = who is not None and who.application == APPLICATION
-    mend = "wait for them (`wait=`), or let them end their session"
+    mend = "let them give it back or end their session, then try again (`wait=` in Python waits)"
     if own:
         mend = (
-            "that was a run of rapidgen: if it is gone, its session ends by itself after five "
-            "minutes (`wait=300`)"
+            "that is another run of rapidgen: if it was killed, the controller ends its session "
+            "after five idle minutes; try again then (`deploy` and `wait=310` in Python wait)"
         )
     return Held.because("RG654", f"mastership of {name} at {core.where} is held by {who}", mend)
