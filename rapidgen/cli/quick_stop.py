@@ -1,13 +1,15 @@
 """STOP on the wire before anything else is imported.
 
-`rapidgen stop` sends it from here first and then goes its whole way: checks what was said, sends
-STOP again, waits until the robot stands, and reports. What is not understood here at a glance is
-left to that way: nothing is guessed.
+`rapidgen stop` sends it from here first, to the motion and the control port at once, and then goes
+its whole way: checks what was said, sends STOP again, waits until the robot stands, and reports.
+What is not understood here at a glance is left to that way: nothing is guessed.
 """
 
 import os
 import re
+import select
 import socket
+import time
 from collections.abc import Sequence
 from contextlib import suppress
 from struct import pack
@@ -15,43 +17,88 @@ from struct import pack
 STOP = pack("<5i12f", 64, 11, 2, 0, -4, *[0.0] * 12)
 """JOINT_TRAJ_PT as a request, sequence -4; a test compares it with the codec's."""
 _CONNECT = 2.0
+_OTHERS = 0.25
 _ANSWER = 1.0
-"""s for the connection, and for the answer: hung up on at once, a STOP may be lost unread."""
-_MOTION = 11000
+"""s for the first connection, for others behind it (one host, several ports), and for the answer:
+hung up on at once, a STOP may be lost unread."""
+_PORTS = (11000, 11002, 11001)
+"""Motion, state, control."""
 _STEP = 10
 _ONE = "rob1"
 """A group that nobody named."""
 _OURS = ("groups", "ports", "model")
-_ADDRESS = re.compile(r"(\[[0-9A-Fa-f:.]+\]|[\w.-]+)(?::(\d{1,5})(?:,\d{1,5}){0,2})?", re.ASCII)
+_ADDRESS = re.compile(
+    r"(\[[0-9A-Fa-f:.]+\]|[\w.-]+)(?::(\d{1,5})(?:,(\d{1,5})(?:,(\d{1,5}))?)?)?", re.ASCII
+)
 _LINE = re.compile(r"( *)(\w+):(?: +(.*?))?(?: +#.*)? *")
 _FLOW = re.compile(r"\{ *(?:\w+: *\d{1,5} *(?:, *\w+: *\d{1,5} *)*)?\}")
 _PAIR = re.compile(r"(\w+): *(\d{1,5})")
 
 Keys = dict[tuple[str, ...], str]
+Ports = tuple[int, int, int]
+"""Motion, state and control port of a group; control 0: none, or nobody knows which."""
+Place = tuple[str, Ports]
 
 
 def send(words: Sequence[str]) -> None:
-    """Send STOP to the motion ports that the words behind `stop` name; says nothing."""
-    links = []
-    for host, port in addresses(words):
-        try:
-            link = socket.create_connection((host, port), _CONNECT)
-            links.append(link)
-            link.sendall(STOP)
-        except TimeoutError:
-            # The others are at the same host.
+    """Send STOP to all ports that the words behind `stop` name, at once; says nothing.
+
+    A port that refuses or does not answer keeps no other waiting. The whole way tells what was
+    wrong.
+    """
+    opening = [
+        link
+        for host, port in (*addresses(words), *control_addresses(words))
+        for link in _opening(host, port)
+    ]
+    links, asked = [*opening], list[socket.socket]()
+    until = time.monotonic() + _CONNECT
+    hung_up = until + _ANSWER
+    while opening or asked:
+        now = time.monotonic()
+        if now >= until:
+            opening = []
+        if now >= hung_up or not (opening or asked):
             break
-        except (OSError, UnicodeError):
-            # Refused: perhaps another group is there. The whole way tells what was wrong.
-            continue
+        end = until if opening else hung_up
+        answered, open_now, _ = select.select(asked, opening, [], max(0.0, end - now))
+        for link in open_now:
+            opening.remove(link)
+            with suppress(OSError):
+                link.send(STOP)
+                asked.append(link)
+                until = min(until, time.monotonic() + _OTHERS)
+                hung_up = time.monotonic() + _ANSWER
+        asked = [link for link in asked if link not in answered]
     for link in links:
-        with link, suppress(OSError):
-            link.settimeout(_ANSWER)
-            link.recv(64)
+        link.close()
+
+
+def _opening(host: str, port: int) -> list[socket.socket]:
+    """A connection that is being opened to each address of a host."""
+    found = []
+    with suppress(OSError, UnicodeError):
+        for family, kind, protocol, _, address in socket.getaddrinfo(
+            host, port, type=socket.SOCK_STREAM
+        ):
+            link = socket.socket(family, kind, protocol)
+            found.append(link)
+            link.setblocking(False)
+            link.connect_ex(address)
+    return found
 
 
 def addresses(words: Sequence[str]) -> list[tuple[str, int]]:
     """Host and motion port of every group meant; none where that takes more than a glance."""
+    return [(host, ports[0]) for host, ports in _places(words)]
+
+
+def control_addresses(words: Sequence[str]) -> list[tuple[str, int]]:
+    """Host and control port of every group meant that is known to have one."""
+    return [(host, ports[2]) for host, ports in _places(words) if ports[2]]
+
+
+def _places(words: Sequence[str]) -> list[Place]:
     told: dict[str, str] = {}
     rest = list(words)
     while rest:
@@ -66,39 +113,51 @@ def addresses(words: Sequence[str]) -> list[tuple[str, int]]:
         if name in told:
             return []
         told[name] = value
-    return _places(told.get("target", ""), told.get("--to", ""), told.get("--group", ""))
+    return _groups(told.get("target", ""), told.get("--to", ""), told.get("--group", ""))
 
 
-def _places(target: str, to: str, group: str) -> list[tuple[str, int]]:
+def _groups(target: str, to: str, group: str) -> list[Place]:
     if target == "sim":
         return [] if to or group else _simulated([])
     is_file = target.endswith((".yaml", ".yml"))
     if not is_file and not os.path.isfile(_shipped(target)):
-        return [] if to or group else _at(target, [_MOTION])
-    ports = motion_ports(target if is_file else _shipped(target))
+        return [] if to or group else _at(target, [_PORTS])
+    ports = group_ports(target if is_file else _shipped(target))
     if group:
-        ports = {name: port for name, port in ports.items() if name == group}
+        ports = {name: three for name, three in ports.items() if name == group}
     if to == "sim":
         return _simulated(list(ports)) if ports else []
     return _at(to or "127.0.0.1", list(ports.values()))
 
 
-def _at(address: str, ports: list[int]) -> list[tuple[str, int]]:
+def _at(address: str, ports: list[Ports]) -> list[Place]:
     hit = _ADDRESS.fullmatch(address)
     if hit is None:
         return []
-    wanted = [int(hit[2])] if hit[2] else ports
-    return [(hit[1].strip("[]"), port) for port in wanted if 0 < port < 65_536]
+    wanted = [_addressed(ports[0] if len(ports) == 1 else _PORTS, hit)] if hit[2] else ports
+    return [(hit[1].strip("[]"), three) for three in wanted if 0 < three[0] < 65_536]
 
 
-def _simulated(groups: list[str]) -> list[tuple[str, int]]:
+def _addressed(own: Ports, hit: re.Match[str]) -> Ports:
+    """The ports of an address; what it does not say as `parse_address` has it."""
+    motion = int(hit[2])
+    state = int(hit[3]) if hit[3] else motion + 2
+    moved = motion - own[0]
+    if hit[4]:
+        control = int(hit[4])
+    else:
+        control = own[2] + moved if own[2] and state - own[1] == moved else 0
+    return motion, state, control if 0 < control < 65_536 else 0
+
+
+def _simulated(groups: list[str]) -> list[Place]:
     from rapidgen._running import running
 
     found, _ = running()
     if len(found) != 1:
         return []
     told = found[0].addresses
-    return [place for name in groups or told if name in told for place in _at(told[name], [])]
+    return [place for name in groups or told if name in told for place in _at(told[name], [_PORTS])]
 
 
 def _shipped(name: str) -> str:
@@ -109,15 +168,24 @@ def _shipped(name: str) -> str:
 
 def motion_ports(path: str) -> dict[str, int]:
     """The motion port of every group of a configuration; none where that takes a closer look."""
-    keys = _keys(path)
-    groups = list(dict.fromkeys(names[1] for names in keys or {} if names[0] == "groups"))
-    ports: dict[str, int] = {}
+    return {name: ports[0] for name, ports in group_ports(path).items()}
+
+
+def group_ports(path: str) -> dict[str, Ports]:
+    """The ports of every group of a configuration; none where that takes a closer look."""
+    keys = _keys(path) or {}
+    groups = list(dict.fromkeys(names[1] for names in keys if names[0] == "groups"))
+    found: dict[str, Ports] = {}
     for index, group in enumerate(groups):
-        text = (keys or {}).get(("groups", group, "ports", "motion"), str(_MOTION + _STEP * index))
-        if re.fullmatch(r"\d{1,5}", text) is None:
+        texts = [
+            keys.get(("groups", group, "ports", name), str(default + _STEP * index))
+            for name, default in zip(("motion", "state", "control"), _PORTS, strict=True)
+        ]
+        if not all(re.fullmatch(r"\d{1,5}", text) for text in texts):
             return {}
-        ports[group] = int(text)
-    return ports
+        motion, state, control = map(int, texts)
+        found[group] = motion, state, control
+    return found
 
 
 def _keys(path: str) -> Keys | None:

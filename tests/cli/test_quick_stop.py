@@ -3,15 +3,18 @@
 import socket
 import subprocess
 import sys
+from contextlib import ExitStack
 from pathlib import Path
 
 import pytest
 
 from rapidgen._data import data_folder
 from rapidgen.cli import quick_stop
-from rapidgen.cli.quick_stop import STOP, addresses, motion_ports
+from rapidgen.cli.quick_stop import STOP, addresses, control_addresses, group_ports, motion_ports
+from rapidgen.client.address import parse_address
 from rapidgen.client.core.robot import STOP_FRAME
 from rapidgen.config import load_config, shipped_names
+from rapidgen.diagnostics import DiagnosticError
 
 ROBOTS = data_folder("robots")
 EXAMPLES = sorted(Path(ROBOTS, "examples").glob("*.yaml"))
@@ -94,6 +97,45 @@ def test_what_takes_a_closer_look_is_left_to_the_whole_way(tmp_path, text):
 )
 def test_where_it_goes(words, places):
     assert addresses(words) == places
+    assert control_addresses(words) == [
+        (host, 12001 if port == 12000 else port + 1) for host, port in places
+    ]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "model: irb120\n",
+        "model: irb120\nports: {control: 0}\n",
+        "model: irb120\nports: {motion: 12000, control: 12005}\n",
+        "model: irb120\nports:\n  state: 12002\n  motion: 12000\n  control: 0\n",
+        "model: irb14000\ngroups:\n  rob_r:\n    ports: {control: 12000}\n",
+    ],
+)
+@pytest.mark.parametrize(
+    "address",
+    [
+        "10.0.0.1",
+        "10.0.0.1:12000",
+        "10.0.0.1:12000,12002",
+        "10.0.0.1:12000,12003",
+        "10.0.0.1:12000,12002,0",
+        "10.0.0.1:12000,12002,500",
+        "10.0.0.1:65535",
+    ],
+)
+def test_the_control_port_is_the_one_that_the_whole_way_takes(tmp_path, text, address):
+    path = tmp_path / "cell.yaml"
+    path.write_text(text)
+    groups = {group.name: group.ports for group in load_config(path).groups}
+    assert group_ports(str(path)) == {n: (p.motion, p.state, p.control) for n, p in groups.items()}
+    for name, ports in groups.items():
+        try:
+            control = parse_address(address, ports).control
+        except DiagnosticError:
+            continue
+        words = [str(path), "--group", name, "--to", address]
+        assert control_addresses(words) == ([("10.0.0.1", control)] if control else [])
 
 
 def test_the_first_bytes_of_the_command_are_stop():
@@ -112,6 +154,43 @@ def test_the_first_bytes_of_the_command_are_stop():
         finally:
             process.kill()
             process.wait()
+
+
+def test_stop_goes_to_both_ports_at_once():
+    with ExitStack() as stack:
+        servers = [stack.enter_context(socket.create_server(("127.0.0.1", 0))) for _ in range(2)]
+        motion, control = (server.getsockname()[1] for server in servers)
+        # Neither answers, and the state port is another's: neither waits for anything else.
+        quick_stop.send([f"127.0.0.1:{motion},1,{control}"])
+        for server in servers:
+            server.settimeout(60)
+            link = stack.enter_context(server.accept()[0])
+            assert link.makefile("rb").read() == STOP
+
+
+@pytest.mark.parametrize("refused", [0, 1])
+def test_a_port_that_refuses_keeps_the_other_from_nothing(refused):
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        with socket.create_server(("127.0.0.1", 0)) as gone:
+            free = gone.getsockname()[1]
+        ports = [server.getsockname()[1], free]
+        motion, control = reversed(ports) if refused == 0 else ports
+        quick_stop.send([f"127.0.0.1:{motion},1,{control}"])
+        server.settimeout(60)
+        with server.accept()[0] as link:
+            assert link.makefile("rb").read() == STOP
+
+
+def test_a_name_with_several_addresses_is_tried_at_all(monkeypatch):
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        port = server.getsockname()[1]
+        wrong = (socket.AF_INET, socket.SOCK_STREAM, 0, "", ("127.0.0.3", port))
+        right = (socket.AF_INET, socket.SOCK_STREAM, 0, "", ("127.0.0.1", port))
+        monkeypatch.setattr(socket, "getaddrinfo", lambda *_, **__: [wrong, right])
+        quick_stop.send([f"robot.lab:{port},1"])
+        server.settimeout(60)
+        with server.accept()[0] as link:
+            assert link.makefile("rb").read() == STOP
 
 
 def test_no_group_waits_for_the_answer_of_another(monkeypatch):
