@@ -171,10 +171,13 @@ def _ends_with_an_error(bench: Bench, module: str) -> None:
     link = bench.motion()
     bench.run(0.5)
     task = bench.rapid_task(module)
+    fault = [FatalError(40_199, "made to fail")]
 
-    def fail(_before: Callable[..., Any]) -> Callable[..., Any]:
-        def failing(*_: object) -> object:
-            raise FatalError(40_199, "made to fail")
+    def fail(before: Callable[..., Any]) -> Callable[..., Any]:
+        def failing(*arguments: object) -> object:
+            if fault:
+                raise fault[0]
+            return before(*arguments)
 
         return failing
 
@@ -192,6 +195,11 @@ def _ends_with_an_error(bench: Bench, module: str) -> None:
         link.send(bench.download(bench.wave(3)))
     bench.stays(2, f"{task.name} ended with an error, and the program was started")
     _pings(bench)
+    fault.clear()
+    bench.controller.perform("power-loss")
+    bench.start_again()
+    bench.stays(2, f"{task.name} ended with an error, the controller and the program were started")
+    bench.moves_through(bench.motion(), bench.wave(3))
 
 
 def _pings(bench: Bench) -> None:

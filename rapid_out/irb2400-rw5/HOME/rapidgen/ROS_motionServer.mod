@@ -9,7 +9,7 @@ MODULE ROS_motionServer
     ! end (ROS_stream). The client's STOP lies in the same stream of bytes behind its points, so
     ! this task never waits for room: it reads, and feeds the ring in between.
 
-    CONST string ROS_BUILD_MOTION_SERVER := "e2f68142fee5";
+    CONST string ROS_BUILD_MOTION_SERVER := "67bfdd5dc2a9";
 
     LOCAL CONST num PORT := 11000;
     ! s between two looks for bytes while the ring is being fed
@@ -44,6 +44,7 @@ MODULE ROS_motionServer
             ROS_BUILD_DOWNLOAD = ROS_BUILD_ID AND ROS_BUILD_INSTRUCTIONS = ROS_BUILD_ID AND
             ROS_BUILD_PROGRAMS = ROS_BUILD_ID AND ROS_BUILD_STREAM = ROS_BUILD_ID AND
             ROS_BUILD_MOTION_SERVER = ROS_BUILD_ID;
+        ROS_begin_pulse 1;
         ROS_read_limits \tell;
         ! Counters start where those that answer them stand.
         ROS_head := ROS_tail;
@@ -64,11 +65,11 @@ MODULE ROS_motionServer
     LOCAL PROC serve(VAR socketdev client, VAR socketdev newcomer)
         VAR num received;
         VAR num quiet := 0;
-        VAR num silence := PATIENCE;
+        VAR bool busy;
 
         IF NOT taken_over THEN
-            WHILE NOT ROS_accept(server, PORT, client, WAIT_MAX) DO
-                ! A stranger, or the server socket broke and was opened again.
+            WHILE NOT ROS_accept(server, PORT, client, ROS_WAIT) DO
+                ! Nobody, a stranger, or the server socket broke and was opened again.
             ENDWHILE
         ENDIF
         taken_over := FALSE;
@@ -83,18 +84,17 @@ MODULE ROS_motionServer
             take_chunk client, received;
         ENDIF
         WHILE linked AND (NOT taken_over) DO
+            busy := ROS_active();
             IF ROS_fed < ROS_to_feed THEN
                 ROS_feed;
                 received := short_look(client);
                 quiet := quiet + LOOK_PERIOD;
             ELSE
-                silence := PATIENCE;
-                IF ROS_active() silence := NEWCOMER_PERIOD;
-                received := ROS_receive(client, ROS_chunk, silence);
-                quiet := quiet + silence;
+                received := ROS_receive(client, ROS_chunk, ROS_WAIT);
+                quiet := quiet + ROS_WAIT;
             ENDIF
             ! Silence counts from the end of what was under way.
-            IF received <> 0 OR (silence < PATIENCE AND (NOT ROS_active())) quiet := 0;
+            IF received <> 0 OR (busy AND (NOT ROS_active())) quiet := 0;
             IF received > 0 THEN
                 take_chunk client, received;
             ELSEIF received < 0 THEN

@@ -8,7 +8,7 @@ MODULE ROS_acceptance
     ! What a trajectory that comes whole and one that comes in batches have in common. The one
     ! who takes a point unpacks it, lets it be checked here, and looks at ROS_fault then.
 
-    CONST string ROS_BUILD_ACCEPTANCE := "30942d0a092b";
+    CONST string ROS_BUILD_ACCEPTANCE := "61b8e2e9742f";
 
     ! s: longest duration of a point
     CONST num ROS_LONGEST := 3600;
@@ -153,7 +153,11 @@ MODULE ROS_acceptance
         ! So is what forbade motion meanwhile, even if it is over.
         FOR try FROM 1 TO 30 DO
             ROS_look_asked_1 := ROS_next(ROS_look_asked_1);
-            IF NOT ROS_answered(ROS_LATE) RETURN ROS_REASON_INTERNAL;
+            IF ROS_unsupervised RETURN ROS_REASON_TASK_ENDED;
+            IF NOT ROS_answered(ROS_LATE) THEN
+                IF ROS_unsupervised RETURN ROS_REASON_TASK_ENDED;
+                RETURN ROS_REASON_INTERNAL;
+            ENDIF
             IF ROS_not_ready_1 > ROS_REASON_NONE RETURN ROS_not_ready_1;
             IF ROS_hindered_1 = ROS_trajectory_1 RETURN ROS_hindrance_1;
             IF ROS_not_ready_1 = ROS_REASON_NONE RETURN ROS_REASON_NONE;

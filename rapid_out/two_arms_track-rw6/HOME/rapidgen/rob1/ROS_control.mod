@@ -9,7 +9,7 @@ MODULE ROS_control
     ! heartbeat this task asks the supervisor, by an interrupt: only one task stops the robot, and
     ! starts it again. Only if that does not answer this task stops it. It may hang in a send.
 
-    CONST string ROS_BUILD_CONTROL := "30942d0a092b";
+    CONST string ROS_BUILD_CONTROL := "61b8e2e9742f";
 
     LOCAL CONST num PORT := 11001;
     ! s between two looks at what the robot does, and for new clients.
@@ -50,6 +50,7 @@ MODULE ROS_control
         ROS_start_task ROS_shown_control_1,
             ROS_BUILD_LIMITS = ROS_BUILD_ID AND ROS_BUILD_MESSAGES = ROS_BUILD_ID AND
             ROS_BUILD_SOCKET = ROS_BUILD_ID AND ROS_BUILD_CONTROL = ROS_BUILD_ID;
+        ROS_begin_pulse 2;
         ROS_read_limits;
         ROS_speed_of_1 := -1;
         link_signals;
@@ -68,8 +69,8 @@ MODULE ROS_control
         VAR num received;
 
         IF NOT taken_over THEN
-            WHILE NOT ROS_accept(server, PORT, client, WAIT_MAX) DO
-                ! A stranger, or the server socket broke and was opened again.
+            WHILE NOT ROS_accept(server, PORT, client, ROS_WAIT) DO
+                ! Nobody, a stranger, or the server socket broke and was opened again.
             ENDWHILE
         ENDIF
         taken_over := FALSE;

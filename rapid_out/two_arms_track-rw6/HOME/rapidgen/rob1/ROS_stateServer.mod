@@ -9,7 +9,7 @@ MODULE ROS_stateServer
     ! moment. Nobody waits for this task. A client that does not read would hold up the others
     ! in a send, so a send that takes too long is broken off, and its client dropped.
 
-    CONST string ROS_BUILD_STATE_SERVER := "30942d0a092b";
+    CONST string ROS_BUILD_STATE_SERVER := "61b8e2e9742f";
 
     LOCAL CONST num PORT := 11002;
     LOCAL CONST num PERIOD := 0.1;
@@ -42,9 +42,6 @@ MODULE ROS_stateServer
     LOCAL VAR bool progress_wanted := FALSE;
     LOCAL VAR bool feedback_wanted := FALSE;
     LOCAL VAR bool look_for_clients := FALSE;
-    ! The supervisor's pulse as it was seen last, and for how many s it has not changed.
-    LOCAL VAR num told_pulse := -1;
-    LOCAL VAR num without_pulse := 0;
     LOCAL VAR clock since_look;
 
     ! JOINT and STATUS; what may come behind them; and all of that for one client.
@@ -96,6 +93,7 @@ MODULE ROS_stateServer
         ROS_start_task ROS_shown_state_1,
             ROS_BUILD_LIMITS = ROS_BUILD_ID AND ROS_BUILD_MESSAGES = ROS_BUILD_ID AND
             ROS_BUILD_SOCKET = ROS_BUILD_ID AND ROS_BUILD_STATE_SERVER = ROS_BUILD_ID;
+        ROS_begin_pulse 3;
         ROS_read_limits;
         ROS_form_state state;
         ROS_pack_topic progress, ROS_LEN_PROGRESS, ROS_MSG_PROGRESS;
@@ -116,7 +114,7 @@ MODULE ROS_stateServer
     LOCAL PROC wait_for_client()
         WHILE clients = 0 DO
             IF ROS_standing() = ROS_TRI_TRUE belief := BELIEF_MAX;
-            welcome WAIT_MAX;
+            welcome ROS_WAIT;
         ENDWHILE
         ticks := 0;
         offset := 0;
@@ -174,6 +172,10 @@ MODULE ROS_stateServer
         IF moving(joints) in_motion := ROS_TRI_TRUE;
         IF is_possible() possible := ROS_TRI_TRUE;
         IF in_error = ROS_TRI_TRUE code := newest.code;
+        IF ROS_unsupervised OR ROS_not_ready_1 = ROS_REASON_TASK_ENDED THEN
+            in_error := ROS_TRI_TRUE;
+            code := ROS_REASON_TASK_ENDED;
+        ENDIF
         ROS_pack_status state, code, in_error, in_motion, possible;
 
         IF progress_wanted ROS_pack_progress progress, newest;
@@ -192,10 +194,7 @@ MODULE ROS_stateServer
 
     ! TRUE if a trajectory would be taken now: so says a supervisor whose pulse is seen.
     LOCAL FUNC bool is_possible()
-        without_pulse := without_pulse + PERIOD;
-        IF ROS_pulse_1 <> told_pulse without_pulse := 0;
-        told_pulse := ROS_pulse_1;
-        RETURN without_pulse < 1 AND ROS_not_ready_1 = ROS_REASON_NONE;
+        RETURN (NOT ROS_unsupervised) AND ROS_not_ready_1 = ROS_REASON_NONE;
     ENDFUNC
 
     ! All of one period leaves in one send: a socket call costs more than all the rest.

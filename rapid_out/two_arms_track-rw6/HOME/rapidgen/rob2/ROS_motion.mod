@@ -9,7 +9,7 @@ MODULE ROS_motion
     ! check was made before a point was put in. A point whose successor is there is passed
     ! through its zone; without one it is a stop point, so the planner never runs dry in a corner.
 
-    CONST string ROS_BUILD_MOTION := "30942d0a092b";
+    CONST string ROS_BUILD_MOTION := "61b8e2e9742f";
 
     ! With \T in the move the speed is only formal.
     LOCAL CONST speeddata SPEED := [5000,500,5000,1000];
@@ -36,6 +36,7 @@ MODULE ROS_motion
     LOCAL VAR num turning := 0;
 
     LOCAL VAR intnum bell;
+    LOCAL VAR intnum look;
     LOCAL VAR intnum speed_bell;
     LOCAL VAR intnum tick;
     ! Percent of the programmed speed that is wanted, for which the point at hand has its time, and
@@ -80,6 +81,7 @@ MODULE ROS_motion
         IDelete bell;
         CONNECT bell WITH on_bell;
         IPers ROS_bell_2, bell;
+        order_look;
         IDelete speed_bell;
         CONNECT speed_bell WITH on_bell;
         IPers ROS_speed_asked_2, speed_bell;
@@ -469,6 +471,29 @@ MODULE ROS_motion
     ERROR
         SkipWarn;
         RETURN;
+    ENDPROC
+
+    ! Without the supervisor nothing can stop the robot: what is under way ends. Main gives it up.
+    LOCAL TRAP on_look
+        order_look;
+        ROS_watch_supervisor;
+        IF (NOT ROS_unsupervised) OR (NOT ROS_active()) OR fault <> ROS_REASON_NONE RETURN;
+        fault := ROS_REASON_TASK_ENDED;
+        ROS_stop_robot;
+        clear_path;
+        IF NOT in_move RETURN;
+        in_move := FALSE;
+        RAISE path_gone;
+    ERROR
+        SkipWarn;
+        RAISE;
+    ENDTRAP
+
+    ! One at a time may wait, also while the program is stopped.
+    LOCAL PROC order_look()
+        IDelete look;
+        CONNECT look WITH on_look;
+        ITimer \SingleSafe, 0.1, look;
     ENDPROC
 
     ! The supervisor has stopped the robot and wants the path to be dropped. Main may be waiting

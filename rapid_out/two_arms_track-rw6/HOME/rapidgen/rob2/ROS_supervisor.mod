@@ -11,7 +11,7 @@ MODULE ROS_supervisor
     ! which an old path must not go on: e-stop, motors off, program stop, change of mode.
     ! A pause: StopMove alone, so that the path is kept, and StartMove when it is asked for.
 
-    CONST string ROS_BUILD_SUPERVISOR := "30942d0a092b";
+    CONST string ROS_BUILD_SUPERVISOR := "61b8e2e9742f";
 
     LOCAL VAR intnum asked_to_stop;
     LOCAL VAR intnum asked_to_look;
@@ -24,6 +24,13 @@ MODULE ROS_supervisor
     ! would end with too many of them waiting.
     LOCAL VAR num bells := 0;
     LOCAL CONST num MOST_BELLS := 12;
+    ! Of each server: its pulse as it was read last, for how many looks it has not changed, and whether its
+    ! end was reported. Servers may begin later than this task: two seconds are allowed.
+    LOCAL VAR num seen{3};
+    LOCAL VAR num looks{3} := [-20,-20,-20];
+    LOCAL VAR bool told_ended{3};
+    LOCAL VAR bool server_ended := FALSE;
+    LOCAL VAR num beats := 0;
     ! It was said why the robot stays stopped.
     LOCAL VAR bool told := FALSE;
     ! Rounds for which the tasks have shown different builds.
@@ -51,15 +58,36 @@ MODULE ROS_supervisor
         WHILE TRUE DO
             ! A trap must not come between a test here and what follows from it.
             IDisable;
+            watch_servers;
             answer;
             watch;
             watch_builds;
             IF ROS_latched_2 release;
             ROS_not_ready_2 := obstacle();
-            ROS_pulse_2 := ROS_next(ROS_pulse_2);
+            show_pulse;
             IEnable;
             WaitTime 0.1;
         ENDWHILE
+    ENDPROC
+
+    ! A server that has ended takes its port with it, and with that a STOP: nothing moves without all of
+    ! them.
+    LOCAL PROC watch_servers()
+        server_ended := FALSE;
+        watch_server ROS_pulse_motion_server_2, 1, "T_ROS_RECV_2";
+        watch_server ROS_pulse_control_2, 2, "T_ROS_CONTROL_2";
+        watch_server ROS_pulse_state_2, 3, "T_ROS_STATE_2";
+        IF server_ended AND under_way() halt ROS_REASON_TASK_ENDED;
+    ENDPROC
+
+    LOCAL PROC watch_server(num pulse, num n, string name)
+        VAR bool ended_before;
+
+        ended_before := told_ended{n};
+        told_ended{n} := ROS_has_ended(pulse, seen{n}, looks{n}, ROS_LONGEST_SEND);
+        IF NOT told_ended{n} RETURN;
+        server_ended := TRUE;
+        IF NOT ended_before ROS_tell_ended name;
     ENDPROC
 
     LOCAL TRAP on_request
@@ -152,7 +180,7 @@ MODULE ROS_supervisor
     LOCAL PROC halt(num reason)
         VAR bool lost := FALSE;
 
-        ROS_stop_robot;
+        stop_robot;
         ROS_latched_2 := TRUE;
         told := FALSE;
         bells := 0;
@@ -176,7 +204,9 @@ MODULE ROS_supervisor
     LOCAL PROC release()
         IF ROS_abort_done_2 = ROS_abort_2 OR (ROS_service_2 = ROS_OUTSIDE AND (NOT ROS_active())) THEN
             IF ROS_executing() = ROS_TRI_FALSE OR ROS_motors_on() = ROS_TRI_FALSE RETURN;
+            ROS_pulse_2 := -1;
             ROS_start_robot IsStopMoveAct(\FromNonMoveTask);
+            show_pulse;
             IF NOT IsStopMoveAct(\FromNonMoveTask) THEN
                 ROS_latched_2 := FALSE;
             ELSEIF ROS_far_off THEN
@@ -211,7 +241,7 @@ MODULE ROS_supervisor
     ! Stop the robot on its path and keep that. Gives why not, 0: done.
     LOCAL FUNC num pause()
         IF NOT under_way() RETURN ROS_REASON_IDLE;
-        ROS_stop_robot;
+        stop_robot;
         IF NOT IsStopMoveAct(\FromNonMoveTask) RETURN ROS_REASON_INTERNAL;
         ROS_paused_2 := ROS_session_2;
         RETURN ROS_REASON_NONE;
@@ -228,7 +258,7 @@ MODULE ROS_supervisor
         IF NOT started() RETURN ROS_REASON_INTERNAL;
         ROS_paused_2 := -1;
         ! A stop that came meanwhile is answered next, but this has taken it back.
-        IF stop_asked() ROS_stop_robot;
+        IF stop_asked() stop_robot;
         RETURN ROS_REASON_NONE;
     ENDFUNC
 
@@ -243,6 +273,7 @@ MODULE ROS_supervisor
 
         fault := ROS_build_fault();
         IF fault = ROS_REASON_BUILD_MISMATCH RETURN fault;
+        IF server_ended RETURN ROS_REASON_TASK_ENDED;
         reason := ROS_cause(fault);
         IF reason = ROS_REASON_NOT_EXECUTING AND ROS_executing() = ROS_TRI_TRUE AND ROS_service_2 = ROS_OUTSIDE
             RETURN ROS_REASON_NOT_SERVING;
@@ -253,6 +284,18 @@ MODULE ROS_supervisor
         IF ROS_interrupts_seen_2 <> ROS_interrupts_2 RETURN -1;
         RETURN ROS_REASON_NONE;
     ENDFUNC
+
+    ! Some controllers go on behind StopMove only when the robot stands: no pulse is shown meanwhile.
+    LOCAL PROC stop_robot()
+        ROS_pulse_2 := -1;
+        ROS_stop_robot;
+        show_pulse;
+    ENDPROC
+
+    LOCAL PROC show_pulse()
+        beats := ROS_next(beats);
+        ROS_pulse_2 := beats;
+    ENDPROC
 
     LOCAL PROC ring()
         bells := bells + 1;
