@@ -254,3 +254,17 @@ case("manual-mode", "nothing resumes after a change of mode")(
 case("power-loss", "nothing resumes after a power failure")(
     partial(_interrupted, action="power-loss")
 )
+
+
+@case("power-loss-after-stop", "Start works after a power failure behind another stop", "R7a")
+def _power_loss_after_stop(bench: Bench) -> None:
+    """A halt that the failure has interrupted ends after Start, without PP to main."""
+    for action in ("stop", "manual", "e-stop", "power-loss"):
+        bench.sets_off(bench.motion(), bench.wave(8), 0.6)
+        bench.controller.perform(action)
+        bench.run(0.1)
+        bench.controller.perform("power-loss")
+        bench.wait_until_standing(10)
+        _back_to_work(bench)
+        bench.stays(3, f"{action}, a power failure and Start")
+        bench.moves_through(bench.motion(), bench.wave(3))

@@ -9,7 +9,7 @@ MODULE ROS_motionServer
     ! end (ROS_stream). The client's STOP lies in the same stream of bytes behind its points, so
     ! this task never waits for room: it reads, and feeds the ring in between.
 
-    CONST string ROS_BUILD_MOTION_SERVER := "61b8e2e9742f";
+    CONST string ROS_BUILD_MOTION_SERVER := "312e06487721";
 
     LOCAL CONST num PORT := 11010;
     ! s between two looks for bytes while the ring is being fed

@@ -11,7 +11,7 @@ MODULE ROS_supervisor
     ! which an old path must not go on: e-stop, motors off, program stop, change of mode.
     ! A pause: StopMove alone, so that the path is kept, and StartMove when it is asked for.
 
-    CONST string ROS_BUILD_SUPERVISOR := "61b8e2e9742f";
+    CONST string ROS_BUILD_SUPERVISOR := "312e06487721";
 
     LOCAL VAR intnum asked_to_stop;
     LOCAL VAR intnum asked_to_look;
@@ -38,6 +38,9 @@ MODULE ROS_supervisor
 
     PROC main()
         ROS_start_task ROS_shown_supervisor_2, ROS_BUILD_SUPERVISOR = ROS_BUILD_ID;
+        ! A halt from before a power failure may not be over: the motion task is asked again.
+        ROS_start_clock since_bell;
+        ROS_start_clock since_halt;
         ! What was under way when this task ended is over.
         IF ROS_active() OR (ROS_paused_2 >= 0 AND IsStopMoveAct(\FromNonMoveTask)) halt ROS_REASON_POWER_FAILURE;
         ! A controller that has just been given the driver says 0, which would be a pause.
