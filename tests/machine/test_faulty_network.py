@@ -271,3 +271,20 @@ def test_everything_is_shut_down():
     net.shut_down()
     assert program.closed
     assert net.listeners == {}
+
+
+@pytest.mark.parametrize(("into", "out"), [(0.5, 0.2), (0.2, 0.5), (0.3, 0.3)])
+def test_what_waits_in_both_directions_passes_each_at_its_own_time(into, out):
+    net = Net(
+        NetworkRule("delay", direction="in", seconds=into),
+        NetworkRule("delay", direction="out", seconds=out),
+    )
+    program, client = net.pair()
+    net.wait(S)
+    heard, seen = net.heard(program), net.heard(client, net.plain)
+    net.plain.send(client, b"into")
+    net.wait(LATENCY)
+    net.send(program, b"out")
+    net.settle()
+    assert heard == [(pytest.approx(1000 * into + 0.1, abs=0.001), b"into")]
+    assert seen == [(pytest.approx(1000 * out + 0.2, abs=0.001), b"out")]

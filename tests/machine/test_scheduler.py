@@ -277,3 +277,27 @@ def test_a_thread_may_end_while_its_scheduler_is_collected() -> None:
         [sys.executable, "-c", program], capture_output=True, text=True, check=False
     )
     assert (done.returncode, done.stdout) == (0, "True\n"), done.stderr
+
+
+def test_while_time_stands_nobody_computes_further_than_a_millisecond_ahead() -> None:
+    class Standing(Scheduler):
+        def _serve(self, timeout: float | None) -> None:
+            over.append(timeout)
+
+    over: list[float | None] = []
+    # A slice ends with every charge.
+    scheduler = Standing(clock="real", quantum=MS - 1)
+    scheduler.pace(0.0)
+    began = scheduler._now = scheduler._wall()
+    process, seen = Process(scheduler, "p"), []
+
+    def body() -> None:
+        for _ in range(5):
+            process.charge(MS)
+            seen.append(scheduler.now - began)
+
+    process.launch(body)
+    assert scheduler.advance(stop=lambda: bool(over)) == "stop"
+    # It goes on at exactly that, and is over it with what it then does.
+    assert (seen, scheduler.now - began, over) == ([MS], 2 * MS, [None])
+    scheduler.close()

@@ -11,8 +11,9 @@ import numpy as np
 import pytest
 from ready import NAMES, goal, station
 
-from rapidgen.ros.following import Policy, UnderWay
-from rapidgen.ros.goals import Code, Defaults, Ending, Goal, Point, Tolerance
+from rapidgen.client import Trajectory
+from rapidgen.ros.following import GoalFeedback, Policy, UnderWay, _violation
+from rapidgen.ros.goals import Code, Defaults, Ending, Goal, JudgedGoal, Point, Tolerance
 
 THERE = goal(0.0, 0.1, 0.2)
 APPROACH = Policy(replace="approach")
@@ -426,3 +427,38 @@ def test_goal_tolerance_of_the_user_counts():
         none = replace(THERE, points=goal(0.2, 0.1).points)
         none = replace(none, goal_tolerance=[Tolerance(n, position=-1.0) for n in NAMES])
         assert s.outcome(none).status is Ending.SUCCEEDED
+
+
+POINTS = Trajectory([0.0, 1.0, 2.0, 3.0], [[0.0], [0.4], [1.2], [1.2]], ["a"])
+"""At 0.4, then at 0.8 rad/s, then it stands."""
+
+
+@pytest.mark.parametrize(
+    ("time", "actual", "velocity", "window", "violated"),
+    [
+        # Where it was to be at any moment of the window, the earliest as well as the latest.
+        (0.5, 0.2, 0.4, 0.0, None),
+        (0.5, 0.18, 0.4, 0.1, None),
+        (0.5, 0.22, 0.4, 0.1, None),
+        (0.5, 0.14, 0.4, 0.1, "a was 0.0200 off its path 0.50 s after the start, and 0.01"),
+        (0.5, 0.26, 0.4, 0.1, "a was 0.0200 off its path"),
+        (0.5, 0.2, 0.6, 0.1, "velocity of a was 0.2000 off its path"),
+        (1.05, 0.44, 0.4, 0.1, None),
+        (1.05, 0.44, 0.8, 0.1, None),
+        (1.05, 0.44, 0.6, 0.1, "velocity of a was 0.2000"),
+        # Behind its end for as long as is allowed, and the window more.
+        (3.6, 1.2, 0.0, 0.2, None),
+        (3.8, 1.2, 0.0, 0.2, "not at the goal 0.80 s after its time, and 0.5 s were allowed"),
+    ],
+)
+def test_a_sample_is_compared_with_all_that_was_asked_for_within_its_window(
+    time, actual, velocity, window, violated
+):
+    allowed = [np.array([value]) for value in (0.01, 0.1, 0.0, 0.0)]
+    asked = JudgedGoal(POINTS, None, None, *allowed, goal_time=0.5)
+    none = np.zeros(1)
+    fed = GoalFeedback(("a",), time, none, none, np.array([actual]), np.array([velocity]))
+    found = _violation(asked, fed, window)
+    assert (found is None) == (violated is None)
+    if found is not None:
+        assert violated in found.text

@@ -510,3 +510,78 @@ def test_the_mode_has_its_lock_behind_it(two):
     mode, lock = two.get("/rw/panel/opmode")
     assert (mode.text("opmode"), lock.kind) == ("AUTO", "pnl-opmode-lockstate-li")
     assert two.get("/rw/panel/opmode/lock-state")[0].text("lockstate") == "Unlocked"
+
+
+UNIT = "/rw/motionsystem/mechunits/ROB_1"
+STATIC = {
+    "type": "TCPRobot", "task-name": "T_ROB1", "axes": "6", "axes-total": "6",
+    "is-integrated-unit": "NoIntegratedUnit", "has-integrated-unit": "NoIntegratedUnit",
+}  # fmt: skip
+DYNAMIC = {
+    "tool-name": "tool0", "wobj-name": "wobj0", "payload-name": "load0",
+    "total-payload-name": "load0", "status": "Synchronized", "mode": "Activated",
+    "jog-mode": "Cartesian", "coord-system": "World",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("asked", "names"),
+    [
+        ("", [*DYNAMIC, *STATIC]),
+        ("static", [*STATIC]),
+        ("dynamic", [*DYNAMIC]),
+        ("tool", ["tool-name"]),
+        ("axes;mode", ["mode", "axes"]),
+        ("static;coord-system", ["coord-system", *STATIC]),
+        ("is-integrated", ["is-integrated-unit"]),
+    ],
+)
+def test_a_robot_for_which_nothing_is_chosen(caller, asked, names):
+    (item,) = caller.get(f"{UNIT}?resource={asked}" if asked else UNIT)
+    assert dict(item.fields) == {name: (DYNAMIC | STATIC)[name] for name in names}
+
+
+def test_each_choice_for_jogging_is_shown_under_its_own_name(caller):
+    chosen = {"mode": "Deactivated", "jog-mode": "AxisGroup2", "coord-system": "Base"}
+    if caller.is_one:
+        assert caller.post("/rw/mastership/motion?action=request") == 204
+    path = f"{UNIT}?action=set" if caller.is_one else UNIT
+    for name, value in chosen.items():
+        assert caller.post(path, {name: value}) == 204
+    (item,) = caller.get(UNIT)
+    assert dict(item.fields) == DYNAMIC | STATIC | chosen
+
+
+@pytest.mark.parametrize(
+    ("generation", "folder", "there"),
+    [
+        (Generation.ONE, "$HOME", ""),
+        (Generation.ONE, "HOME:", ""),
+        (Generation.ONE, "$HOME/sub/", "sub/"),
+        (Generation.ONE, "ELSE:", None),
+        # The root of a volume only, as [VC 7.21] has it.
+        (Generation.TWO, "HOME:", ""),
+        (Generation.TWO, "HOME", None),
+        (Generation.TWO, "HOME:/sub", None),
+        (Generation.TWO, "ELSE:", None),
+    ],
+)
+def test_a_module_is_saved_with_present_values(generation, folder, there, tmp_path):
+    with make_cabinet(tmp_path, generation) as cabinet:
+        caller = Caller(make_desk(cabinet, generation))
+        home = cabinet.controller.files.path("HOME:")
+        (home / "sub").mkdir()
+        cabinet.controller.tasks["T_ROB1"]["x"] = 7
+        form = {"name": "kept", "path": folder}
+        status = caller.post(module(caller, ("action=save", "save")), form)
+        saved = [path for path in home.rglob("*") if path.is_file()]
+        if there is None:
+            assert (status, saved) == (404 if caller.is_one else 400, [])
+        else:
+            assert (status, saved) == (
+                204,
+                [home / f"{there}kept.mod{'' if caller.is_one else 'x'}"],
+            )
+            assert "PERS num x := 7;" in saved[0].read_text()
+        missing = module(caller, ("action=save", "save")).replace("MainModule", "Nowhere")
+        assert code_of(caller.send("POST", missing, form)) == CODES["E_NO_SUCH_SYMBOL"]
