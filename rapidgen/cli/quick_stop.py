@@ -14,6 +14,8 @@ from collections.abc import Sequence
 from contextlib import suppress
 from struct import pack
 
+from rapidgen._reading import read_foreign
+
 STOP = pack("<5i12f", 64, 11, 2, 0, -4, *[0.0] * 12)
 """JOINT_TRAJ_PT as a request, sequence -4; a test compares it with the codec's."""
 _CONNECT = 2.0
@@ -191,8 +193,7 @@ def group_ports(path: str) -> dict[str, Ports]:
 def _keys(path: str) -> Keys | None:
     """The keys of a configuration over those of its model, all below `groups`."""
     try:
-        with open(path, encoding="utf-8") as file:
-            keys = read_keys(file.read(1_000_000))
+        keys = read_keys(read_foreign(path, 1_000_000).decode())
     except (OSError, ValueError):
         return None
     if keys is None:

@@ -9,12 +9,15 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from rapidgen.client.errors import InvalidTrajectory, fault, os_reason
+from rapidgen._reading import read_foreign
+from rapidgen.client.errors import InvalidTrajectory, fault
 from rapidgen.diagnostics import Diagnostic, Span, error
 
 Array = npt.NDArray[np.float64]
 _SHOWN = 20
 """Findings of one file that are worth reading."""
+_LARGEST = 256_000_000
+"""Bytes of a trajectory."""
 _MCAP = b"\x89MCAP"
 """How the recordings of `rapidgen sim --record` begin."""
 
@@ -39,9 +42,9 @@ def _bad(
 
 def _read(path: Path) -> str:
     try:
-        return path.read_text(encoding="utf-8-sig")
+        return read_foreign(path, _LARGEST).decode("utf-8-sig")
     except OSError as raised:
-        reason = os_reason(raised)
+        reason = (raised.strerror or str(raised)).lower()
         raise InvalidTrajectory.because(
             "RG610",
             f"cannot read {path}: {reason}",

@@ -8,10 +8,13 @@ import os
 from hashlib import sha256
 from pathlib import Path
 
+from rapidgen._reading import read_foreign
 from rapidgen.client.address import Address
 from rapidgen.client.errors import NotReady
 from rapidgen.client.trajectory import Trajectory
 
+_LARGEST = 100_000_000
+"""Bytes of what is remembered."""
 FIRST_SPEED = 0.1
 """Share of the asked speed for a trajectory that never ran on a real host."""
 
@@ -55,7 +58,7 @@ def first_speed(address: Address, trajectory: Trajectory | None) -> float:
     if trajectory is None:
         return FIRST_SPEED
     try:
-        known = _memory().read_text(encoding="ascii").split()
+        known = read_foreign(_memory(), _LARGEST).decode("ascii").split()
     except (OSError, UnicodeDecodeError):
         known = []
     return 1.0 if _key(address, trajectory) in known else FIRST_SPEED

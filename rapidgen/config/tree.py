@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any, Final
 
 from rapidgen._json import Json
+from rapidgen._reading import TooLarge, read_foreign
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, Span, error, refusal
 
 MAX_BYTES = 1_000_000
@@ -73,21 +74,30 @@ Node = ScalarNode | SequenceNode | MappingNode
 def read_bytes(path: Path, shown: str) -> bytes:
     """The file's bytes, or one finding that says why not (RG001, RG002)."""
     try:
-        with path.open("rb") as stream:
-            data = stream.read(MAX_BYTES + 1)
-    except (OSError, ValueError) as fault:
-        reason = getattr(fault, "strerror", None) or str(fault)
-        raise refusal(
-            "RG001", None, f"cannot read {shown}: {reason}", "give the path of a file"
-        ) from None
-    if len(data) > MAX_BYTES:
+        return read_foreign(path, MAX_BYTES)
+    except TooLarge:
         raise refusal(
             "RG002",
             None,
             f"{shown} is larger than {MAX_BYTES:,} bytes",
             "a configuration is a few kilobytes: is this the right file?",
-        )
-    return data
+        ) from None
+    except OSError as fault:
+        raise refusal(
+            "RG001", None, f"cannot read {shown}: {fault.strerror}", "give the path of a file"
+        ) from None
+
+
+def data_of(data: bytes, shown: str) -> Json:
+    """Plain data of YAML within the limits of a configuration.
+
+    Raises DiagnosticError (RG002 to RG004) for what cannot be read.
+    """
+    root, faults = parse(decode(data, shown), shown)
+    doubles = [fault for fault in faults if fault.code == "RG004"]
+    if doubles:
+        raise DiagnosticError(doubles)
+    return to_python(root)
 
 
 def decode(data: bytes, shown: str) -> str:

@@ -1,12 +1,10 @@
 """A backup of a controller, as `rapidgen sim` and RobotStudio read one."""
 
-import shutil
-from collections.abc import Iterable
-from functools import partial
 from pathlib import Path
 
 from rapidgen.controller.controller import VirtualController
 from rapidgen.controller.programs import SYSTEM_ENDINGS, Programs
+from rapidgen.machine.files import copy_files
 from rapidgen.runtime.loading import module_text
 from rapidgen.system.cfg import write_cfg
 from rapidgen.system.controller_cfg import ControllerCfg
@@ -25,7 +23,7 @@ def back_up(
     for part in ("BACKINFO", "RAPID", "SYSPAR"):
         (folder / part).mkdir()
     home = controller.files.path("HOME:")
-    shutil.copytree(home, folder / "HOME", ignore=partial(_itself, folder))
+    copy_files(home, folder / "HOME", without=folder)
     lines = [_INFO.format(*controller.system.robotware)]
     for number, task in enumerate(controller.rapid_tasks.values(), 1):
         lines.append(f">>TASK{number}: ({task.name},,)\n")
@@ -45,8 +43,3 @@ def back_up(
     for domain in cfg.domains:
         path = folder / "SYSPAR" / f"{domain.domain}.cfg"
         path.write_text(write_cfg(domain), encoding="utf-8")
-
-
-def _itself(backup: Path, folder: str, names: Iterable[str]) -> list[str]:
-    """The backup among the names of a folder of HOME: it is not in itself."""
-    return [name for name in names if Path(folder, name) == backup]

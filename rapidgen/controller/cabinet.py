@@ -19,6 +19,7 @@ from rapidgen.controller.debugger.breakpoints import Breakpoint
 from rapidgen.controller.programs import Programs
 from rapidgen.controller.rebooting import Kept, boot
 from rapidgen.diagnostics import Diagnostic
+from rapidgen.machine.files import copy_files
 from rapidgen.python310 import Self, Unpack
 from rapidgen.system import read_backup
 from rapidgen.system.backup import backup_cfg
@@ -134,7 +135,7 @@ class Cabinet:
             kept, self.cfg, files = self._restored
             home = old.files.path("HOME:")
             shutil.rmtree(home)
-            shutil.copytree(files, home)
+            copy_files(files, home)
             self._restored = None
         self.restarts += 1
         self.controller, self.programs = boot(old, kept, self.cfg, self._options)

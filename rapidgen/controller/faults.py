@@ -9,6 +9,8 @@ from dataclasses import Field, dataclass, fields
 from pathlib import Path
 from typing import Literal, Protocol, TypeVar, get_args
 
+from rapidgen._reading import read_foreign
+from rapidgen.config.tree import MAX_BYTES, data_of
 from rapidgen.diagnostics import DiagnosticError, Span, refusal, suggest
 from rapidgen.machine.network.rules import NetworkRule
 from rapidgen.machine.scheduler import S, Scheduler
@@ -77,15 +79,13 @@ def _action(controller: Controllable, name: str) -> Callable[[], None]:
 
 def read_plan(path: Path) -> FaultPlan:
     """A plan from YAML. Raises DiagnosticError RG421."""
-    from ruamel.yaml import YAML
-    from ruamel.yaml.error import YAMLError
-
     try:
-        content = YAML(typ="safe", pure=True).load(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise _unusable(path, error.strerror or str(error)) from error
-    except (UnicodeDecodeError, YAMLError, RecursionError) as error:
-        raise _unusable(path, str(error).splitlines()[0]) from error
+        content = data_of(read_foreign(path, MAX_BYTES), str(path))
+    except OSError as fault:
+        raise _unusable(path, fault.strerror or str(fault)) from fault
+    except DiagnosticError as fault:
+        found = fault.diagnostics[0]
+        raise _unusable(path, found.message, found.help, found.span) from fault
     if not isinstance(content, dict) or set(content) - {"network", "controller"}:
         raise _unusable(path, "it is no mapping with `network` and `controller`")
     network = _rules(path, content, "network", NetworkRule, fields(NetworkRule))
@@ -146,10 +146,10 @@ def _checked(path: Path, where: str, value: object, wanted: object) -> object:
     return value
 
 
-def _unusable(path: Path, reason: str, mend: str = "") -> DiagnosticError:
+def _unusable(path: Path, reason: str, mend: str = "", span: Span | None = None) -> DiagnosticError:
     return refusal(
         "RG421",
-        Span(str(path), 1, 1),
+        span or Span(str(path), 1, 1),
         f"the fault plan cannot be used: {reason}",
         mend or "`rapidgen explain RG421` shows a plan",
     )

@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
+from rapidgen._reading import TooLarge, read_foreign
 from rapidgen.controller.controller import VirtualController
 from rapidgen.diagnostics import Diagnostic, Severity, error
 from rapidgen.machine.scheduler import WaitSet
@@ -87,7 +88,9 @@ class Programs:
         if not self.is_stopped:
             raise CannotLoad("E_EXEC_STATE")
         try:
-            data = path.read_bytes()
+            data = read_foreign(path, LARGEST_MODULE)
+        except TooLarge as error:
+            raise CannotLoad("E_TOO_BIG_MODULE") from error
         except OSError as error:
             raise CannotLoad("E_FILE_NOT_FOUND") from error
         return self.put(task, ModuleFile(path.stem, words, data), replaced=replaced)

@@ -8,9 +8,11 @@ from pathlib import Path
 from typing import Literal
 
 from rapidgen._json import Json, items
-from rapidgen.deploy.transports.transport import TransportFault, safe
+from rapidgen._reading import read_foreign
+from rapidgen.deploy.transports.transport import FILE_LIMIT, TransportFault, safe
 from rapidgen.diagnostics import DiagnosticError, refusal
 from rapidgen.system import CfgText, parse_cfg, read_manifest
+from rapidgen.system.paths import read_limited
 
 Kind = Literal["module", "cfg"]
 
@@ -121,14 +123,11 @@ def from_files(files: Mapping[str, bytes], *, source: str = "the build") -> Driv
 def from_folder(folder: Path) -> DriverSet:
     """The set in a generated folder. Raises DiagnosticError RG530, RG704, RG711."""
     manifest = read_manifest(folder)
-    files = {"manifest.json": (folder / "manifest.json").read_bytes()}
+    files = {"manifest.json": read_limited(folder / "manifest.json", below=folder)}
     for entry in items(manifest["files"]):
         path = str(entry.get("path")) if isinstance(entry, dict) else ""
         try:
-            target = folder / safe(path)
-            if not target.resolve().is_relative_to(folder.resolve()):
-                raise _bad(f"{path} leads out of {folder}", "build it again")
-            files[path] = target.read_bytes()
+            files[path] = read_foreign(folder / safe(path), FILE_LIMIT, below=folder)
         except TransportFault as fault:
             raise _bad(fault.diagnostics[0].message, "build it again") from None
         except OSError as cause:

@@ -5,15 +5,18 @@ import threading
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor, wait
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Literal, TypeVar
 
+from rapidgen._reading import read_foreign
 from rapidgen.deploy.target import Access, connect, parse_target
 from rapidgen.deploy.transports.registry import Target
 from rapidgen.deploy.transports.transport import Transport
 from rapidgen.diagnostics import DiagnosticError, refusal
 
 T = TypeVar("T")
+
+_LARGEST_LIST = 1_000_000
+"""Bytes of a file of targets."""
 
 Word = Literal["done", "same", "failed", "given up", "not begun"]
 
@@ -111,7 +114,7 @@ def connected(target: Target, access: Access) -> Iterator[Transport]:
 
 def _lines(path: str) -> list[str]:
     try:
-        text = Path(path).read_text(encoding="utf-8-sig")
+        text = read_foreign(path, _LARGEST_LIST).decode("utf-8-sig")
     except OSError as fault:
         raise _bad(f"{path}: {fault.strerror}") from fault
     except UnicodeDecodeError as fault:

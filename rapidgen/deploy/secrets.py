@@ -8,6 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
+from rapidgen._reading import open_foreign
 from rapidgen.diagnostics import DiagnosticError, refusal
 
 if sys.version_info >= (3, 11):
@@ -20,6 +21,10 @@ DEFAULTS = frozenset(
     {("Default User", "robotics"), ("Admin", "robotics"), ("anonymous", "anonymous@")}
 )
 """Logins that ABB's controllers are delivered with, and the one without a password."""
+
+
+_LARGEST = 1_000_000
+"""Bytes of a file of passwords."""
 
 
 class Secret:
@@ -107,7 +112,7 @@ def find_password(
 
 def _entry(path: Path, host: str, port: int) -> dict[str, str]:
     try:
-        with path.open("rb") as file:
+        with open_foreign(path, _LARGEST) as file:
             status = os.fstat(file.fileno())
             if status.st_mode & (stat.S_IRWXG | stat.S_IRWXO):
                 raise _refused(path, "others on this machine can read it", f"chmod 600 {path}")

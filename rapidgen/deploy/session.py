@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from rapidgen._json import items, members
+from rapidgen._reading import read_foreign
 from rapidgen._writing import write_whole
 from rapidgen.config import from_manifest
 from rapidgen.deploy.apply import apply, conflicts_of, moved_on
@@ -29,6 +30,8 @@ from rapidgen.generate.context import data_of_another
 from rapidgen.system import CfgText, cfg_bytes, read_backup
 
 Say = Callable[[str], None]
+_LARGEST_PLAN = 100_000_000
+"""Bytes of a file of plans, which has every file that would be written."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -232,7 +235,7 @@ def check_plans(path: Path, plans: Sequence[Plan]) -> None:
     moved on), RG540 (another controller).
     """
     try:
-        stored = json.loads(path.read_text(encoding="utf-8"))["plans"]
+        stored = json.loads(read_foreign(path, _LARGEST_PLAN).decode())["plans"]
         by_target = {str(p["target"]): p for p in map(members, items(stored))}
     except OSError as fault:
         raise _plan_file(path, fault.strerror or str(fault)) from fault
@@ -277,11 +280,19 @@ def _keep(path: Path, data: bytes) -> Path:
     """Where the copy lies now: under a name of its own (`SYS-2.cfg`) beside one that is another."""
     path.parent.mkdir(parents=True, exist_ok=True)
     place, number = path, 1
-    while place.exists() and place.read_bytes() != data:
+    while place.exists() and not _is_same(place, data):
         number += 1
         place = path.with_name(f"{path.stem}-{number}{path.suffix}")
     place.write_bytes(data)
     return place
+
+
+def _is_same(place: Path, data: bytes) -> bool:
+    """Whether a file has these bytes; what cannot be read is something else."""
+    try:
+        return read_foreign(place, len(data)) == data
+    except OSError:
+        return False
 
 
 def _host(plan: Plan) -> str:

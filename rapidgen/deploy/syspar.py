@@ -9,6 +9,7 @@ from rapidgen.deploy.cfg import keyed, merged, without_used
 from rapidgen.deploy.transports.transport import Transport
 from rapidgen.diagnostics import refusal
 from rapidgen.system import CfgText, cfg_bytes, parse_cfg
+from rapidgen.system.paths import read_limited
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,12 +47,15 @@ def read_syspar(transport: Transport, folder: str) -> tuple[SysparFile, ...]:
 def loaded_cfg(backup: Path) -> tuple[CfgText, ...]:
     """What was loaded on the controller when it made this backup: the cfg files of its SYSPAR.
 
-    Raises DiagnosticError RG536 when there is none, RG701, RG702 for one that cannot be read.
+    Raises DiagnosticError RG536 when there is none; RG701, RG702, RG704, RG705, RG706 for one that
+    cannot be read.
     """
     folder = next((f for f in _folders(backup) if f.name.casefold() == "syspar"), None)
     files = sorted(folder.iterdir()) if folder else []
     texts = tuple(
-        parse_cfg(f.read_bytes(), path=str(f)) for f in files if f.name.casefold().endswith(".cfg")
+        parse_cfg(read_limited(f, below=backup), path=str(f))
+        for f in files
+        if f.name.casefold().endswith(".cfg")
     )
     if not texts:
         raise refusal(

@@ -3,13 +3,15 @@
 import json
 import re
 from collections.abc import Callable, Iterable, Sequence
-from pathlib import Path
 
 from rapidgen._json import Json
+from rapidgen._reading import read_foreign
 from rapidgen.diagnostics.model import Diagnostic, Severity, Span
 from rapidgen.python310 import StrEnum
 
 _COLOURS = {Severity.ERROR: "1;31", Severity.WARNING: "1;33", Severity.INFO: "1;36"}
+_LARGEST = 20_000_000
+"""Bytes of a file that is shown in parts: as much as the largest that is read as text."""
 _TAB = "    "
 # Whatever a file or a robot says may be shown; it must not steer the terminal.
 _CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f]")
@@ -27,8 +29,8 @@ class Format(StrEnum):
 def read_lines(path: str) -> list[str]:
     """Lines of a file for showing; an unreadable file has none."""
     try:
-        data = Path(path).read_bytes()
-    except (OSError, ValueError):
+        data = read_foreign(path, _LARGEST)
+    except OSError:
         return []
     try:
         text = data.decode("utf-8-sig")

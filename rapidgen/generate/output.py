@@ -6,10 +6,12 @@ import logging
 import os
 import shutil
 import tempfile
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
 from rapidgen._json import Json, Members, items
+from rapidgen._reading import read_foreign
 from rapidgen.diagnostics import DiagnosticError, refusal
 
 _LOG = logging.getLogger("rapidgen.generate")
@@ -151,7 +153,7 @@ def _refuse_foreign(folder: Path, output: Output) -> None:
 def _built(folder: Path) -> set[str]:
     """Files that the manifest lists; none where it cannot be read."""
     try:
-        listed = json.loads((folder / MANIFEST).read_bytes())["files"]
+        listed = json.loads(read_foreign(folder / MANIFEST, MAX_COMPARED, below=folder))["files"]
         return {str(entry["path"]) for entry in listed}
     except (OSError, ValueError, KeyError, TypeError, RecursionError):
         return set()
@@ -171,8 +173,9 @@ def _read(folder: Path) -> dict[str, bytes]:
     found = {}
     if folder.is_dir() and _is_ours(folder):
         for path in sorted(folder.rglob("*")):
-            if path.is_file() and path.stat().st_size <= MAX_COMPARED:
-                found[path.relative_to(folder).as_posix()] = path.read_bytes()
+            with suppress(OSError):  # no regular file, or one that no build has written
+                data = read_foreign(path, MAX_COMPARED, below=folder)
+                found[path.relative_to(folder).as_posix()] = data
     return found
 
 

@@ -10,9 +10,12 @@ import os
 import shutil
 import tempfile
 import weakref
+from contextlib import suppress
 from pathlib import Path
 from typing import IO
 
+from rapidgen._reading import NotRegular, TooLarge, open_foreign
+from rapidgen.diagnostics import refusal
 from rapidgen.python310 import StrEnum
 
 _DEVICES = {
@@ -27,6 +30,8 @@ _DEVICES = {
 }
 CAPACITY = 256 * 1024 * 1024
 """Bytes that a controller's programs may write in all; then the disk is full."""
+LARGEST_COPY = 1_000_000_000
+"""Bytes of a folder that is copied onto a disk."""
 _LONGEST_NAME = 255
 """Bytes of a file's name."""
 MAX_OPEN = 64
@@ -91,7 +96,7 @@ class FileSystem:
 
     A scratch folder is made when it is needed: few drivers touch a file. A controller that nobody
     closed takes its own with it, too. HOME: starts as a copy of `home`, over one of `home_below`;
-    links in them are left out.
+    links, pipes and devices in them are left out. DiagnosticError RG705: they are too large.
     """
 
     def __init__(
@@ -106,7 +111,11 @@ class FileSystem:
         self._scratch: weakref.finalize[[Path], FileSystem] | None = None
         self._folder = None if folder is None else _with_devices(folder)
         for source in filter(None, (home_below, home)):
-            shutil.copytree(source, self.folder / "HOME", ignore=_links, dirs_exist_ok=True)
+            try:
+                copy_files(source, self.folder / "HOME")
+            except TooLarge as fault:
+                mend = "take out what the robot's programs do not need: is it the right folder?"
+                raise refusal("RG705", None, f"{source}: {fault.strerror}", mend) from fault
 
     @property
     def folder(self) -> Path:
@@ -219,5 +228,36 @@ def _find(folder: Path, name: str) -> Path:
     return exact
 
 
-def _links(folder: str, names: list[str]) -> set[str]:
-    return {name for name in names if os.path.islink(os.path.join(folder, name))}
+def copy_files(source: Path, target: Path, *, without: Path | None = None) -> None:
+    """Copy the folders and regular files of `source` into `target`; links are left out.
+
+    So are pipes, devices and the folder `without`. Raises OSError, TooLarge for more bytes than
+    `LARGEST_COPY`.
+    """
+    room = LARGEST_COPY
+    target.mkdir(parents=True, exist_ok=True)
+    for place, folders, files in os.walk(source, onerror=_raise):
+        folders[:] = [
+            name
+            for name in folders
+            if not os.path.islink(os.path.join(place, name)) and Path(place, name) != without
+        ]
+        here = target / os.path.relpath(place, source)
+        for name in folders:
+            (here / name).mkdir(exist_ok=True)
+        for name in files:
+            path = Path(place, name)
+            if path.is_symlink():
+                continue
+            with suppress(NotRegular), open_foreign(path, below=source) as file:
+                room -= os.fstat(file.fileno()).st_size
+                if room < 0:
+                    reason = f"it holds more than {LARGEST_COPY:,} bytes"
+                    raise TooLarge(errno.EFBIG, reason, str(source))
+                with (here / name).open("wb") as copy:
+                    shutil.copyfileobj(file, copy)
+                shutil.copystat(path, here / name)
+
+
+def _raise(fault: OSError) -> None:
+    raise fault

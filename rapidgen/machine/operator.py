@@ -10,6 +10,8 @@ from dataclasses import dataclass, field
 from itertools import count
 from pathlib import Path
 
+from rapidgen._reading import read_foreign
+from rapidgen.config.tree import MAX_BYTES, data_of
 from rapidgen.diagnostics import DiagnosticError, Span, error
 from rapidgen.machine.scheduler import S, Scheduler, WaitSet
 
@@ -178,15 +180,13 @@ def read_answers(path: Path) -> list[Answer]:
 
     Raises DiagnosticError RG420.
     """
-    from ruamel.yaml import YAML
-    from ruamel.yaml.error import YAMLError
-
     try:
-        entries = YAML(typ="safe", pure=True).load(path.read_text(encoding="utf-8"))
+        entries = data_of(read_foreign(path, MAX_BYTES), str(path))
     except OSError as fault:
         raise _unreadable(path, fault.strerror or str(fault)) from fault
-    except (UnicodeDecodeError, YAMLError, RecursionError) as fault:
-        raise _unreadable(path, str(fault).splitlines()[0]) from fault
+    except DiagnosticError as fault:
+        found = fault.diagnostics[0]
+        raise _unreadable(path, found.message, found.span) from fault
     if not isinstance(entries, list):
         raise _unreadable(path, "it holds no list")
     return [_entry(path, i, entry) for i, entry in enumerate(entries, 1)]
@@ -212,11 +212,11 @@ def _text(value: object) -> str:
     return str(value)
 
 
-def _unreadable(path: Path, reason: str) -> DiagnosticError:
+def _unreadable(path: Path, reason: str, span: Span | None = None) -> DiagnosticError:
     return DiagnosticError(
         error(
             "RG420",
-            Span(str(path), 1, 1),
+            span or Span(str(path), 1, 1),
             f"the script of answers cannot be used: {reason}",
             "a YAML list: `- 2`, or `- {dialog: TPReadNum, text: parts, answer: 2}`",
         )

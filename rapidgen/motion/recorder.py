@@ -5,12 +5,14 @@ the formulas afterwards, at any period.
 """
 
 import csv
+import io
 from bisect import bisect_right
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from rapidgen._reading import open_foreign, read_foreign
 from rapidgen.axes import frames
 from rapidgen.axes.kinematics import Posture
 from rapidgen.machine.scheduler import S, Scheduler
@@ -25,6 +27,9 @@ if TYPE_CHECKING:
 _ACTUAL = "actual_"
 _TCP = ["x", "y", "z", "q1", "q2", "q3", "q4"]
 _POINTERS = ["program_pointer", "motion_pointer"]
+_LARGEST_HEADER = 100_000
+_LARGEST = 500_000_000
+"""Bytes of a table: more than an hour of a motion."""
 PERIOD = 0.004
 """s between samples: that of the controller's own motion interface."""
 
@@ -62,16 +67,20 @@ class Recording:
 
 def is_recording(path: Path) -> bool:
     """Whether a file begins as `Recording.write_csv` does. Raises OSError."""
-    with path.open(encoding="utf-8", errors="replace") as file:
-        return file.readline().rstrip("\n").endswith("," + ",".join(_POINTERS))
+    with open_foreign(path) as file:
+        header = file.readline(_LARGEST_HEADER).rstrip(b"\r\n")
+    return header.endswith(("," + ",".join(_POINTERS)).encode())
 
 
 def read_recording(path: Path) -> Recording:
     """What `Recording.write_csv` wrote. OSError; ValueError: something else."""
     import numpy as np  # only who asks for arrays pays for them
 
-    with path.open(newline="", encoding="utf-8") as file:
-        header, *rows = csv.reader(file)
+    text = read_foreign(path, _LARGEST).decode()
+    try:
+        header, *rows = csv.reader(io.StringIO(text, newline=""))
+    except csv.Error as fault:
+        raise ValueError(str(fault)) from None
     joints = tuple(n.removeprefix(_ACTUAL) for n in header if n.startswith(_ACTUAL))
     count = len(joints)
     wanted = ["time", *joints, *(f"{_ACTUAL}{name}" for name in joints)]

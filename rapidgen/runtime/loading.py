@@ -6,6 +6,7 @@ value of a persistent, which is saved as its initial value.
 
 from pathlib import Path
 
+from rapidgen._reading import TooLarge, read_foreign
 from rapidgen.diagnostics import Severity
 from rapidgen.machine.calendar import date_time
 from rapidgen.runtime.compiler.missing import missing_routines
@@ -29,11 +30,11 @@ def load(task: RapidTask, words: str, *, dynamic: bool, check: bool) -> str:
     """
     path = _found(task, words)
     try:
-        data = path.read_bytes()
+        data = read_foreign(path, LARGEST_MODULE)
+    except TooLarge as error:
+        raise RapidError("ERR_PRGMEMFULL", words) from error
     except OSError as error:
         raise RapidError("ERR_IOERROR", f"{words}: {error.strerror}") from error
-    if len(data) > LARGEST_MODULE:
-        raise RapidError("ERR_PRGMEMFULL", words)
     file = ModuleFile(path.stem, words, data)
     tree = task.controller.parse_module(file)
     wrong = [d for d in tree.diagnostics if d.severity is Severity.ERROR]

@@ -20,7 +20,7 @@ from rapidgen.system.controller_cfg import ControllerCfg
 from rapidgen.system.interpret import ModuleEntry, modules_of, tasks_of, with_cfg
 from rapidgen.system.loading import load_entries, load_module
 from rapidgen.system.model import ModuleFile, System, TaskSpec, UdpDevice
-from rapidgen.system.paths import inside, module_files, read_limited
+from rapidgen.system.paths import inside, is_there, module_files, read_limited
 
 _TASK_LINE = re.compile(rb">>TASK(\d+):\s*\(\s*([^,()\s]+)")
 _TASK_MODULES = re.compile(rb">>TASK(\d+):[^\r\n]*([^>]*)")
@@ -127,7 +127,7 @@ def backup_cfg(folder: Path, robotware: tuple[int, int], notes: list[Diagnostic]
     Raises DiagnosticError: RG701..RG706 for damaged or hostile content of SYS and EIO.
     """
     found = [_cfg(folder, "SYS.cfg")]
-    if inside(folder, "SYSPAR/EIO.cfg").is_file():
+    if is_there(inside(folder, "SYSPAR/EIO.cfg")):
         found.append(_cfg(folder, "EIO.cfg"))
     further = (_further(folder, domain, notes) for domain in DOMAINS if domain not in _READ)
     found += [text for text in further if text is not None]
@@ -139,7 +139,7 @@ def backup_cfg(folder: Path, robotware: tuple[int, int], notes: list[Diagnostic]
 def _further(folder: Path, domain: str, notes: list[Diagnostic]) -> CfgText | None:
     """A domain that programs run without: where it cannot be read, that is a note."""
     path = inside(folder, f"SYSPAR/{domain}.cfg")
-    if not path.is_file():
+    if not is_there(path):
         return None
     try:
         return parse_cfg(read_limited(path), path=str(path))
@@ -150,7 +150,7 @@ def _further(folder: Path, domain: str, notes: list[Diagnostic]) -> CfgText | No
 
 def is_backup(folder: Path) -> bool:
     """Whether `folder` looks like an ABB backup."""
-    return inside(folder, "SYSPAR/SYS.cfg").is_file()
+    return is_there(inside(folder, "SYSPAR/SYS.cfg"))
 
 
 def _names(rows: bytes) -> frozenset[str]:
@@ -206,7 +206,7 @@ def _cfg(folder: Path, name: str) -> CfgText:
 
 
 def _info(folder: Path) -> bytes:
-    found = [path for name in _INFO_FILES if (path := inside(folder, name)).is_file()]
+    found = [path for name in _INFO_FILES if is_there(path := inside(folder, name))]
     return b"\n".join(read_limited(path) for path in found)
 
 

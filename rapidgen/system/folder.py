@@ -13,7 +13,7 @@ from rapidgen.system.interpret import ModuleEntry
 from rapidgen.system.loading import Origin, load_entries
 from rapidgen.system.model import ModuleFile, System, TaskSpec
 from rapidgen.system.onto import Under, additions, bad_manifest, delivered, of_backup, onto
-from rapidgen.system.paths import inside, read_limited
+from rapidgen.system.paths import inside, is_there, read_limited
 
 MANIFEST = "manifest.json"
 FORMAT = 1
@@ -108,7 +108,7 @@ def _origins(folder: Path, manifest: Members) -> dict[str, Origin]:
     origins: dict[str, Origin] = {}
     for relative, lines in members(manifest["lines"]).items():
         path = inside(folder, relative)
-        if not path.is_file() or not isinstance(lines, list):
+        if not is_there(path) or not isinstance(lines, list):
             continue
         data = read_limited(path)
         if hashlib.sha256(data).hexdigest() != digests.get(relative):
@@ -135,4 +135,4 @@ def expand_lines(runs: Sequence[tuple[int, str, int]], count: int) -> Origin:
 
 def is_generated(folder: Path) -> bool:
     """Whether `folder` looks like one that `rapidgen build` wrote."""
-    return (folder / MANIFEST).is_file()
+    return is_there(folder / MANIFEST)

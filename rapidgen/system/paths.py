@@ -1,10 +1,10 @@
 """Reading files of a folder that somebody else made: nothing outside it, nothing endless."""
 
 import os
-import stat
 from collections.abc import Iterator
 from pathlib import Path, PurePosixPath
 
+from rapidgen._reading import NotRegular, OutsideFolder, TooLarge, read_foreign
 from rapidgen.diagnostics import refusal
 
 MAX_FILE = 8 * 1024 * 1024
@@ -12,30 +12,36 @@ MAX_FILES = 20_000
 MODULE_SUFFIXES = (".mod", ".modx", ".sys", ".sysx", ".prg")
 
 
-def read_limited(path: Path) -> bytes:
-    """A regular file's bytes.
+def read_limited(path: Path, *, below: Path | None = None) -> bytes:
+    """A regular file's bytes; `below`: the folder that it has to lie in, links followed.
 
-    Raises DiagnosticError: RG704 (cannot be read), RG705 (too large or no regular file).
+    Raises DiagnosticError: RG704 (cannot be read), RG705 (too large or no regular file), RG706 (a
+    link that leaves the folder).
     """
     try:
-        descriptor = os.open(path, os.O_RDONLY | os.O_NONBLOCK)
+        return read_foreign(path, MAX_FILE, below=below)
+    except (NotRegular, TooLarge) as fault:
+        raise refusal(
+            "RG705",
+            None,
+            f"{path} is not a regular file of at most {MAX_FILE // 2**20} MB",
+            "a RAPID module or cfg file is far smaller: is it the right file?",
+        ) from fault
+    except OutsideFolder as fault:
+        raise refusal(
+            "RG706",
+            None,
+            f"'{path}' is a link that leaves {below}",
+            "files of a system lie inside its own folder",
+        ) from fault
     except OSError as fault:
         mend = "give the path of a file or folder that exists and may be read"
         raise refusal("RG704", None, f"cannot read {path}: {fault.strerror}", mend) from fault
-    with open(descriptor, "rb") as file:
-        status = os.fstat(descriptor)
-        if not stat.S_ISREG(status.st_mode) or status.st_size > MAX_FILE:
-            raise refusal(
-                "RG705",
-                None,
-                f"{path} is not a regular file of at most {MAX_FILE // 2**20} MB",
-                "a RAPID module or cfg file is far smaller: is it the right file?",
-            )
-        try:
-            return file.read()
-        except OSError as fault:
-            mend = "look at the disk that it lies on"
-            raise refusal("RG704", None, f"cannot read {path}: {fault.strerror}", mend) from fault
+
+
+def is_there(path: Path) -> bool:
+    """Whether a name stands for a file, or for a pipe or device, which `read_limited` refuses."""
+    return path.exists() and not path.is_dir()
 
 
 def inside(root: Path, relative: str) -> Path:

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from types import MappingProxyType
 
+from rapidgen._reading import TooLarge, read_foreign
 from rapidgen.axes.frames import IDENTITY, Pose
 from rapidgen.config.cell import CellDescription
 from rapidgen.config.layers import Overrides
@@ -85,13 +86,12 @@ class Meshes:
     def _read(self, path: Path) -> str:
         room = min(LARGEST, MOST - sum(map(len, self.files.values())))
         try:
-            with path.open("rb") as stream:
-                data = stream.read(room + 1)
-        except OSError as fault:
-            self._say(f"{path}: {fault.strerror or fault}")
-            return ""
-        if len(data) > room:
+            data = read_foreign(path, room)
+        except TooLarge:
             self._say(f"{path.name} is larger than {room / 1e6:.0f} MB")
+            return ""
+        except OSError as fault:
+            self._say(f"{path}: {fault.strerror}")
             return ""
         if path.suffix.lower() == ".dae" and (why := xml_fault(data)):
             self._say(f"{path.name}: {why}")

@@ -217,6 +217,6 @@ def test_nothing_heavy_is_imported_before_it():
     )
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
     assert done.stdout == (
-        "['rapidgen', 'rapidgen._data', 'rapidgen.cli', 'rapidgen.cli.entry',"
-        " 'rapidgen.cli.quick_stop'] []\n"
+        "['rapidgen', 'rapidgen._data', 'rapidgen._reading', 'rapidgen.cli', "
+        "'rapidgen.cli.entry', 'rapidgen.cli.quick_stop'] []\n"
     ), done.stderr

@@ -133,8 +133,8 @@ def test_a_file_of_answers(tmp_path):
         ("- {task: T}", "entry 1: no 'answer'"),
         ("- {answer: 1, after: -1}", "entry 1: 'after' is no time"),
         ("- {answer: 1, after: soon}", "entry 1: 'after' is no time"),
-        ("- [", "while parsing"),
-        ("\udcff", "codec"),
+        ("- [", "not YAML"),
+        ("\udcff", "not UTF-8"),
         (None, "No such file"),
     ],
 )

@@ -7,7 +7,11 @@ that a person has agreed to is the only one that is accepted afterwards.
 import os
 from pathlib import Path
 
+from rapidgen._reading import read_foreign
 from rapidgen._writing import write_whole
+
+_LARGEST = 1_000_000
+"""Bytes of the list."""
 
 
 def default_file() -> Path:
@@ -19,7 +23,7 @@ def default_file() -> Path:
 def known(file: Path, where: str) -> str:
     """The fingerprint of a controller, or an empty text."""
     try:
-        text = file.read_text(encoding="utf-8")
+        text = read_foreign(file, _LARGEST).decode()
     except FileNotFoundError:
         return ""
     for line in text.splitlines():
@@ -31,7 +35,7 @@ def known(file: Path, where: str) -> str:
 
 def remember(file: Path, where: str, fingerprint: str) -> None:
     """Keep a fingerprint, in place of an older one."""
-    lines = file.read_text(encoding="utf-8").splitlines() if file.exists() else []
+    lines = read_foreign(file, _LARGEST).decode().splitlines() if file.exists() else []
     lines = [line for line in lines if line.partition(" ")[0] != where]
     file.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
     write_whole(file, "".join(f"{x}\n" for x in [*lines, f"{where} {fingerprint}"]).encode())

@@ -10,6 +10,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from rapidgen._reading import open_foreign
+
 MAX_FOLDERS = 20_000
 MAX_DEPTH = 6
 _NAME = re.compile(rb"<name>\s*([^<\s]+)\s*</name>")
@@ -135,7 +137,7 @@ def package_of(folder: Path) -> Path | None:
 def package_name(folder: Path) -> str:
     """What package.xml in a folder calls the package; empty: there is none."""
     try:
-        with (folder / "package.xml").open("rb") as stream:
+        with open_foreign(folder / "package.xml") as stream:
             hit = _NAME.search(stream.read(20_000))
     except OSError:
         return ""

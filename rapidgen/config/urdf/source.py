@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from xml.parsers import expat
 
+from rapidgen._reading import TooLarge, read_foreign
 from rapidgen.diagnostics import Diagnostic, Span, error, refusal
 
 MAX_BYTES = 20_000_000
@@ -39,22 +40,17 @@ class Macro:
 def read_xml(path: Path, *, place: Span | None = None) -> tuple[str, bytes]:
     """Text and bytes of an XML file; raises DiagnosticError (RG060)."""
     try:
-        if path.exists() and not path.is_file():
-            raise refusal("RG060", place, f"{path} is no file", "give the path of a file")
-        with path.open("rb") as stream:
-            data = stream.read(MAX_BYTES + 1)
-    except (OSError, ValueError) as fault:
-        reason = getattr(fault, "strerror", None) or str(fault)
-        raise refusal(
-            "RG060", place, f"cannot read {path}: {reason}", "give the path of a file"
-        ) from None
-    if len(data) > MAX_BYTES:
+        data = read_foreign(path, MAX_BYTES)
+    except OSError as fault:
+        too_large = isinstance(fault, TooLarge)
         raise refusal(
             "RG060",
             place,
-            f"{path} is larger than {MAX_BYTES:,} bytes",
-            "give a URDF: meshes are files of their own",
-        )
+            f"cannot read {path}: {fault.strerror}",
+            "give a URDF: meshes are files of their own"
+            if too_large
+            else "give the path of a file",
+        ) from None
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError:

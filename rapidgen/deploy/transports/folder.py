@@ -3,10 +3,13 @@
 import errno
 import os
 import shutil
+import stat
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import BinaryIO
 
+from rapidgen._reading import OutsideFolder, TooLarge, read_foreign
 from rapidgen.deploy.secrets import Credentials
 from rapidgen.deploy.transports.registry import Target
 from rapidgen.deploy.transports.transport import (
@@ -49,14 +52,11 @@ class FolderTransport:
         return tuple(sorted(found, key=lambda e: e.name))
 
     def read(self, path: str) -> bytes:
-        with _faults(path), self._real(safe(path)).open("rb") as file:
-            data = file.read(FILE_LIMIT + 1)
-        if len(data) > FILE_LIMIT:
-            raise TransportFault("garbled", f"{path} is larger than 8 MB")
-        return data
+        with _faults(path):
+            return read_foreign(self._root / safe(path), FILE_LIMIT, below=self._root)
 
     def write(self, path: str, data: bytes) -> None:
-        with _faults(path), self._real(safe(path)).open("wb") as file:
+        with _faults(path), _open_to_write(self._real(safe(path))) as file:
             file.write(data)
             file.flush()
             os.fsync(file.fileno())
@@ -105,6 +105,20 @@ def open_folder(target: Target, _login: Credentials, _timeout: float) -> FolderT
     return FolderTransport(Path(target.path))
 
 
+def _open_to_write(path: Path) -> BinaryIO:
+    """An empty regular file; a pipe or a device that has its name is not written to."""
+    flags = os.O_WRONLY | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC | os.O_NOCTTY
+    file = open(os.open(path, flags, 0o666), "wb")  # noqa: SIM115 - it is closed by who asked
+    try:
+        if not stat.S_ISREG(os.fstat(file.fileno()).st_mode):
+            raise OSError(errno.EINVAL, "it is no regular file", str(path))
+        file.truncate()
+    except OSError:
+        file.close()
+        raise
+    return file
+
+
 def _sync(folder: Path) -> None:
     """Make a rename outlive a power cut."""
     descriptor = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
@@ -120,6 +134,10 @@ def _faults(path: str) -> Iterator[None]:
         yield
     except OSError as error:
         place = f"{path or 'the folder'}: {error.strerror or error}"
+        if isinstance(error, OutsideFolder):
+            raise TransportFault("outside", place) from error
+        if isinstance(error, TooLarge):
+            raise TransportFault("garbled", place) from error
         if error.errno in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG):
             raise TransportFault("full", place) from error
         if error.errno in (errno.ENOENT, errno.ENOTDIR):

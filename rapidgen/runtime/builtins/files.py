@@ -11,6 +11,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import IO
 
+from rapidgen._reading import read_foreign
 from rapidgen.machine.calendar import date_time
 from rapidgen.machine.files import CAPACITY as DISK
 from rapidgen.machine.files import Directory, IODevice
@@ -303,7 +304,7 @@ def copy_file(task: Task, old: str, new: str) -> None:
     """Copy a file; ERR_FILEEXIST when the name is taken."""
     source, target = _pair(task, old, new)
     try:
-        data = source.read_bytes()
+        data = read_foreign(source, task.controller.files.room)
         spend(task, len(data))
         target.write_bytes(data)
     except OSError as error:

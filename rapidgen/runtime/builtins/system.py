@@ -6,9 +6,11 @@ remembered only [mem].
 
 from collections.abc import Callable
 
+from rapidgen._reading import read_foreign
 from rapidgen.config.model import GroupConfig
 from rapidgen.runtime.disks import file_path
 from rapidgen.runtime.errors import FatalError, RapidError
+from rapidgen.runtime.loading import LARGEST_MODULE
 from rapidgen.runtime.rawbytes import whole
 from rapidgen.runtime.registry import builtin, builtins
 from rapidgen.runtime.task.task import Task
@@ -63,7 +65,8 @@ def get_sys_info(
 def text_tab_install(task: Task, file: str) -> None:
     """Install the tables of a file."""
     try:
-        task.controller.texts.install(file_path(task, file).read_text(encoding="latin-1"))
+        data = read_foreign(file_path(task, file), LARGEST_MODULE)
+        task.controller.texts.install(data.decode("latin-1"))
     except OSError as error:
         raise RapidError("ERR_FILEOPEN", f"{file}: {error.strerror}") from error
     except ValueError as error:

@@ -10,6 +10,7 @@ from typing import BinaryIO, TypeVar
 
 from pydantic import TypeAdapter, ValidationError
 
+from rapidgen._reading import open_foreign
 from rapidgen.config.manifest import group_from_manifest
 from rapidgen.config.model import GroupConfig
 from rapidgen.diagnostics import refusal
@@ -62,7 +63,7 @@ class RecordingFile:
     def __init__(self, path: Path | str) -> None:
         self.path = Path(path)
         try:
-            self._file: BinaryIO = self.path.open("rb")
+            self._file: BinaryIO = open_foreign(self.path)
         except OSError as error:
             raise self._refused(error.strerror or str(error)) from error
         try:

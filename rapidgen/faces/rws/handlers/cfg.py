@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from rapidgen._reading import read_foreign
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.faces.rws.asking import Denied, RwsRequest, Served, show
 from rapidgen.faces.rws.built_in import DOMAINS, built_in
@@ -12,6 +13,7 @@ from rapidgen.faces.rws.paging import page
 from rapidgen.faces.rws.routing import serves
 from rapidgen.system.adding import Addition, Loaded, add, identity_text
 from rapidgen.system.cfg import Attribute, CfgText, Instance, Section, parse_cfg, scalar, write_cfg
+from rapidgen.system.paths import MAX_FILE
 from rapidgen.wire.rws import operations as ops
 from rapidgen.wire.rws.bodies import Item
 from rapidgen.wire.rws.codes import OK
@@ -188,7 +190,7 @@ def _load(office: "Office", asked: RwsRequest) -> Loaded:
         raise Denied(400, "E_INVALID_PATH", f"{words}: a bare path is wanted")
     path = disk_path(office, words, asked)
     try:
-        data = path.read_bytes()
+        data = read_foreign(path, MAX_FILE)
         text = parse_cfg(data, path=words)
     except OSError as error:
         raise Denied(400 if asked.is_one else 404, "E_FILE_NOT_FOUND", words) from error

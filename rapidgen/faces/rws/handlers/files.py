@@ -5,9 +5,11 @@ from datetime import datetime, timezone
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from rapidgen._reading import read_foreign
 from rapidgen.faces.rws.asking import Denied, RwsRequest, Served, show
 from rapidgen.faces.rws.disks import VOLUMES, disk_path
 from rapidgen.faces.rws.routing import serves
+from rapidgen.machine.files import CAPACITY
 from rapidgen.wire.rws import operations as ops
 from rapidgen.wire.rws.bodies import Item
 
@@ -40,7 +42,7 @@ def read(office: "Office", asked: RwsRequest) -> Served:
         entries = sorted(path.iterdir(), key=lambda p: p.name.lower())
         return show(*(_entry(p) for p in entries if not p.is_symlink()), collection=True)
     try:
-        return Served(200, data=path.read_bytes())
+        return Served(200, data=read_foreign(path, CAPACITY))
     except OSError as error:
         raise _missing(asked, asked.names["path"]) from error
 
@@ -115,7 +117,7 @@ def copy(office: "Office", asked: RwsRequest) -> None:
         raise Denied(403, "E_ALREADY_EXISTS", target.name)
     if not path.is_file():
         raise _missing(asked, asked.names["path"])
-    office.write_file(target, path.read_bytes())
+    office.write_file(target, read_foreign(path, CAPACITY))
 
 
 @serves(ops.RENAME_FILE)

@@ -7,12 +7,13 @@ from xml.etree.ElementTree import ParseError
 from defusedxml.common import DefusedXmlException
 from defusedxml.ElementTree import fromstring
 
+from rapidgen._reading import read_foreign
 from rapidgen.controller.programs import CannotLoad
 from rapidgen.faces.rws.asking import Denied, RwsRequest, Served, show
 from rapidgen.faces.rws.disks import disk_path
 from rapidgen.faces.rws.handlers.tasks import find_task, load_refused
 from rapidgen.faces.rws.routing import serves
-from rapidgen.runtime.loading import module_text
+from rapidgen.runtime.loading import LARGEST_MODULE, module_text
 from rapidgen.runtime.task.task import Task
 from rapidgen.wire.rws import operations as ops
 from rapidgen.wire.rws.bodies import Item
@@ -86,7 +87,7 @@ def load(office: "Office", asked: RwsRequest) -> None:
 def _listed(path: Path, asked: RwsRequest, words: str) -> list[str]:
     """Files of a program, which lie in its folder. Denied: it is none."""
     try:
-        root = fromstring(path.read_bytes())
+        root = fromstring(read_foreign(path, LARGEST_MODULE))
     except OSError as error:
         raise Denied(400 if asked.is_one else 404, "E_FILE_NOT_FOUND", words) from error
     except (ParseError, DefusedXmlException, ValueError) as error:

@@ -1,0 +1,106 @@
+"""Reading files that others made: regular, of limited size, and below the folder they belong to.
+
+Every file of foreign origin is read here: a configuration, a description and its meshes, cfg and
+modules, a backup, a manifest, a plan, a journal, a recording. A named pipe, a socket or a device
+is not waited for, and a link does not lead out of the folder, also not one that is put there
+while the file is being opened.
+"""
+
+import errno
+import os
+import stat
+from io import BufferedReader
+
+StrPath = str | os.PathLike[str]
+
+_FLAGS = os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC | os.O_NOCTTY
+# Only Linux has O_PATH, which needs no right to list a folder.
+_STEP = getattr(os, "O_PATH", os.O_RDONLY) | os.O_DIRECTORY | os.O_NOFOLLOW | os.O_CLOEXEC
+_PART = 1 << 20
+"""Bytes that are asked for at a time: the limit may be far above what is there."""
+
+
+class NotRegular(OSError):
+    """A folder, named pipe, socket or device."""
+
+
+class TooLarge(OSError):
+    """A file that has more bytes than the limit."""
+
+
+class OutsideFolder(OSError):
+    """A path, or a link on it, that leads out of its folder."""
+
+
+def read_foreign(path: StrPath, limit: int, *, below: StrPath | None = None) -> bytes:
+    """Bytes of a regular file of at most `limit` bytes.
+
+    `below`: the folder that the file has to lie in, links followed. Raises OSError, with the
+    reason in `strerror`: NotRegular, TooLarge, OutsideFolder, or the system's own.
+    """
+    with open_foreign(path, limit, below=below) as file:
+        data = bytearray()
+        # `file.read` gives None instead of an OSError where nothing is there yet (/proc/kmsg).
+        while part := os.read(file.fileno(), _PART):
+            data += part
+            if len(data) > limit:  # it has grown, or is one of /proc, which have no size
+                raise _too_large(path, limit)
+    return bytes(data)
+
+
+def open_foreign(
+    path: StrPath, limit: int | None = None, *, below: StrPath | None = None
+) -> BufferedReader:
+    """A regular file opened for reading; as `read_foreign`, for files that are read in parts."""
+    name = os.fspath(path)
+    try:
+        descriptor = _open(name) if below is None else _open_below(name, os.fspath(below))
+    except ValueError as fault:  # a NUL in the name
+        raise OSError(errno.EINVAL, str(fault), name) from None
+    try:
+        status = os.fstat(descriptor)
+        _check_regular(status, name)
+        if limit is not None and status.st_size > limit:
+            raise _too_large(name, limit)
+    except OSError:
+        os.close(descriptor)
+        raise
+    return open(descriptor, "rb")
+
+
+def _open(path: str, folder: int | None = None, flags: int = _FLAGS) -> int:
+    # Opening a device can have effects, so its kind is looked at first. What is put there between
+    # the two is opened without waiting, and refused by what `fstat` says of the descriptor.
+    follow = not flags & os.O_NOFOLLOW
+    _check_regular(os.stat(path, dir_fd=folder, follow_symlinks=follow), path)
+    return os.open(path, flags, dir_fd=folder)
+
+
+def _open_below(path: str, below: str) -> int:
+    root = os.path.realpath(below)
+    real = os.path.realpath(path)
+    if os.path.commonpath((root, real)) != root:
+        raise OutsideFolder(errno.EPERM, f"it lies outside of {below}", path)
+    # The real path has no links: one that is met on the way was put there after `realpath`, and
+    # O_NOFOLLOW refuses it.
+    *folders, name = os.path.relpath(real, root).split(os.sep)
+    here = os.open(root, _STEP & ~os.O_NOFOLLOW)
+    try:
+        for folder in folders:
+            inner = os.open(folder, _STEP, dir_fd=here)
+            os.close(here)
+            here = inner
+        return _open(name, here, _FLAGS | os.O_NOFOLLOW)
+    finally:
+        os.close(here)
+
+
+def _check_regular(status: os.stat_result, path: StrPath) -> None:
+    if stat.S_ISDIR(status.st_mode):
+        raise NotRegular(errno.EISDIR, "it is a folder", os.fspath(path))
+    if not stat.S_ISREG(status.st_mode):
+        raise NotRegular(errno.EINVAL, "it is no regular file", os.fspath(path))
+
+
+def _too_large(path: StrPath, limit: int) -> TooLarge:
+    return TooLarge(errno.EFBIG, f"it is larger than {limit:,} bytes", os.fspath(path))
