@@ -38,7 +38,7 @@ def doctor(
     import json
     from dataclasses import asdict
 
-    from rapidgen.cli.hello import hello
+    from rapidgen.cli.hello import error_reason, hello
     from rapidgen.cli.web_services import agree
     from rapidgen.deploy.doctor import examine
     from rapidgen.deploy.session import wanted_set
@@ -51,6 +51,7 @@ def doctor(
         ),
         wanted_set(config, overrides or ()),
         hello=hello,
+        told=error_reason,
         robot_host=host,
         backup=backup,
     )

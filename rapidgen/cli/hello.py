@@ -1,15 +1,48 @@
-"""Which build serves a state port: the question that `doctor` and `deploy` ask a driver."""
+"""What a driver says on its state port: the questions that `doctor` and `deploy` ask it."""
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from rapidgen.wire.simple_message.declaration import Content
+    from rapidgen.wire.simple_message.spec import Reason
 
 
 def hello(host: str, port: int, timeout: float = 3.0) -> str | None:
     """BUILD_ID that a driver tells on its state port; None for another program. OSError: nobody."""
+    from rapidgen.wire.simple_message.messages import HelloReply
+
+    for content in _messages(host, port, timeout):
+        if isinstance(content, HelloReply):
+            return content.build_id
+    return None
+
+
+def error_reason(host: str, port: int, timeout: float = 3.0) -> "Reason | None":
+    """The error that a driver of rapidgen tells in its STATUS; None: no error, or no such driver.
+
+    OSError: nobody.
+    """
+    from rapidgen.wire.simple_message.messages import HelloReply, StatusReport
+    from rapidgen.wire.simple_message.spec import split_error_code
+
+    is_ours = False
+    for content in _messages(host, port, timeout):
+        is_ours = is_ours or isinstance(content, HelloReply)
+        if is_ours and isinstance(content, StatusReport):
+            return split_error_code(content.error_code)[0] if content.in_error == 1 else None
+    return None
+
+
+def _messages(host: str, port: int, timeout: float) -> "Iterator[Content]":
+    """What comes after a HELLO, until `timeout` s are over or it is none of the protocol."""
     import socket
     import time
 
     from rapidgen import __version__
     from rapidgen.wire.simple_message.codec import decode, encode
     from rapidgen.wire.simple_message.frames import FrameSplitter, WireError
-    from rapidgen.wire.simple_message.messages import HelloReply, HelloRequest
+    from rapidgen.wire.simple_message.messages import HelloRequest
     from rapidgen.wire.simple_message.spec import PROTOCOL_VERSION, Comm
 
     major, minor, patch = (int(part) for part in __version__.split(".")[:3])
@@ -24,12 +57,9 @@ def hello(host: str, port: int, timeout: float = 3.0) -> str | None:
                 connection.settimeout(left)
                 block = connection.recv(4096)
                 if not block:
-                    return None
+                    return
                 splitter.feed(block)
                 while (frame := splitter.next()) is not None:
-                    content = decode(frame)
-                    if isinstance(content, HelloReply):
-                        return content.build_id
+                    yield decode(frame)
         except (WireError, TimeoutError):
-            return None
-    return None
+            return

@@ -7,6 +7,8 @@ import typer
 from rapidgen.cli import options
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
     from rapidgen.client.rws import Controller
 
 
@@ -55,7 +57,30 @@ def state(found: "Controller") -> dict[str, object]:
         "running": execution.running,
         "cycle": execution.cycle,
         "tasks": tasks,
+        "fixes": _fixes(tasks),
     }
+
+
+def _fixes(tasks: "Sequence[Mapping[str, object]]") -> list[str]:
+    """What to do about background tasks that stand: neither Start nor PP to Main starts them."""
+    standing = [
+        str(task["name"])
+        for task in tasks
+        if task["type"] != "normal" and task["execution"] != "started"
+    ]
+    if not standing:
+        return []
+    names = ", ".join(standing)
+    driver = "; the driver moves nothing until then" if any(map(_is_driver, standing)) else ""
+    return [
+        f"{names}: does not run. A warm start (menu > Restart) begins background tasks again"
+        f"{driver}; the event log says why it ended: `rapidgen log`"
+    ]
+
+
+def _is_driver(task: str) -> bool:
+    """Whether a task has a name that generated drivers give their background tasks."""
+    return task.upper().startswith("T_ROS_")
 
 
 def show(told: dict[str, object]) -> None:
@@ -76,3 +101,7 @@ def show(told: dict[str, object]) -> None:
             f"{mark} {task['name']:<{width}}  {task['type']:<11} {task['execution']:<13}"
             f" {task['pointer']}".rstrip()
         )
+    fixes = told["fixes"]
+    assert isinstance(fixes, list)
+    for fix in fixes:
+        typer.echo(f"! {fix}")

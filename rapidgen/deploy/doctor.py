@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Literal
 
 from rapidgen._json import members, whole
+from rapidgen.client.core.motion import fix_of
 from rapidgen.deploy.cfg import keyed, may_be_refused, name_of
 from rapidgen.deploy.driverset import DriverSet
 from rapidgen.deploy.live.plan import LivePlan
@@ -23,11 +24,15 @@ from rapidgen.deploy.transports.transport import FILE_LIMIT, Transport, Transpor
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.system import CfgText
 from rapidgen.wire.rws.bodies import Generation
+from rapidgen.wire.simple_message.spec import Reason
 
 Verdict = Literal["ok", "warn", "fail", "unknown"]
 
 Hello = Callable[[str, int], str | None]
 """BUILD_ID of what serves a state port; None where something else answers. OSError: nobody."""
+
+Told = Callable[[str, int], Reason | None]
+"""The error that the driver at a state port tells; None: none. OSError: nobody."""
 
 _FEATURES = ("623-1 Multitasking", "616-1 PC Interface")
 
@@ -48,6 +53,7 @@ def examine(
     wanted: DriverSet,
     *,
     hello: Hello,
+    told: Told = lambda _host, _port: None,
     robot_host: str = "",
     backup: Path | None = None,
     timeout: float = 2.0,
@@ -58,7 +64,7 @@ def examine(
     """
     loaded = loaded_cfg(backup) if backup is not None else ()
     host = robot_host or target.host
-    checks = [*_running(host, wanted, hello, timeout)]
+    checks = [*_running(host, wanted, hello, told, timeout)]
     try:
         transport = connect(target, access)
     except DiagnosticError as error:
@@ -73,7 +79,9 @@ def examine(
     return tuple(checks)
 
 
-def _running(host: str, wanted: DriverSet, hello: Hello, timeout: float) -> Iterator[Check]:
+def _running(
+    host: str, wanted: DriverSet, hello: Hello, told: Told, timeout: float
+) -> Iterator[Check]:
     groups = members(wanted.generated.get("groups") or {})
     if not host:
         yield Check("ports", "unknown", "a folder has no ports", "name the robot with --host")
@@ -83,7 +91,10 @@ def _running(host: str, wanted: DriverSet, hello: Hello, timeout: float) -> Iter
             port = whole(number)
             where = f"{name} {role} {host}:{port}"
             if role == "state":
-                yield _state_port(where, host, port, wanted.build_id, hello)
+                found = _state_port(where, host, port, wanted.build_id, hello)
+                yield found
+                if found.verdict != "unknown":
+                    yield from _told_error(where, host, port, told)
                 continue
             try:
                 socket.create_connection((host, port), timeout).close()
@@ -122,6 +133,17 @@ def _state_port(where: str, host: str, port: int, build: str, hello: Hello) -> C
             "`rapidgen plan` shows the difference; after `deploy` the controller restarts",
         )
     return Check("driver", "ok", f"{where}: build {running} runs")
+
+
+def _told_error(where: str, host: str, port: int, told: Told) -> Iterator[Check]:
+    """An error of the driver that does not go away by itself."""
+    try:
+        reason = told(host, port)
+    except OSError:
+        return  # it has gone since it told its build
+    fix = fix_of(reason, "")
+    if reason is not None and fix:
+        yield Check("driver", "fail", f"{where}: {reason.text}, nothing moves", fix)
 
 
 def _default_login(target: Target, access: Access) -> Iterator[Check]:

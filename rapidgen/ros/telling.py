@@ -7,6 +7,7 @@ into messages.
 from dataclasses import dataclass, field
 from enum import IntEnum
 
+from rapidgen.client.core.motion import fix_of
 from rapidgen.client.core.state import Driver, State, Status
 from rapidgen.wire.simple_message.spec import Mode, TrajectoryState, TriState
 
@@ -101,6 +102,10 @@ def no_link(why: str, address: str) -> Health:
 
 
 def _worst(status: Status, trajectory: TrajectoryState | None) -> tuple[Level, str]:
+    lasting = fix_of(status.error, "") if status.in_error is TriState.TRUE else ""
+    if status.error is not None and lasting:
+        # Neither releasing the emergency stop nor Start helps before that.
+        return Level.ERROR, f"{status.error.text}: {lasting}"
     if status.e_stopped is TriState.TRUE:
         return Level.ERROR, "an emergency stop is active"
     if status.drives is TriState.FALSE:

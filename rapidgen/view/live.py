@@ -10,6 +10,7 @@ import numpy as np
 from rich.table import Table
 
 from rapidgen.client.core.group import Group
+from rapidgen.client.core.motion import fix_of
 from rapidgen.client.core.state import Event, State, Status
 from rapidgen.wire.simple_message.spec import Mode, TrajectoryState, TriState
 
@@ -98,7 +99,8 @@ def error_text(status: Status) -> str:
         return ""
     if status.error:
         joint = f" (joint {status.error_joint})" if status.error_joint else ""
-        return f"error: {status.error.text}{joint}"
+        fix = fix_of(status.error, "")
+        return f"error: {status.error.text}{joint}{': ' if fix else ''}{fix}"
     return f"error {status.error_code}" if status.error_code else "error"
 
 

@@ -4,6 +4,7 @@ import json
 import sys
 from contextlib import nullcontext
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
@@ -12,8 +13,9 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "faces" / "rws"))
 from served import make_cabinet
 
 from rapidgen.cli.app import main
+from rapidgen.cli.status import show, state
 from rapidgen.client.errors import ConnectionLost
-from rapidgen.client.rws.model import LogEvent
+from rapidgen.client.rws.model import LogEvent, Panel, ProgramState, TaskState
 from rapidgen.faces.rws.server import serve_rws
 from rapidgen.machine.operator import Answer
 from rapidgen.system import read_backup
@@ -182,3 +184,51 @@ def test_wrong_words_are_explained(words, code, exit_code, capsys, monkeypatch):
     told = capsys.readouterr().err
     assert code in told
     assert ":p@" not in told
+
+
+class Tasks:
+    """A controller whose background tasks are as a test says."""
+
+    where = "rws://cell"
+
+    def __init__(self, *tasks):
+        self._tasks = tasks
+
+    def tasks(self):
+        return self._tasks
+
+    def identity(self):
+        return SimpleNamespace(name="cell", id="1", robotware="6.15", is_virtual=True)
+
+    def panel(self):
+        return Panel("motoron", "AUTO", 100)
+
+    def execution(self):
+        return ProgramState(running=True, cycle="forever")
+
+    def pointer(self, _task):
+        return SimpleNamespace(module="")
+
+
+@pytest.mark.parametrize(
+    ("name", "execution", "words"),
+    [
+        ("T_ROS_CONTROL", "stopped", ["T_ROS_CONTROL: does not run", "warm start", "driver"]),
+        ("T_ROS_STATE", "ready", ["T_ROS_STATE: does not run", "`rapidgen log`"]),
+        ("T_OTHER", "stopped", ["T_OTHER: does not run", "warm start"]),
+        ("T_ROS_CONTROL", "started", []),
+    ],
+)
+def test_status_names_the_fix_of_a_background_task_that_has_ended(name, execution, words, capsys):
+    told = state(
+        Tasks(
+            TaskState("T_ROB1", "normal", "linked", "stopped", True, True),
+            TaskState(name, "semistatic", "linked", execution, False, False),
+        )
+    )
+    show(told)
+    fixes = [line for line in capsys.readouterr().out.splitlines() if line.startswith("! ")]
+    assert [f"! {fix}" for fix in told["fixes"]] == fixes
+    assert len(fixes) == bool(words)
+    assert all(word in fixes[0] for word in words)
+    assert all(("driver" in fix) == ("ROS" in name) for fix in fixes)

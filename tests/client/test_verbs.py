@@ -393,3 +393,38 @@ def test_looking_takes_no_place_that_is_the_only_one(rapidgen, code, capsys, mon
     with FakeController(rapidgen=rapidgen, control=False) as fake:
         assert main(["view", fake.address]) == 1
     assert code in capsys.readouterr().err
+
+
+ENDED = {"in_error": 1, "error_code": 53, "possible": 0}
+
+
+@pytest.mark.parametrize(
+    ("told", "message"),
+    [
+        (ENDED, "a server task of the driver has ended, nothing moves"),
+        ({**ENDED, "in_error": 0}, ""),
+        ({**ENDED, "error_code": 40}, ""),
+    ],
+)
+def test_doctor_names_the_fix_of_a_server_task_that_has_ended(told, message, tmp_path, capsys):
+    with FakeController(status=told) as fake:
+        motion, state = fake.ports["motion"], fake.ports["state"]
+        config = tmp_path / "cell.yaml"
+        config.write_text(
+            f"model: irb120\nports: {{motion: {motion}, state: {state}, control: 0}}\n"
+        )
+        (tmp_path / "HOME").mkdir()
+        words = ["doctor", str(config), "--to", f"dir://{tmp_path}/HOME", "--host", "127.0.0.1"]
+        main([*words, "--json"])
+    checks = json.loads(capsys.readouterr().out)
+    found = [c for c in checks if c["area"] == "driver" and c["verdict"] == "fail"]
+    assert [message in check["found"] for check in found] == [True] * bool(message)
+    assert all("warm start" in check["mend"] for check in found)
+
+
+def test_monitor_names_the_fix_of_a_server_task_that_has_ended(capsys):
+    with FakeController(status=ENDED) as fake:
+        assert main(["monitor", fake.address, "--plain", "--count", "1"]) == 0
+    line = capsys.readouterr().out
+    assert "motion not possible" in line
+    assert "a server task of the driver has ended: restart the controller (a warm start)" in line

@@ -7,7 +7,7 @@ from rapidgen.client import Trajectory
 from rapidgen.client.core.state import Driver, State, Status
 from rapidgen.ros.goals import Ending
 from rapidgen.ros.telling import Level, health, no_link, robot_status, unknown_status
-from rapidgen.wire.simple_message.spec import Mode, TrajectoryState, TriState
+from rapidgen.wire.simple_message.spec import Mode, Reason, TrajectoryState, TriState
 
 
 def told(s):
@@ -47,6 +47,14 @@ def state(trajectory=None, **status):
     return State(("joint_1",), (0.0,), (0.0,), told, 0.0, 25.0, 1, lambda: 0.0, trajectory)
 
 
+ENDED = {
+    "in_error": TriState.TRUE,
+    "motion_possible": TriState.FALSE,
+    "error": Reason.TASK_ENDED,
+    "error_code": 53,
+}
+
+
 @pytest.mark.parametrize(
     ("trajectory", "status", "level", "text"),
     [
@@ -67,6 +75,9 @@ def state(trajectory=None, **status):
             "emergency stop",
         ),
         (None, {name: TriState.UNKNOWN for name in ("drives", "e_stopped")}, Level.OK, "ready"),
+        (None, ENDED, Level.ERROR, "has ended: restart the controller (a warm start)"),
+        (TrajectoryState.PAUSED, {**ENDED, "e_stopped": TriState.TRUE}, Level.ERROR, "has ended"),
+        (None, {**ENDED, "in_error": TriState.FALSE}, Level.WARN, "not executing"),
     ],
 )
 def test_what_hinders_the_robot_the_worst_first(trajectory, status, level, text):
