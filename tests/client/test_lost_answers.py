@@ -206,3 +206,41 @@ def test_both_clients_raise_when_the_robot_stands(fake, client, fault, way):
                 assert not controller.script.stream.is_moving
     finally:
         proxy.close()
+
+
+@pytest.mark.parametrize(
+    ("silent", "is_reached", "why"),
+    [
+        ({"motion", "control"}, True, "the controller did not answer STOP"),
+        ({"state"}, True, "STOP was answered, and the robot was not seen to stand"),
+        ({"state"}, False, "STOP was answered, and the state port tells nothing any more"),
+    ],
+)
+def test_what_is_not_known_of_a_stop_is_said(silent, is_reached, why):
+    lost = []
+
+    def alter(which, number, message):
+        return cut(message) if lost and which in silent else message
+
+    with lossy(alter, stop=1.0) as (robot, controller):
+        connect = robot._loop.create_connection
+
+        async def create_connection(*arguments, **options):
+            if lost and not is_reached:
+                raise ConnectionRefusedError
+            return await connect(*arguments, **options)
+
+        robot._loop.create_connection = create_connection
+        moving = robot.execute(wiggle(robot))
+        robot.sleep(0.3)
+        lost.append(True)
+        if "motion" in silent:
+            # Nothing comes there by itself.
+            robot._carrier._links[Port.MOTION].connection_lost(None)
+        with pytest.raises(LOST, match="not known whether the robot stands") as error:
+            moving.result()
+        assert why in str(error.value)
+        assert "emergency stop" in error.value.diagnostics[0].help
+        # Where it is not seen to stand it may still slow down.
+        robot.sleep(1.0)
+        assert stands(robot, controller)

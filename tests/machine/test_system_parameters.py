@@ -50,3 +50,13 @@ def test_instances_are_found_by_their_path(path, count):
         assert bounds == (first.upper, first.lower)
         found[0]["upper_joint_bound"] = 1.5
         assert parameters.find("/MOC/ARM/rob1_1")[0]["upper_joint_bound"] == 1.5
+
+
+def test_domains_are_told_as_cfg_text():
+    parameters = SystemParameters(System("S", ()), load_config("irb120").groups)
+    assert parameters.domains == ("SYS", "EIO", "MOC")
+    for domain in parameters.domains:
+        assert parameters.text(domain).startswith(f"{domain}:CFG_1.0")
+    assert parameters.text("MOC").count('-Name "rob1_') == 6
+    with pytest.raises(KeyError):
+        parameters.text("SIO")
