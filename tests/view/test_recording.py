@@ -16,6 +16,9 @@ from rapidgen.diagnostics import DiagnosticError
 from rapidgen.view.recording.reader import RecordingFile
 from rapidgen.view.recording.writer import RecordingWriter, record
 
+STEP = 97
+"""Of so many bytes one is changed."""
+
 PROGRAM = """MODULE m
   CONST jointtarget a := [[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
   CONST jointtarget b := [[40,10,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
@@ -287,3 +290,76 @@ def test_the_writer_can_be_closed_twice(tmp_path):
             writer.close()
             controller.run_for(1.0)
         assert not controller.sockets.listeners
+
+
+def everything(path):
+    """All that can be read from a recording, but whether it was cut off; or a diagnostic's code."""
+    try:
+        with RecordingFile(path) as file:
+            found = [file.title, file.begin, file.end, file.robots, file.signals, file.look]
+            found += [dict(file.look.files), file.sources(file.end)]
+            found += [file.at(time) for time in (0.0, 0.7, file.end)]
+            found += [list(file.frames(0, 9)), file.log(0, 9), file.signal("do1", 0, 9)]
+            return repr([*found, file.joints("rob1", 0, 9), file.joints("rob1", 0, 9, most=1)])
+    except DiagnosticError as error:
+        return error.diagnostics[0].code
+
+
+@pytest.fixture
+def short(tmp_path, monkeypatch):
+    """A short recording of several chunks."""
+    monkeypatch.setattr("rapidgen.view.recording.writer._CHUNK", 20_000)
+    module, cell, path = tmp_path / "m.mod", tmp_path / "cell.yaml", tmp_path / "run.mcap"
+    module.write_text(re.sub("Socket(Accept|Receive|Send)", "!", PROGRAM))
+    cell.write_text("signals:\n  do1: {kind: DO}\n")
+    with VirtualController.from_files([module], cell=cell) as controller:
+        end = record(controller, path)
+        controller.run_for(1.2)
+        end()
+    return path
+
+
+def test_a_changed_byte_changes_nothing_silently(short, tmp_path):
+    """The recording is refused, or it is the same."""
+    data = short.read_bytes()
+    whole = everything(short)
+    assert "rob1" in whole
+    changed = tmp_path / "changed.mcap"
+    chance = random.Random(5)
+    refused = 0
+    for at in range(chance.randrange(STEP), len(data), STEP):
+        other = bytearray(data)
+        other[at] ^= 1 << chance.randrange(8)
+        changed.write_bytes(other)
+        found = everything(changed)
+        assert found in ("RG930", whole), f"byte {at} of {len(data)}"
+        refused += found == "RG930"
+    assert refused > len(data) / STEP / 2
+
+
+def until_the_cut(path):
+    """Samples of a robot; none where it is refused."""
+    try:
+        with RecordingFile(path) as file:
+            return file.joints("rob1", 0, 20, most=1_000_000)[:-1]
+    except DiagnosticError:
+        return []
+
+
+def test_a_recording_that_was_cut_off_and_damaged_ends_at_the_damage(short, tmp_path):
+    """No chunk is left out between others."""
+    data = short.read_bytes()
+    data = data[: int(len(data) * 0.7)]
+    cut = tmp_path / "cut.mcap"
+    cut.write_bytes(data)
+    whole = until_the_cut(cut)
+    chance = random.Random(6)
+    read = set()
+    for _ in range(60):
+        changed = bytearray(data)
+        changed[chance.randrange(8, len(data))] ^= 1 << chance.randrange(8)
+        cut.write_bytes(changed)
+        found = until_the_cut(cut)
+        assert found == whole[: len(found)]
+        read.add(len(found))
+    assert len(read) > 2

@@ -1,7 +1,8 @@
 """The pieces of an MCAP file: found by its index, or one after the other where it has none.
 
 A recording that was cut off has no index; everything up to the cut is read. Whatever a file
-contains, reading ends with a `Damaged` at worst: sizes are looked at before anything is unpacked.
+contains, reading ends with a `Damaged` at worst: sizes are looked at before anything is unpacked,
+and what a checksum does not fit is not used.
 """
 
 import struct
@@ -9,6 +10,7 @@ import zlib
 from collections import OrderedDict
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from io import BytesIO
 from typing import BinaryIO, Final, NamedTuple
 
 import zstandard
@@ -16,15 +18,22 @@ from mcap.data_stream import ReadDataStream
 from mcap.exceptions import McapError
 from mcap.opcode import Opcode
 from mcap.reader import SeekingReader
-from mcap.records import Attachment, Channel, Chunk, Metadata
+from mcap.records import Attachment, Chunk, Metadata
 
 LARGEST_CHUNK: Final = 64 * 1024 * 1024
 """Bytes of a chunk, unpacked."""
+LARGEST_SUMMARY: Final = 256 * 1024 * 1024
+LARGEST_ATTACHMENT: Final = 256 * 1024 * 1024
+MOST_ATTACHED: Final = 512 * 1024 * 1024
+LARGEST_METADATA: Final = 1024 * 1024
+"""Bytes of other parts of a file."""
 _KEPT = 16
 """Chunks that stay unpacked."""
 _RECORD = struct.Struct("<BQ")
 _MESSAGE = struct.Struct("<HIQQ")
 _CHUNK_HEAD = struct.Struct("<QQQI")
+_INDEX_HEAD = struct.Struct("<HI")
+_FOOTER = struct.Struct("<BQQQI")
 _MAGIC: Final = b"\x89MCAP0\r\n"
 BROKEN: Final = (
     McapError,
@@ -62,104 +71,155 @@ class Contents:
     attachments: list[tuple[str, int, bytes]] = field(default_factory=list)
     """Name, time ns, data; in the order of the file."""
     metadata: dict[str, dict[str, str]] = field(default_factory=dict)
-    cut: str = ""
-    """Why the file has no index: what comes behind its last whole record is lost."""
+    cut: bool = False
+    """It does not end as an MCAP file does: what comes behind its last whole record is lost."""
 
 
 def look(stream: BinaryIO, size: int) -> Contents:
-    """What is in a file. Damaged: it is no MCAP file."""
+    """What is in a file. Damaged: it is no MCAP file, or something in it has been changed."""
     if stream.read(len(_MAGIC)) != _MAGIC:
         raise Damaged("it does not begin as an MCAP file does")
+    stream.seek(max(0, size - len(_MAGIC)))
+    if stream.read(len(_MAGIC)) != _MAGIC:
+        return _scanned(stream, size)
     try:
         return _indexed(stream, size)
     except BROKEN as error:
-        return _scanned(stream, size, str(error) or type(error).__name__)
+        raise Damaged(f"its index cannot be read: {error or type(error).__name__}") from error
 
 
 def _indexed(stream: BinaryIO, size: int) -> Contents:
+    _check_summary(stream, size)
     stream.seek(0)
-    reader = SeekingReader(stream, record_size_limit=size)
-    summary = reader.get_summary()
+    summary = SeekingReader(stream, record_size_limit=LARGEST_SUMMARY).get_summary()
     if summary is None:
-        raise ValueError("there is no index")
+        raise Damaged("there is no index")
     found = Contents()
     for index in summary.chunk_indexes:
         offset = index.chunk_start_offset
         if not 0 < offset < size:
-            raise ValueError("a chunk is not in the file")
+            raise Damaged("a chunk is not in the file")
         found.pieces.append(StoredChunk(offset, index.message_start_time, index.message_end_time))
     found.channels = {number: channel.topic for number, channel in summary.channels.items()}
-    found.attachments = [(a.name, a.log_time, a.data) for a in reader.iter_attachments()]
-    found.metadata = {one.name: one.metadata for one in reader.iter_metadata()}
+    for place in summary.attachment_indexes:
+        _take_attachment(found, _body(stream, place.offset, Opcode.ATTACHMENT, LARGEST_ATTACHMENT))
+    for entry in summary.metadata_indexes:
+        _take_metadata(found, _body(stream, entry.offset, Opcode.METADATA, LARGEST_METADATA))
     found.pieces.sort(key=lambda piece: (piece.begin, piece.offset))
     return found
 
 
-def _scanned(stream: BinaryIO, size: int, why: str) -> Contents:
-    """Every whole record up to where the file ends or makes no sense."""
-    found = Contents(cut=why)
+def _check_summary(stream: BinaryIO, size: int) -> None:
+    """Compare the checksum over the summary and the footer up to itself. Damaged."""
+    at = size - len(_MAGIC) - _FOOTER.size
+    if at < len(_MAGIC):
+        raise Damaged("there is no index")
+    stream.seek(at)
+    footer = stream.read(_FOOTER.size)
+    opcode, length, start, _, checksum = _FOOTER.unpack(footer)
+    if opcode != Opcode.FOOTER or length != _FOOTER.size - _RECORD.size:
+        raise Damaged("there is no footer")
+    if not len(_MAGIC) <= start <= at or at - start > LARGEST_SUMMARY:
+        raise Damaged("its index has no place, or is too large")
+    stream.seek(start)
+    if zlib.crc32(footer[:-4], zlib.crc32(stream.read(at - start))) != checksum:
+        raise Damaged("its index has been changed: its checksum is wrong")
+
+
+def _body(stream: BinaryIO, offset: int, expected: Opcode, limit: int) -> bytes:
+    """What a record at a place contains. Damaged: another one is there, or it is too large."""
+    stream.seek(offset)
+    opcode, length = _RECORD.unpack(stream.read(_RECORD.size))
+    if opcode != expected:
+        raise Damaged(f"{expected.name.lower()} is not where the index says")
+    if length > limit:
+        raise Damaged(f"{expected.name.lower()} of {length:,} bytes")
+    data = stream.read(length)
+    if len(data) != length:
+        raise Damaged(f"{expected.name.lower()} is longer than the file")
+    return data
+
+
+def _take_attachment(found: Contents, body: bytes) -> None:
+    if zlib.crc32(body[:-4]) != int.from_bytes(body[-4:], "little"):
+        raise Damaged("an attachment has been changed: its checksum is wrong")
+    one = Attachment.read(_stream(body))
+    found.attachments.append((one.name, one.log_time, one.data))
+    if sum(len(data) for _, _, data in found.attachments) > MOST_ATTACHED:
+        raise Damaged(f"attachments of more than {MOST_ATTACHED:,} bytes")
+
+
+def _take_metadata(found: Contents, body: bytes) -> None:
+    one = Metadata.read(_stream(body))
+    found.metadata[one.name] = one.metadata
+
+
+def _stream(body: bytes) -> ReadDataStream:
+    return ReadDataStream(BytesIO(body))
+
+
+def _scanned(stream: BinaryIO, size: int) -> Contents:
+    """Every whole record of a file that was cut off, up to where it ends or makes no sense.
+
+    Only what a checksum covers is believed: times and channels are those inside the chunks.
+    """
+    found = Contents(cut=True)
     at = len(_MAGIC)
     while at + _RECORD.size <= size:
         stream.seek(at)
         opcode, length = _RECORD.unpack(stream.read(_RECORD.size))
         behind = at + _RECORD.size + length
-        if behind > size or opcode in (0, Opcode.DATA_END, Opcode.FOOTER):
+        if behind > size:
             break
         try:
-            _take(found, stream, opcode, at)
-        except BROKEN:
+            if not _take(found, stream, opcode, at, length):
+                break
+        except (*BROKEN, Damaged):
             break
         at = behind
-    if not found.channels:
-        _channels_inside(found, stream)
     found.pieces.sort(key=lambda piece: (piece.begin, piece.offset))
     return found
 
 
-def _take(found: Contents, stream: BinaryIO, opcode: int, at: int) -> None:
-    if opcode == Opcode.CHUNK:
-        begin, end, *_ = _CHUNK_HEAD.unpack(stream.read(_CHUNK_HEAD.size))
-        found.pieces.append(StoredChunk(at, begin, end))
-    elif opcode == Opcode.CHANNEL:
-        channel = Channel.read(ReadDataStream(stream))
-        found.channels[channel.id] = channel.topic
-    elif opcode == Opcode.ATTACHMENT:
-        one = Attachment.read(ReadDataStream(stream))
-        found.attachments.append((one.name, one.log_time, one.data))
-    elif opcode == Opcode.METADATA:
-        known = Metadata.read(ReadDataStream(stream))
-        found.metadata[known.name] = known.metadata
+def _take(found: Contents, stream: BinaryIO, opcode: int, at: int, length: int) -> bool:
+    """Add what a record has; False: no such record is among the data. Damaged."""
+    match opcode:
+        case Opcode.CHUNK:
+            _take_chunk(found, stream, at)
+        case Opcode.ATTACHMENT:
+            _take_attachment(found, _body(stream, at, Opcode.ATTACHMENT, LARGEST_ATTACHMENT))
+        case Opcode.METADATA:
+            _take_metadata(found, _body(stream, at, Opcode.METADATA, LARGEST_METADATA))
+        case Opcode.MESSAGE_INDEX:
+            # A chunk whose opcode has been changed is not passed over.
+            _, listed = _INDEX_HEAD.unpack(stream.read(_INDEX_HEAD.size))
+            return bool(length == _INDEX_HEAD.size + listed)
+        case Opcode.HEADER:
+            return at == len(_MAGIC)
+        case _:
+            return False
+    return True
 
 
-def _channels_inside(found: Contents, stream: BinaryIO) -> None:
-    """Without an index channels are told in the chunks alone, each before its first message."""
-    whole = []
-    for piece in found.pieces:
-        try:
-            data = _unpacked(stream, piece)
-            for opcode, begin, _ in _records(data):
-                if opcode == Opcode.CHANNEL:
-                    number, _, length = struct.unpack_from("<HHI", data, begin)
-                    found.channels[number] = data[begin + 8 : begin + 8 + length].decode()
-                elif opcode == Opcode.MESSAGE:
-                    break
-        except (*BROKEN, Damaged):
-            continue
-        whole.append(piece)
-    found.pieces = whole
+def _take_chunk(found: Contents, stream: BinaryIO, at: int) -> None:
+    data = _unpacked(stream, StoredChunk(at, 0, 0))
+    times = []
+    for opcode, begin, _ in _records(data):
+        if opcode == Opcode.CHANNEL:
+            number, _, length = struct.unpack_from("<HHI", data, begin)
+            found.channels[number] = data[begin + 8 : begin + 8 + length].decode()
+        elif opcode == Opcode.MESSAGE:
+            times.append(_MESSAGE.unpack_from(data, begin)[2])
+    if times:
+        found.pieces.append(StoredChunk(at, min(times), max(times)))
 
 
 def _unpacked(stream: BinaryIO, piece: StoredChunk) -> bytes:
-    stream.seek(piece.offset)
-    head = stream.read(_RECORD.size + _CHUNK_HEAD.size)
-    opcode, _ = _RECORD.unpack_from(head)
-    if opcode != Opcode.CHUNK:
-        raise Damaged("a chunk is not where the index says")
-    _, _, size, _ = _CHUNK_HEAD.unpack_from(head, _RECORD.size)
+    body = _body(stream, piece.offset, Opcode.CHUNK, LARGEST_CHUNK)
+    _, _, size, _ = _CHUNK_HEAD.unpack_from(body)
     if size > LARGEST_CHUNK:
         raise Damaged(f"a chunk of {size} bytes")
-    stream.seek(piece.offset + _RECORD.size)
-    chunk = Chunk.read(ReadDataStream(stream))
+    chunk = Chunk.read(_stream(body))
     match chunk.compression:
         case "":
             data: bytes = chunk.data
@@ -170,7 +230,7 @@ def _unpacked(stream: BinaryIO, piece: StoredChunk) -> bytes:
             data = zstandard.ZstdDecompressor().decompress(chunk.data, max_output_size=size)
         case other:
             raise Damaged(f"compression {other!r} is not that of rapidgen's recordings")
-    if chunk.uncompressed_crc and zlib.crc32(data) != chunk.uncompressed_crc:
+    if zlib.crc32(data) != chunk.uncompressed_crc:
         raise Damaged("a chunk has been changed: its checksum is wrong")
     return data
 

@@ -6,15 +6,17 @@ any moment is a snapshot and what followed. `/joints` has a sample every 4 ms in
 has moved; in between a robot stands.
 """
 
+import json
+import zlib
 from collections.abc import Mapping
 from typing import Final, Literal
 
 from pydantic import BaseModel, ConfigDict
 
 PROFILE: Final = "rapidgen"
-FORMAT: Final = "1"
+FORMAT: Final = "2"
 METADATA: Final = "rapidgen"
-"""Name of the metadata: format, title, version."""
+"""Name of the metadata: format, title, version, checksum."""
 ROBOTS: Final = "robots.json"
 """Attachment: the configured groups."""
 SIGNALS: Final = "signals.json"
@@ -29,6 +31,13 @@ SOURCES: Final = "source/"
 """Attachments TASK/MODULE: what tasks have loaded, from their time on."""
 JOINTS_PERIOD_NS: Final = 4_000_000
 SNAPSHOT_EVERY_NS: Final = 1_000_000_000
+
+
+def with_checksum(values: Mapping[str, str]) -> dict[str, str]:
+    """Metadata with a checksum over the others: MCAP has none for them."""
+    others = {key: value for key, value in values.items() if key != "checksum"}
+    text = json.dumps(sorted(others.items()))
+    return {**others, "checksum": f"{zlib.crc32(text.encode()):08x}"}
 
 
 class Recorded(BaseModel):

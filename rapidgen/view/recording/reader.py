@@ -83,8 +83,10 @@ class RecordingFile:
             raise self._refused("rapidgen has not written it")
         if known.get("format") != m.FORMAT:
             raise self._refused(f"it has format {known.get('format')!r}, of another version")
+        if known != m.with_checksum(known):
+            raise self._refused("its title or version has been changed: the checksum is wrong")
         self.title = known.get("title", "")
-        self.cut = bool(self._contents.cut)
+        self.cut = self._contents.cut
         """It was cut off; what is there can be looked at."""
         self._chunks = Chunks(self._file)
         self._topics = {n: topic.removeprefix("/") for n, topic in self._contents.channels.items()}

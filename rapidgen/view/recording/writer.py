@@ -85,7 +85,9 @@ class RecordingWriter:
         self._watch_controller()
         self._writer.add_metadata(
             m.METADATA,
-            {"format": m.FORMAT, "title": controller.system.name, "version": __version__},
+            m.with_checksum(
+                {"format": m.FORMAT, "title": controller.system.name, "version": __version__}
+            ),
         )
         robots = [group_to_manifest(group.config) for group in self._groups.values()]
         self._attach(m.ROBOTS, json.dumps(robots).encode())
