@@ -19,9 +19,8 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from rapidgen.config import load_config
 from rapidgen.generate import build, make_system
 from rapidgen.proving.boundary import STATES, failing, prepare, trials
-from rapidgen.proving.results import Results
 from rapidgen.proving.settings import assumed, rows
-from rapidgen.proving.workers import Call, Known, Local, in_order
+from tools.campaigns import outcomes
 
 STRICT = ("argument_error=fatal", "pack_beyond=error", "negative_mod=error")
 HOSTILE = {
@@ -72,24 +71,15 @@ def main():
     random.Random(GIVEN.seed).shuffle(pieces)
     started, count, failed = time.monotonic(), 0, 0
     of = f"{GIVEN.robot} {SYSTEM.build_id} share {GIVEN.share} seed {GIVEN.seed}"
-    with (
-        Results(GIVEN.results, of, resume=True) as results,
-        Local(None, GIVEN.jobs) as workers,
-    ):
-
-        def make(number):
-            known = results.known(str(number))
-            return Call(number, one, pieces[number]) if known is None else Known(known)
-
-        for number, found in enumerate(in_order(workers, len(pieces), make)):
-            results.add(str(number), found)
-            count += len(pieces[number][2])
-            failed += len(found)
-            for text, why in found[:5]:
-                print(f"{pieces[number][0]}; {text}: {why}", flush=True)
-            if number % 20 == 0:
-                print(f"{count} messages, {failed} failed, {time.monotonic() - started:.0f} s")
-                sys.stdout.flush()
+    numbered = {str(number): piece for number, piece in enumerate(pieces)}
+    for key, found in outcomes(one, numbered, of, jobs=GIVEN.jobs, path=GIVEN.results):
+        count += len(numbered[key][2])
+        failed += len(found)
+        for text, why in found[:5]:
+            print(f"{numbered[key][0]}; {text}: {why}", flush=True)
+        if int(key) % 20 == 0:
+            seconds = time.monotonic() - started
+            print(f"{count} messages, {failed} failed, {seconds:.0f} s", flush=True)
     print(
         f"{count} messages under {len(SETTINGS)} settings in {len(STATES)} states: "
         f"{failed} failed; {time.monotonic() - started:.0f} s with {GIVEN.jobs} jobs"

@@ -23,9 +23,9 @@ from rapidgen.generate import build, make_system
 from rapidgen.proving.bench import FAILURES
 from rapidgen.proving.boundary import prepare
 from rapidgen.proving.link import STOP
-from rapidgen.proving.results import Results
 from rapidgen.proving.settings import assumed
-from rapidgen.proving.workers import Call, Known, Local, in_a_fork, in_order
+from rapidgen.proving.workers import in_a_fork
+from tools.campaigns import outcomes
 
 STATES = ("receiving", "moving", "streaming", "program")
 ACTIONS = ("e-stop", "manual", "motors-off", "stop", "power-loss", "STOP")
@@ -96,22 +96,13 @@ def main():
     seeds = range(GIVEN.first, GIVEN.first + GIVEN.count)
     started, failed, from_main = time.monotonic(), 0, 0
     of = f"{GIVEN.robot} {SYSTEM.build_id} stop trials"
-    with (
-        Results(GIVEN.results, of, resume=True) as results,
-        Local(None, GIVEN.jobs) as workers,
-    ):
-
-        def make(number):
-            known = results.known(str(seeds[number]))
-            return Call(number, one, seeds[number]) if known is None else Known(known)
-
-        for seed, found in zip(seeds, in_order(workers, len(seeds), make), strict=True):
-            results.add(str(seed), found)
-            fault, main_needed, done = found
-            failed += bool(fault)
-            from_main += main_needed
-            if fault or main_needed:
-                print(f"seed {seed}: {done}: {fault or 'took PP to main'}", flush=True)
+    pieces = {str(seed): seed for seed in seeds}
+    for seed, found in outcomes(one, pieces, of, jobs=GIVEN.jobs, path=GIVEN.results):
+        fault, main_needed, done = found
+        failed += bool(fault)
+        from_main += main_needed
+        if fault or main_needed:
+            print(f"seed {seed}: {done}: {fault or 'took PP to main'}", flush=True)
     print(
         f"{len(seeds)} stop trials: {failed} without a way back that works, {from_main} took PP to "
         f"main; {time.monotonic() - started:.0f} s with {GIVEN.jobs} jobs"

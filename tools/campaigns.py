@@ -1,0 +1,27 @@
+"""What campaigns share: work by several processes, resumed where a run was cut short."""
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+from rapidgen.proving.results import Results
+from rapidgen.proving.workers import Call, Known, Local, in_order
+
+
+def outcomes(
+    one: Any, pieces: dict[str, Any], of: str, *, jobs: int, path: Path | None
+) -> Iterator[tuple[str, Any]]:
+    """Yield each key of `pieces` with what `one(None, piece)` gives, in their order.
+
+    `path` keeps results `of` one campaign (None: they are not kept); what it has is not done again.
+    """
+    keys = list(pieces)
+    with Results(path, of, resume=True) as results, Local(None, jobs) as workers:
+
+        def make(number: int) -> Call | Known:
+            known = results.known(keys[number])
+            return Call(number, one, pieces[keys[number]]) if known is None else Known(known)
+
+        for key, found in zip(keys, in_order(workers, len(keys), make), strict=True):
+            results.add(key, found)
+            yield key, found
