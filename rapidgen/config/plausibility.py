@@ -88,12 +88,13 @@ def length_of(chain: Iterable[ChainLink]) -> float:
 
 def load_doubts(mass: float, centre: Vector, inertia: Vector, arm: Arm) -> Iterator[Doubt]:
     """What cannot be of a load: kg, m and kg m²."""
-    yield from _mass_doubts(mass, arm)
+    yield from mass_doubts(mass, arm)
     yield from _centre_doubts(mass, centre, arm)
     yield from _inertia_doubts(mass, inertia, arm)
 
 
-def _mass_doubts(mass: float, arm: Arm) -> Iterator[Doubt]:
+def mass_doubts(mass: float, arm: Arm) -> Iterator[Doubt]:
+    """What cannot be of a mass in kg, or hardly."""
     if mass < 0:
         yield Doubt("mass", True, f"a load of {mass:g} kg", "a mass is more than 0")
     elif arm.payload and mass > arm.payload:

@@ -5,6 +5,7 @@ from rapidgen.motion.moves import Move
 
 CORNER_PATH_FAILURE = 50_024
 TIME_NOT_MET = 59_901
+OVERLOAD = 59_902
 
 
 def corner_failure(log: EventLog, name: str, move: Move) -> None:
@@ -16,3 +17,9 @@ def corner_failure(log: EventLog, name: str, move: Move) -> None:
         f"{name}: the corner is executed as a stop point" + (f" ({where})" if where else ""),
         "the next move was not planned in time",
     )
+
+
+def overload(log: EventLog, name: str, text: str, where: object) -> None:
+    """Event 59902: a group carries more than its payload."""
+    place = f" ({where})" if where else ""
+    log.warning(OVERLOAD, "Load above the payload of the robot", f"{name}: {text}{place}")

@@ -52,6 +52,10 @@ class MotionSettings:
     range_error: Literal["recoverable", "fatal"] = "recoverable"
     """A target outside the axis ranges: ERR_ROBLIMIT (RobotWare 6), or event 50027 and stop."""
 
+    undefined_load: Literal["stop", "report"] = "stop"
+    """A negative mass of a tool or payload: event 41438 stops the program, or is a warning. Seen
+    with EGM only (ros-industrial/abb_libegm, issue 73); at every move memory. The strict answer."""
+
     configuration_check: ConfigurationCheck = "turn"
     """What ConfJ and ConfL accept where cfx tells the postures apart: "turn", every axis within
     half a turn of the middle of its quarter, as public programs need that run on controllers;

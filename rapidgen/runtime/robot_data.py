@@ -22,6 +22,8 @@ class RobotData:
     """Tasks that move synchronously with this one, itself included (SyncMoveOn); lower case."""
     suspended: bool = False
     """SyncMoveSuspend"""
+    carried: float = 0.0
+    """kg of the last move, tool and payload."""
     extra: dict[str, object] = field(default_factory=dict)
     """Settings that change no motion here: a program can set them and read them."""
 
@@ -42,4 +44,5 @@ class RobotData:
         self.external_offset = NO_OFFSETS
         self.partners = frozenset()
         self.suspended = False
+        self.carried = 0.0
         self.extra.clear()

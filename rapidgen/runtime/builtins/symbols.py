@@ -14,6 +14,7 @@ from rapidgen.runtime.anytype import target_of
 from rapidgen.runtime.builtins.modules import task_named
 from rapidgen.runtime.builtins.motion.access import data_of
 from rapidgen.runtime.builtins.motion.arguments import frame
+from rapidgen.runtime.builtins.motion.loads import carry, payload_of
 from rapidgen.runtime.compiler.symbols import Data, LoadedModule
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.host import RapidTask
@@ -254,9 +255,10 @@ def get_sys_data(
         raise RapidError("ERR_SYMBOL_TYPE", kind)
     group = task.controller.motion.of_task(owner.name)
     active = None
-    if group is not None and kind != "loaddata":
+    if group is not None:
         data = data_of(owner, group)
-        active = data.tool if kind == "tooldata" else data.work_object
+        known_ones = {"tooldata": data.tool, "wobjdata": data.work_object}
+        active = known_ones[kind] if kind in known_ones else payload_of(owner, group)
     _, default = _data_ref(owner, None, _ACTIVE[kind])
     value = default.get() if active is None else active
     target.set(copy_value(value))
@@ -293,3 +295,5 @@ def set_sys_data(task: Task, source: Ref, name: str | None) -> None:
         group.planner.tool = frame(chosen.get().tframe)
     elif kind == "wobjdata":
         data.use(data.tool, chosen.get())
+    else:
+        carry(task, group, chosen.get(), "the load of SetSysData")

@@ -12,6 +12,7 @@ from typing import Final, cast, get_args
 from rapidgen.machine.egm import MAX_IDENTITIES, EgmSession, Guidance
 from rapidgen.machine.scheduler import S
 from rapidgen.runtime.builtins.motion.access import moving_group
+from rapidgen.runtime.builtins.motion.loads import require_defined
 from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.motion_faults import GUIDED
 from rapidgen.runtime.registry import Arguments, builtin, by_name
@@ -111,16 +112,26 @@ def egm_setup_uc(task: Task, _name: str, given: Arguments) -> None:
 
 @by_name("EGMActJoint", "EGMActPose")
 def egm_act(task: Task, name: str, given: Arguments) -> None:
-    """The last one counts. FatalError: it was set up for something else."""
+    """The last one counts. FatalError: it was set up for something else, its load is undefined."""
     session = _set_up(task, given["EGMid"])
     wanted: Guidance = "Joint" if name == "EGMActJoint" else "Pose"
     if session.guidance is None:
         raise _refused(f"EGMSetupUC \\{wanted} comes first")
     if session.guidance != wanted:
         raise _mismatch(f"{name} behind EGMSetupUC \\{session.guidance}")
+    _check_load(task, name, given)
     session.active = wanted
     if given["StreamStart"]:
         session.streaming = True
+
+
+def _check_load(task: Task, name: str, given: Arguments) -> None:
+    """A load of 0 kg is refused here (ros-industrial/abb_libegm, issue 73)."""
+    group = moving_group(task)
+    if given["TLoad"] is not None:
+        require_defined(task, group, given["TLoad"].get(), f"\\TLoad of {name}", zero=False)
+    elif given["Tool"] is not None:
+        require_defined(task, group, given["Tool"].get().tload, f"the tool of {name}")
 
 
 def _mismatch(text: str) -> FatalError:

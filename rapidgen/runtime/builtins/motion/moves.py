@@ -23,6 +23,7 @@ from rapidgen.runtime.builtins.motion.arguments import (
     time_of,
     zone_of,
 )
+from rapidgen.runtime.builtins.motion.loads import check_loads
 from rapidgen.runtime.builtins.motion.ordering import bind, order
 from rapidgen.runtime.builtins.motion.request import cartesian_move, joint_move
 from rapidgen.runtime.builtins.motion.targets import carrier_of
@@ -54,6 +55,7 @@ def absolute_move(
     carrier = Carrier()
     if group.kinematics is not None:
         carrier = carrier_of(group, tool, work_object)
+    check_loads(task, group, given)
     data.use(tool, work_object)
     group.planner.tool = carrier.tool
     target = target_of(given["ToJointPos"], group.map, group.path_target, offsets)

@@ -5,6 +5,7 @@ Sources: S4 datasys 3-CJointT, 3-CRobT, 3-CTool; 3HAC050917 for CalcJointT and C
 
 from rapidgen.motion.group import MotionGroup
 from rapidgen.motion.moves import Carrier
+from rapidgen.rapid.numbers import single
 from rapidgen.runtime.builtins.motion.access import data_of, geometry_of, group_of, named_group
 from rapidgen.runtime.builtins.motion.arguments import (
     external_values,
@@ -24,6 +25,7 @@ from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.values import LoadData, Orient, Pos, Pose, Ref, ToolData, Value, WobjData
 
+_NEXT_TO_NOTHING = single(0.001)
 _CONFIGURATION_ERRORS = {"limit": "ERR_ROBLIMIT", "reach": "ERR_OUTSIDE_REACH", "stop": ""}
 
 
@@ -34,7 +36,7 @@ def tool0() -> Value:
 
 def load0() -> Value:
     """loaddata of next to nothing."""
-    return LoadData(0.001, Pos(0, 0, 0.001), Orient(1, 0, 0, 0))
+    return LoadData(_NEXT_TO_NOTHING, Pos(0, 0, _NEXT_TO_NOTHING), Orient(1, 0, 0, 0))
 
 
 def wobj0() -> Value:

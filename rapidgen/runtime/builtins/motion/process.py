@@ -7,6 +7,7 @@ TestSignDefine, its twelve channels and the numbers of a force sensor's signals.
 
 from rapidgen.motion.group import MotionGroup
 from rapidgen.runtime.builtins.motion.access import data_of, group_of, moving_group
+from rapidgen.runtime.builtins.motion.loads import require_defined
 from rapidgen.runtime.builtins.motion.units import unit_axis
 from rapidgen.runtime.errors import FatalError, Location, RapidError, errnum
 from rapidgen.runtime.motion_faults import NOT_ALLOWED, NOT_SIMULATED
@@ -56,8 +57,9 @@ def _axis(group: MotionGroup, number: float) -> int:
 
 @builtin("MechUnitLoad")
 def mech_unit_load(task: Task, _unit: Value, axis: float, load: Ref) -> None:
-    """Payload of an external mechanical unit."""
+    """Payload of an external mechanical unit. FatalError: it is undefined."""
     group = group_of(task)
+    require_defined(task, group, load.get(), "the load of MechUnitLoad")
     data_of(task, group).extra[f"load of axis {int(axis)}"] = load.get().copy()
 
 

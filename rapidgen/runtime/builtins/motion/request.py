@@ -4,6 +4,7 @@ from rapidgen.motion.group import MotionGroup
 from rapidgen.motion.moves import FINE, CartesianMove, JointMove, Move, PathEvent
 from rapidgen.runtime.builtins.motion.access import data_of, geometry_of, here, moving_group
 from rapidgen.runtime.builtins.motion.arguments import dwell_of, frame, speed_of, time_of, zone_of
+from rapidgen.runtime.builtins.motion.loads import check_loads
 from rapidgen.runtime.builtins.motion.targets import (
     carrier_of,
     configuration_of,
@@ -20,6 +21,7 @@ def common(task: Task, group: MotionGroup, given: Arguments) -> dict[str, Value]
     tool = given["Tool"].get()
     work_object = given["WObj"].get() if given["WObj"] is not None else None
     carrier = carrier_of(group, tool, work_object)
+    check_loads(task, group, given)
     data_of(task, group).use(tool, work_object)
     group.planner.tool = carrier.tool
     stop = given.get("Inpos")

@@ -16,6 +16,7 @@ from rapidgen.motion.moves import Singularities
 from rapidgen.rapid.numbers import single
 from rapidgen.runtime.builtins.motion.access import data_of, geometry_of, group_of, named_group
 from rapidgen.runtime.builtins.motion.arguments import RAD, Offsets, frame
+from rapidgen.runtime.builtins.motion.loads import carry, payload_of
 from rapidgen.runtime.builtins.motion.positions import here_of, load0
 from rapidgen.runtime.builtins.motion.units import unit_axis
 from rapidgen.runtime.errors import FatalError, RapidError
@@ -254,15 +255,14 @@ def motion_sup(
 
 @builtin("GripLoad")
 def grip_load(task: Task, load: Ref) -> None:
-    """Loads change no kinematics, and there is no dynamic model."""
-    data_of(task, group_of(task)).extra["GripLoad"] = load.get().copy()
+    """Loads change no kinematics, and there is no dynamic model. FatalError: it is undefined."""
+    carry(task, group_of(task), load.get(), "the load of GripLoad")
 
 
 @builtin("CLoad")
 def c_load(task: Task, reference: Value, name: str | None) -> Value:
     """What GripLoad set, else load0."""
-    extra = data_of(task, named_group(task, reference, name)).extra
-    load: Value = extra.get("GripLoad") or load0()
+    load: Value = payload_of(task, named_group(task, reference, name)) or load0()
     return load.copy()
 
 
