@@ -18,9 +18,12 @@ from rapidgen.diagnostics import (
 )
 
 if TYPE_CHECKING:
-    from rapidgen.config.model import RobotConfig
+    from collections.abc import Sequence
+
+    from rapidgen.config.model import GroupConfig, RobotConfig
     from rapidgen.generate.cell import Cell
     from rapidgen.rapid import Dialect
+    from rapidgen.rapid.checks import Payload
     from rapidgen.rapid.syntax.nodes import Declaration, Module
     from rapidgen.system import System
 
@@ -47,6 +50,9 @@ def check(
             metavar="FOLDER",
         ),
     ] = None,
+    robot: Annotated[
+        str, typer.Option(help="Robot that RAPID files are for: what it may carry.", metavar="NAME")
+    ] = "",
     format: Annotated[Format, typer.Option(help="How findings are shown.")] = Format.FULL,
     as_json: Annotated[bool, typer.Option("--json", help="As --format json.")] = False,
 ) -> int:
@@ -58,6 +64,7 @@ def check(
     """
     format = Format.JSON if as_json else format
     dialect = _dialect(robotware)
+    payload = _payload(robot)
     cell = _cell(backup)
     found: list[Diagnostic] = []
     modules: list[Path] = []
@@ -68,7 +75,7 @@ def check(
             if is_name or path.suffix.lower() in _CONFIG_SUFFIXES:
                 found += _configuration(given, cell)
             elif path.is_dir():
-                found += _folder(path, dialect, backup)
+                found += _folder(path, dialect, backup, payload)
             elif not path.exists():
                 raise _nothing(given)
             elif path.suffix.lower() == ".cfg":
@@ -79,7 +86,7 @@ def check(
             if not path.exists():
                 raise
             found += fault.diagnostics
-    found += _files(modules, dialect)
+    found += _files(modules, dialect, payload)
     import sys
 
     typer.echo(render(found, format, colour=use_colour(sys.stdout)), nl=False)
@@ -97,6 +104,38 @@ def _dialect(robotware: str | None) -> "Dialect | None":
     if robotware is None:
         return None
     return Dialect(release(robotware))
+
+
+def _payload(robot: str) -> "Payload":
+    """What a robot may carry; without a name what no robot exceeds."""
+    from rapidgen.config.plausibility import LARGEST_PAYLOAD
+    from rapidgen.rapid.checks import Payload
+
+    found = _payload_of(robot, _robots(robot)) if robot else None
+    return found or Payload("any robot of ABB", LARGEST_PAYLOAD)
+
+
+def _robots(name: str) -> "Sequence[GroupConfig]":
+    from rapidgen.controller.mechanics import robots_named
+
+    return robots_named(name)
+
+
+def _payload_of(name: str, groups: "Sequence[GroupConfig]") -> "Payload | None":
+    """That of the strongest one; None where one is not known."""
+    from rapidgen.rapid.checks import Payload
+
+    if not groups or not all(group.max_payload for group in groups):
+        return None
+    return Payload(name, max(group.max_payload for group in groups))
+
+
+def _payloads(groups: "Sequence[GroupConfig]", otherwise: "Payload") -> "dict[str, Payload]":
+    """By the lower-case name of the task that moves the robot."""
+    return {
+        group.task.lower(): _payload_of(group.model or group.name, [group]) or otherwise
+        for group in groups
+    }
 
 
 def _configuration(given: str, cell: "Cell | None") -> list[Diagnostic]:
@@ -159,7 +198,7 @@ def _parsed(paths: list[Path], dialect: "Dialect | None") -> "list[Module]":
     return [parse(read_limited(path), path=str(path), dialect=dialect) for path in paths]
 
 
-def _files(paths: list[Path], dialect: "Dialect | None") -> list[Diagnostic]:
+def _files(paths: list[Path], dialect: "Dialect | None", payload: "Payload") -> list[Diagnostic]:
     """Files named one by one: they know each other."""
     from rapidgen.rapid import check as check_rapid
 
@@ -170,16 +209,18 @@ def _files(paths: list[Path], dialect: "Dialect | None") -> list[Diagnostic]:
             modules += _parsed([path], dialect)
         except DiagnosticError as fault:
             found += fault.diagnostics
-    return found + check_rapid(modules, dialect=dialect)
+    return found + check_rapid(modules, dialect=dialect, payloads={"": payload})
 
 
-def _folder(path: Path, dialect: "Dialect | None", backup: Path | None) -> list[Diagnostic]:
+def _folder(
+    path: Path, dialect: "Dialect | None", backup: Path | None, payload: "Payload"
+) -> list[Diagnostic]:
     """A generated folder, a backup, or a folder with modules or such folders in it."""
     from rapidgen.rapid import check as check_rapid
     from rapidgen.system import is_backup, is_generated
 
     if is_generated(path) or is_backup(path):
-        return _system(path, dialect, backup)
+        return _system(path, dialect, backup, payload)
     groups: list[list[Path]] = []
     systems: list[Path] = []
     _search(path, groups, systems)
@@ -187,12 +228,12 @@ def _folder(path: Path, dialect: "Dialect | None", backup: Path | None) -> list[
         raise _nothing(str(path))
     found: list[Diagnostic] = []
     for system in systems:
-        found += _system(system, dialect, backup)
+        found += _system(system, dialect, backup, payload)
     parsed = [_rapid(_parsed(files, dialect), found) for files in groups]
     declared = [{_name(d).lower() for m in modules for d in m.declarations} for modules in parsed]
     for k, modules in enumerate(parsed):
         elsewhere = frozenset().union(*declared[:k], *declared[k + 1 :])
-        found += check_rapid(modules, dialect=dialect, elsewhere=elsewhere)
+        found += check_rapid(modules, dialect=dialect, elsewhere=elsewhere, payloads={"": payload})
     return found
 
 
@@ -216,21 +257,43 @@ def _name(declaration: "Declaration") -> str:
     return getattr(declaration, "name", "")
 
 
-def _system(path: Path, dialect: "Dialect | None", backup: Path | None) -> list[Diagnostic]:
+def _system(
+    path: Path, dialect: "Dialect | None", backup: Path | None, payload: "Payload"
+) -> list[Diagnostic]:
+    from rapidgen.config import from_manifest
     from rapidgen.rapid import Dialect
     from rapidgen.rapid import check as check_rapid
-    from rapidgen.system import is_generated, read_backup, read_folder
+    from rapidgen.system import is_generated, read_backup, read_folder, read_manifest
 
     if is_generated(path):
-        return check_rapid(read_folder(path, backup), dialect=dialect)
+        own = from_manifest(read_manifest(path)["configuration"]).groups
+        carried = _payloads(own, payload)
+        return check_rapid(read_folder(path, backup), dialect=dialect, payloads=carried)
     notes: list[Diagnostic] = []
     system = read_backup(path, notes=notes)
-    found = [*notes, *check_rapid(system, dialect=dialect, gaps=bool(notes))]
+    carried = _of_backup(system, payload)
+    found = [
+        *notes,
+        *check_rapid(system, dialect=dialect, gaps=bool(notes), payloads=carried),
+    ]
     dialect = dialect or Dialect(system.robotware, some=not system.robotware_told)
-    return [*found, *_not_loaded(path, system, dialect)]
+    return [*found, *_not_loaded(path, system, dialect, payload)]
 
 
-def _not_loaded(path: Path, system: "System", dialect: "Dialect") -> list[Diagnostic]:
+def _of_backup(system: "System", otherwise: "Payload") -> "dict[str, Payload]":
+    """Those of the robots of a backup, as far as they are known; what stands in says nothing."""
+    from rapidgen.controller.mechanics import mechanics, motion_tasks
+
+    try:
+        return _payloads(mechanics(system)[0], otherwise)
+    except DiagnosticError:
+        # A type of robot that is not known: `run` says so, here it is no fault.
+        return {task.lower(): otherwise for task in motion_tasks(system)}
+
+
+def _not_loaded(
+    path: Path, system: "System", dialect: "Dialect", payload: "Payload"
+) -> list[Diagnostic]:
     """Errors in RAPID of a backup's HOME that no task loads: a program may, while it runs.
 
     Each is judged as a lone file. Its warnings are left out: HOME keeps old copies.
@@ -248,7 +311,7 @@ def _not_loaded(path: Path, system: "System", dialect: "Dialect") -> list[Diagno
             found += fault.diagnostics
             continue
         for file in files:
-            found += _files([file], dialect)
+            found += _files([file], dialect, payload)
     return [d for d in found if d.severity is Severity.ERROR]
 
 

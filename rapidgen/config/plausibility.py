@@ -18,7 +18,7 @@ Vector: TypeAlias = tuple[float, float, float]
 
 _OVERLOAD = 5.0
 """Times the payload that no robot holds: g instead of kg, or another robot's tool."""
-_LARGEST_PAYLOAD = 1000.0
+LARGEST_PAYLOAD = 1000.0
 """kg, more than the 800 of the IRB 8700, where the payload is not known."""
 _LONGEST_REACH = 4.2
 """m, that of the IRB 8700, where the reach is not known."""
@@ -107,10 +107,10 @@ def mass_doubts(mass: float, arm: Arm) -> Iterator[Doubt]:
             if heavy
             else "give `max_payload:` if the data sheet of your robot says more",
         )
-    elif not arm.payload and mass > _LARGEST_PAYLOAD:
+    elif not arm.payload and mass > LARGEST_PAYLOAD:
         yield Doubt(
             "mass",
-            mass > _OVERLOAD * _LARGEST_PAYLOAD,
+            mass > _OVERLOAD * LARGEST_PAYLOAD,
             f"{mass:g} kg is more than any robot of ABB carries",
             f"the unit is kg: {mass:g} g are {mass / 1000:g}",
         )

@@ -78,7 +78,7 @@ def mechanics(
         model = (keys.model if keys is not None else "") or robot
         robots: Sequence[GroupConfig] = ()
         if model:
-            robots = _chosen(model)
+            robots = robots_named(model)
         elif types:
             unit = units.get(task) or list(types)[min(i, len(types) - 1)]
             robots, told = _of_type(types.get(unit.casefold(), ""), unit)
@@ -100,7 +100,7 @@ def mechanics(
     return tuple(groups), tuple(dict.fromkeys(notes))
 
 
-def _chosen(name: str) -> Sequence[GroupConfig]:
+def robots_named(name: str) -> Sequence[GroupConfig]:
     """The robots that a user names: a shipped model, a configuration, a variant of the library."""
     if name in shipped_names():
         return shipped_groups(name)

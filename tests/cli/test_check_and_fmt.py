@@ -199,3 +199,64 @@ def test_a_program_stands_for_its_modules(folder, capsys):
     )
     assert main(["check", "work.pgf", "--format", "concise"]) == 1
     assert "bad.mod:2" in capsys.readouterr().out
+
+
+LOADED = GOOD.replace(
+    "MODULE Good\n",
+    "MODULE Good\n    PERS loaddata carried := [{}, [0, 0, 50], [1, 0, 0, 0], 0, 0, 0];\n",
+)
+
+
+def overloads(capsys, *words):
+    """Messages of RG333."""
+    assert main(["check", *words, "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    return [f["message"] for f in found if f["code"] == "RG333"]
+
+
+def test_loads_are_compared_with_the_payload_of_the_robot_that_is_named(folder, capsys):
+    (folder / "good.mod").write_text(LOADED.format(9))
+    assert overloads(capsys, "good.mod") == []
+    assert overloads(capsys, "good.mod", "--robot", "irb6640") == []
+    (message,) = overloads(capsys, "good.mod", "--robot", "irb120")
+    assert message == "a load of 9 kg is more than irb120 carries, 3 kg"
+    (folder / "more").mkdir()
+    (folder / "more" / "good.mod").write_text(LOADED.format(1500))
+    (message,) = overloads(capsys, "more")
+    assert message == "a load of 1500 kg is more than any robot of ABB carries, 1000 kg"
+    assert main(["check", "good.mod", "--robot", "nowhere"]) == 2
+
+
+@pytest.mark.parametrize(
+    ("kind", "mass", "robot"),
+    [
+        ("ROB1_120_0.58_3", 9, "irb120"),
+        ("ROB1_120_0.58_3", 2, ""),
+        ("ROB1_120_0.58_3", -1, "first move"),
+        ("ROB1_9999_1_1", 9, ""),
+        ("ROB1_9999_1_1", 1500, "any robot of ABB"),
+        ("", 9, ""),
+    ],
+)
+def test_loads_are_compared_with_the_robot_of_a_backup(backup, capsys, kind, mass, robot):
+    program = backup / "RAPID" / "TASK1" / "PROGMOD" / "Good.mod"
+    program.write_text(LOADED.format(mass))
+    if kind:
+        (backup / "SYSPAR" / "MOC.cfg").write_text(
+            "MOC:CFG_1.0:6:0::\n#\nROBOT:\n\n"
+            f'      -name "ROB_1" -use_robot_type "{kind}" -use_joint_0 "rob1_1"\n'
+        )
+    found = overloads(capsys, str(backup))
+    assert len(found) == bool(robot)
+    assert all(robot in message for message in found)
+
+
+def test_loads_are_compared_with_the_robot_of_a_generated_folder(folder, capsys):
+    assert main(["build", "irb120", "-o", "out"]) == 0
+    assert overloads(capsys, "out") == []
+    module = folder / "out" / "HOME" / "rapidgen" / "ROS_motion.mod"
+    text = module.read_text(encoding="latin-1")
+    head, mark, rest = text.partition("\n    LOCAL ")
+    datum = "\n    PERS loaddata own := [9, [0, 0, 50], [1, 0, 0, 0], 0, 0, 0];"
+    module.write_text(head + datum + mark + rest, encoding="latin-1")
+    assert overloads(capsys, "out") == ["a load of 9 kg is more than irb120 carries, 3 kg"]

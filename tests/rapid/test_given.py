@@ -4,6 +4,7 @@ import pytest
 
 from rapidgen.diagnostics import Severity
 from rapidgen.rapid import Dialect, check, parse
+from rapidgen.rapid.checks import Payload
 from rapidgen.system import MechanicalUnitGroup, ModuleFile, SignalSpec, System, TaskSpec
 
 
@@ -277,3 +278,65 @@ def test_a_backup_that_does_not_say_its_release_has_what_some_release_of_its_num
     some = system(text, robotware=(5, 0), robotware_told=False)
     assert ("error", "RG325") in found(told)
     assert "error" not in {severity for severity, _ in found(some)}
+
+
+IRB = Payload("irb120", 3)
+LOAD = "[{},[0,0,50],[1,0,0,0],0,0,0]"
+TOOL = "[TRUE,[[0,0,0],[1,0,0,0]],{}]"
+
+
+def tool(mass):
+    return TOOL.format(LOAD.format(mass))
+
+
+@pytest.mark.parametrize(
+    ("data", "body", "masses"),
+    [
+        (f"PERS loaddata l := {LOAD.format(-1)};", "", ["-1"]),
+        (f"LOCAL PERS tooldata t := {tool('-0.5')};", "GripLoad t.tload;", ["-0.5"]),
+        (f"PERS tooldata t := {tool('3.5')};", "", ["3.5"]),
+        (f"PERS tooldata t := {tool('1.2E3')};", "", ["1200"]),
+        (f"CONST num kg := 2;\nCONST loaddata l := {LOAD.format('kg * 2')};", "", ["4"]),
+        (f"PERS loaddata l{{2}} := [{LOAD.format(-1)},{LOAD.format(5)}];", "", ["-1", "5"]),
+        (
+            f"RECORD part\nnum n;\nloaddata load;\nENDRECORD\nPERS part p := [1,{LOAD.format(9)}];",
+            "",
+            ["9"],
+        ),
+        ("PERS tooldata t;", f"t := {tool(9)};", ["9"]),
+        ("PERS tooldata t;", f"t.tload := {LOAD.format(-2)};", ["-2"]),
+        ("PERS tooldata t;", "t.tload.mass := 1200;", ["1200"]),
+        ("PERS loaddata l{2};", "l{2}.mass := -3;", ["-3"]),
+        ("PERS loaddata l;", "IF TRUE l.mass := -3;", ["-3"]),
+        ("ALIAS loaddata weight;\nPERS weight w := " + LOAD.format(-1) + ";", "", ["-1"]),
+        # What is right, or not known before it runs.
+        (f"PERS loaddata l := {LOAD.format(3)};", "", []),
+        (f"PERS loaddata l := {LOAD.format(0)};", "", []),
+        ("PERS loaddata l;\nVAR num n := -1;", "l.mass := n;", []),
+        ("RECORD own\nnum mass;\nENDRECORD\nVAR own o;", "o.mass := -1;", []),
+        ("PERS loaddata l;", "l.cog.x := -1200;", []),
+    ],
+)
+def test_loads_that_the_robot_cannot_carry(data, body, masses):
+    for given, task in (
+        (module("a", body, data), ""),
+        (system(module("a", body, data)), "t_rob1"),
+    ):
+        diagnostics = [d for d in check(given, payloads={task: IRB}) if d.code == "RG333"]
+        assert [d.severity for d in diagnostics] == [Severity.WARNING] * len(masses)
+        for diagnostic, mass in zip(diagnostics, masses, strict=True):
+            assert diagnostic.message.startswith(f"a load of {mass} kg")
+            assert ("irb120 carries, 3 kg" in diagnostic.message) == (mass[0] != "-")
+
+
+def test_an_unknown_component_of_a_load_is_reported_once():
+    data = "PERS tooldata t;"
+    assert found(module("a", "t.tlod.mass := -1;", data)) == [("error", "RG304")]
+    assert found(module("a", "u.tload.mass := -1;", data)) == [("info", "RG302")]
+
+
+def test_where_no_robot_is_known_only_a_negative_mass_is_wrong():
+    data = f"PERS loaddata l := {LOAD.format('9E6')};\nPERS loaddata m := {LOAD.format(-1)};"
+    assert found(module("a", "", data)) == [("warning", "RG333")]
+    task = system(module("a", "", data))
+    assert found(task, payloads={"t_rob2": IRB}) == [("warning", "RG333")]

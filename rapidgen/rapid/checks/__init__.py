@@ -4,7 +4,8 @@
 by what was given: see `given.Given`.
 """
 
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from types import MappingProxyType
 
 from rapidgen.diagnostics import Diagnostic, Severity, Span, error
 from rapidgen.rapid.binding import (
@@ -17,7 +18,7 @@ from rapidgen.rapid.binding import (
 )
 from rapidgen.rapid.checks.declarations import check_module
 from rapidgen.rapid.checks.findings import Findings
-from rapidgen.rapid.checks.given import Given
+from rapidgen.rapid.checks.given import Given, Payload
 from rapidgen.rapid.dialect import Dialect
 from rapidgen.rapid.syntax.nodes import Module
 from rapidgen.rapid.syntax.parser import parse
@@ -43,24 +44,31 @@ def check(
     path: str | None = None,
     gaps: bool = False,
     elsewhere: Collection[str] = frozenset(),
+    payloads: Mapping[str, Payload] = MappingProxyType({}),
 ) -> list[Diagnostic]:
     """Everything wrong with a text, a module, modules that belong together, or a system.
 
     What modules do not declare may be anywhere; `elsewhere` are lower-case names that other
     modules declare which were given too. A system declares everything, unless `gaps` says that
     something is missing that a name could come from. A system's own RobotWare decides unless
-    `dialect` is given. Findings of the parser are included. Sorted by place.
+    `dialect` is given. `payloads` are those of the robots by the lower-case name of the task that
+    moves them, of modules without a task by an empty name. Findings of the parser are included.
+    Sorted by place.
     """
     if isinstance(given, System):
         return _check_system(
-            given, dialect or Dialect(given.robotware, some=not given.robotware_told), gaps
+            given,
+            dialect or Dialect(given.robotware, some=not given.robotware_told),
+            gaps,
+            payloads,
         )
     dialect = dialect or Dialect()
     if isinstance(given, str | bytes):
         given = parse(given, path=path, dialect=dialect)
     if isinstance(given, Module):
         given = [given]
-    return _check_modules(list(given), Given(dialect, elsewhere=elsewhere))
+    extent = Given(dialect, elsewhere=elsewhere, payload=payloads.get(""))
+    return _check_modules(list(given), extent)
 
 
 def _check_modules(modules: Sequence[Module], given: Given) -> list[Diagnostic]:
@@ -110,7 +118,9 @@ def _clash(findings: Findings, first: Symbol, second: Symbol, where: str, entry:
 # -- systems ---------------------------------------------------------------------------------
 
 
-def _check_system(system: System, dialect: Dialect, gaps: bool) -> list[Diagnostic]:
+def _check_system(
+    system: System, dialect: Dialect, gaps: bool, payloads: Mapping[str, Payload]
+) -> list[Diagnostic]:
     configured = installed_objects(_installed(system))
     parsed: dict[tuple[str, int], Module] = {}
     found: list[Diagnostic] = []
@@ -124,7 +134,12 @@ def _check_system(system: System, dialect: Dialect, gaps: bool) -> list[Diagnost
                 module = parsed[key] = parse(file.data, path=file.path, dialect=dialect)
             scopes.append(task.add(module, installed=file.installed or file.shared))
         modules = [scope.tree for scope in scopes]
-        given = Given(dialect, True, gaps or _loads(modules) or _any_unreadable(modules))
+        given = Given(
+            dialect,
+            True,
+            gaps or _loads(modules) or _any_unreadable(modules),
+            payload=payloads.get(spec.name.lower()),
+        )
         for scope in scopes:
             found += _check_module(scope, given, task.clashes, spec.entry)
         found += _entry(spec, task, given)
@@ -199,4 +214,4 @@ def _sorted(found: Iterable[Diagnostic]) -> list[Diagnostic]:
     return sorted(found, key=key)
 
 
-__all__ = ["check"]
+__all__ = ["Payload", "check"]

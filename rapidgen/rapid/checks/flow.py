@@ -101,6 +101,13 @@ class FlowChecker:
                 self.types.used(node.value)
                 return True
         self.types.expect(node.value, wanted, "the value")
+        if (
+            wanted == "num"  # then every part of the target is known, and reported once
+            and isinstance(target, Member)
+            and target.component.lower() == "mass"
+            and self.types.type_of(target.base) == "loaddata"
+        ):
+            self.types.load(node.value)
         if wanted is not None and degree(wanted):
             self.types.same_sizes(node, target, node.value)
         return True

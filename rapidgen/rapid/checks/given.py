@@ -11,6 +11,14 @@ _LONG: Final = 7
 
 
 @dataclass(frozen=True, slots=True)
+class Payload:
+    """What a robot may carry, in kg, and its name for people."""
+
+    robot: str
+    mass: float
+
+
+@dataclass(frozen=True, slots=True)
 class Given:
     """Dialect and extent."""
 
@@ -22,6 +30,8 @@ class Given:
     """Parts of the task are not there to be read."""
     elsewhere: Collection[str] = ()
     """Lower-case names that modules of other tasks declare: not known here, nor unknown."""
+    payload: Payload | None = None
+    """Of the robot that the task moves; None: not known."""
 
     @property
     def knows_all(self) -> bool:

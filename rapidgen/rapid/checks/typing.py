@@ -458,6 +458,30 @@ class TypeChecker:
                 severity=Severity.WARNING,
             )
 
+    def load(self, node: Expression) -> None:
+        """The mass of a load, where it is known: negative, or more than the robot carries."""
+        mass = self.constant(node)
+        if isinstance(mass, bool) or not isinstance(mass, int | float):
+            return
+        payload = self.findings.given.payload
+        if mass < 0:
+            self.report(
+                "RG333",
+                f"a load of {mass:g} kg: its first move stops the program",
+                node,
+                help="weigh it, or let the service routine LoadIdentify measure it",
+                notes=("event 41438, undefined load",),
+                severity=Severity.WARNING,
+            )
+        elif payload is not None and mass > payload.mass:
+            self.report(
+                "RG333",
+                f"a load of {mass:g} kg is more than {payload.robot} carries, {payload.mass:g} kg",
+                node,
+                help="the unit is kg",
+                severity=Severity.WARNING,
+            )
+
     def _members(self, node: Aggregate, wanted: str, place: str) -> None:
         """Members of an aggregate against the array or record that its place wants."""
         members = node.members
@@ -467,6 +491,8 @@ class TypeChecker:
             for member in members:
                 self.expect(member, inner, "the element")
             return
+        if wanted == "loaddata" and members:
+            self.load(members[0])
         components = self.findings.module.components(wanted)
         if components is None:
             if wanted in ATOMIC:
