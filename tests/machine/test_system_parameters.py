@@ -7,6 +7,7 @@ import pytest
 from rapidgen.config import load_config
 from rapidgen.machine.system_parameters import SystemParameters, arm_name
 from rapidgen.system import System
+from rapidgen.system.model import TaskSpec
 
 
 # Sources of the names: `arm_name`.
@@ -60,3 +61,11 @@ def test_domains_are_told_as_cfg_text():
     assert parameters.text("MOC").count('-Name "rob1_') == 6
     with pytest.raises(KeyError):
         parameters.text("SIO")
+
+
+def test_a_flag_is_true():
+    tasks = (TaskSpec("T_ROB1", motion=True), TaskSpec("T_OTHER"))
+    parameters = SystemParameters(System("S", tasks), load_config("irb120").groups)
+    first, other = parameters.find("/SYS/CAB_TASKS")
+    assert (first["name"], first["motiontask"]) == ("T_ROB1", True)
+    assert "motiontask" not in other
