@@ -117,3 +117,29 @@ def test_registers_begin_with_what_the_signals_have():
     (known,) = (s for s in SIGNALS if s.name == "hand_MaxSpeed_L")
     hand = Cell(SignalSpec(known.name, "GO", size=8, default=55)).hand
     assert hand.max_speed == 5.5
+
+
+# Numbers of hand_CmdGripper and hand_SysState: the module's docstring names their source.
+@pytest.mark.parametrize(
+    ("command", "moving", "after", "position"),
+    [
+        (1, 11, 11, 25.0), (2, 12, 12, 0.0), (3, 2, 6, 20.0), (4, 3, 6, 2.0), (5, 4, 6, 0.0),
+        (6, 5, 6, 25.0), (7, 7, 9, 0.0), (8, 8, 9, 25.0), (9, 1, 1, 10.0), (10, 0, 0, 10.0),
+        (11, 6, 6, 0.0), (15, 16, 9, 0.0), (16, 17, 9, 25.0), (12, 6, 6, 10.0), (17, 6, 6, 10.0),
+    ],
+)  # fmt: skip
+def test_a_command_by_its_signal_is_told_by_numbers(command, moving, after, position):
+    cell = Cell(*SIGNALS)
+    cell.hand.command(Command.CALIBRATE)
+    cell.hand.max_position, cell.hand.min_position, cell.hand.max_speed = 10.0, 2.0, 20.0
+    cell.hand.command(Command.TO_MAX)
+    cell.wait(2)
+    cell.hand.max_position = 20.0
+    cell.set("CmdGripper", command)
+    assert cell.get("SysState") == moving
+    cell.wait(0.02)
+    assert cell.get("SysState") == moving
+    cell.wait(2)
+    assert cell.get("SysState") == after
+    assert cell.hand.position == pytest.approx(position)
+    assert cell.get("ActualPosition") == round(position * 10)
