@@ -288,3 +288,51 @@ def test_what_waits_in_both_directions_passes_each_at_its_own_time(into, out):
     net.settle()
     assert heard == [(pytest.approx(1000 * into + 0.1, abs=0.001), b"into")]
     assert seen == [(pytest.approx(1000 * out + 0.2, abs=0.001), b"out")]
+
+
+def test_what_the_other_end_has_no_room_for_waits_in_its_order():
+    net = Net(NetworkRule("delay", direction="out", seconds=0.1))
+    program, client = net.pair()
+    sent = b""
+    # As much as a connection holds, in pieces that do not fit it, and as much again that waits.
+    while count := net.send(program, bytes([len(sent) // 50_000 + 1]) * 50_000):
+        sent += bytes([len(sent) // 50_000 + 1]) * count
+        net.wait(S)
+    assert len(sent) > 2 * BUFFER
+    read = b""
+    while data := net.plain.receive(client, 7000):
+        read += data
+        net.wait(S)
+    assert read == sent
+    assert net.send(program, b"e") == 1
+
+
+def test_a_reset_is_met_by_what_was_delayed():
+    net = Net(NetworkRule("delay", direction="out", seconds=0.5))
+    program, client = net.pair()
+    assert net.send(program, b"late") == 4
+    net.plain.close(client, abort=True)
+    net.settle()
+    assert reason(net.send, program, b"x") is NetworkReason.RESET
+
+
+@pytest.mark.parametrize("other", [NetworkRule("delay"), NetworkRule("silent", after=99)])
+def test_of_several_rules_each_holds(other):
+    for rules in ((other, NetworkRule("half-open")), (NetworkRule("half-open"), other)):
+        net = Net(*rules)
+        program, client = net.pair()
+        net.plain.close(client)
+        net.settle()
+        assert net.receive(program, 9) is None
+        assert net.send(program, b"taken") == 5
+        assert reason(net.send, program, b"x") is NetworkReason.RESET
+
+
+def test_half_open_begins_behind_so_many_bytes():
+    net = Net(NetworkRule("half-open", direction="in", after=2))
+    program, client = net.pair()
+    net.plain.send(client, b"a")
+    net.plain.close(client)
+    net.settle()
+    assert net.receive(program, 9) == b"a"
+    assert net.receive(program, 9) == b""
