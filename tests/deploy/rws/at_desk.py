@@ -2,9 +2,7 @@
 
 import base64
 import hashlib
-import os
 import threading
-from pathlib import Path
 
 from rapidgen.client.errors import ConnectionLost
 from rapidgen.client.rws import Controller
@@ -157,7 +155,10 @@ def connect(line) -> RwsTransport:
         "" if line.generation is Generation.ONE else hashlib.sha256(CERTIFICATE).hexdigest()
     )
     controller = kind(
-        "rws://cell", password=PASSWORD, fingerprint=fingerprint, pin_file=Path(os.devnull)
+        "rws://cell",
+        password=PASSWORD,
+        fingerprint=fingerprint,
+        pin_file=line.cabinet.folder / "known_controllers",
     )
     if not line.on_thread:
         controller._core.clock = lambda: line.cabinet.now
