@@ -1,6 +1,5 @@
 """A robot description becomes the text of a configuration; what stays open is marked `???`."""
 
-import json
 import math
 import re
 from collections.abc import Mapping, Sequence
@@ -24,6 +23,7 @@ from rapidgen.config.urdf.graph import aimless, build_graph
 from rapidgen.config.urdf.group import request
 from rapidgen.config.urdf.robot import UrdfJoint, read_robot
 from rapidgen.config.urdf.source import macros, read_xml
+from rapidgen.config.yaml_text import yaml_flow, yaml_text
 from rapidgen.diagnostics import DiagnosticError, Severity, refusal, suggest
 
 _PACKAGE = re.compile(r"package://([\w-]+)")
@@ -63,7 +63,7 @@ class JointLine:
     def text(self, width: int) -> str:
         """As it is written."""
         keys = ", ".join([f"axis: {self.axis}", *self.keys])
-        body = f"{limits.quoted(self.name)}: {{{keys}}}"
+        body = f"{yaml_text(self.name)}: {{{keys}}}"
         return f"{body:<{width}}  # {self.comment}" if self.comment else body
 
 
@@ -213,7 +213,7 @@ def _group(cell: Cell, arm: Arm, arms: Sequence[Arm], number: int, answers: Answ
     if variant and any(line.is_known for line in lines):
         tail.append(f'source: {{limits: "{variant.name} of robots/variants.json"}}')
     if answers.keep:
-        tail.append(f"keep: [{', '.join(answers.keep)}]")
+        tail.append(f"keep: {yaml_flow(answers.keep)}")
     elif arm.axes == ROBOT_AXES[:3] and not any(line.axis == "rax_4" for line in lines):
         tail.append("keep: [rax_4]           # not in the description: held where it stands")
     if number == 0:
@@ -226,7 +226,7 @@ def _group(cell: Cell, arm: Arm, arms: Sequence[Arm], number: int, answers: Answ
     name = _name(arm, arms, number)
     return GroupText(
         name,
-        [*head, *([f"tip: {tip}"] if needs_tip else [])],
+        [*head, *([f"tip: {yaml_text(tip)}"] if needs_tip else [])],
         lines,
         tail,
         _tasks(name, arms, variant if same else None),
@@ -363,7 +363,7 @@ def _positioners(cell: Cell) -> list[str]:
 
 
 def _step(link: ChainLink) -> str:
-    parts = [f"joint: {json.dumps(link.joint)}"] if link.joint else []
+    parts = [f"joint: {yaml_text(link.joint)}"] if link.joint else []
     if any(link.xyz):
         parts.append(f"xyz: [{', '.join(f'{v * 1000:.6g}' for v in link.xyz)}]")
     if any(link.rpy):

@@ -1,6 +1,5 @@
 """Configurations to start from: commented, and checked before they are written."""
 
-import json
 import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -15,6 +14,7 @@ from rapidgen.config.model import RobotConfig
 from rapidgen.config.open_lines import OPEN
 from rapidgen.config.registry import find_shipped
 from rapidgen.config.variant_model import model_name, named
+from rapidgen.config.yaml_text import yaml_flow, yaml_text
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, refusal
 
 _IRC5, _OMNICORE = ("irc5", "6.15"), ("omnicore", "7.10")
@@ -155,17 +155,16 @@ def from_urdf(
     )
     given, groups, used = describe(urdf, folder, package_paths, given, said)
     packages = {name: _relative(path, folder) for name, path in sorted(used.items())}
-    quoted = json.dumps  # a JSON text is a YAML text
     lines = [
         f"# Made from {Path(given.file).name}. Check every axis against the robot before it moves.",
         *_controller(said, _of_family(groups[0].family)),
     ]
-    source = [f"  file: {quoted(given.file)}"]
-    source += [f"  macro: {given.macro}"] if given.macro else []
-    source += [f"  macro_args: {quoted(given.macro_args)}"] if given.macro_args else []
-    source += [f"  args: {quoted(given.args)}"] if given.args else []
-    source += [f"  packages: {quoted(packages)}"] if packages else []
-    source += [f"  ignore_joints: {quoted(list(said.ignore))}"] if said.ignore else []
+    source = [f"  file: {yaml_flow(given.file)}"]
+    source += [f"  macro: {yaml_text(given.macro)}"] if given.macro else []
+    source += [f"  macro_args: {yaml_flow(given.macro_args)}"] if given.macro_args else []
+    source += [f"  args: {yaml_flow(given.args)}"] if given.args else []
+    source += [f"  packages: {yaml_flow(packages)}"] if packages else []
+    source += [f"  ignore_joints: {yaml_flow(said.ignore)}"] if said.ignore else []
     several = len(groups) > 1
     lines += ["groups:"] if several else []
     for group in groups:

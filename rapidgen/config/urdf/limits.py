@@ -1,12 +1,12 @@
 """Limits and speeds of URDF joints as controller figures, and the figures that cannot be."""
 
-import json
 import math
 from collections.abc import Iterator
 
 from rapidgen.config.draft import JointDraft
 from rapidgen.config.open_lines import OPEN
 from rapidgen.config.urdf.robot import UrdfJoint
+from rapidgen.config.yaml_text import yaml_text
 from rapidgen.diagnostics import Diagnostic, Severity, Span, error
 
 DEGREES_AS_RADIANS = 10.0
@@ -62,7 +62,7 @@ def _open(draft: JointDraft, joint: UrdfJoint, *, of_range: bool = True) -> str:
     if draft.speed is None and not (joint.velocity or 0.0) > 0.0:
         figures["speed"] = OPEN
     shown = ", ".join(f"{key}: {value}" for key, value in figures.items())
-    return f"joints:\n  {quoted(joint.name)}: {{{shown}}}"
+    return f"joints:\n  {yaml_text(joint.name)}: {{{shown}}}"
 
 
 def _continuous(draft: JointDraft, joint: UrdfJoint, span: Span | None) -> Diagnostic:
@@ -134,11 +134,6 @@ def _range(draft: JointDraft, joint: UrdfJoint, span: Span | None) -> Iterator[D
         draft.lower, draft.upper = ends
         yield from _rounded(draft, span)
         _keep(draft, *own)
-
-
-def quoted(name: str) -> str:
-    """A joint's name as a key of YAML."""
-    return name if name.isidentifier() and name.isascii() else json.dumps(name)
 
 
 def _keep(draft: JointDraft, lower: float | None, upper: float | None) -> None:

@@ -3,7 +3,6 @@
 Templates are in `templates/ros2` and `templates/ros1`; all of them see the same names.
 """
 
-import json
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -14,13 +13,12 @@ import jinja2
 from rapidgen._data import data_folder
 from rapidgen._writing import write_whole
 from rapidgen.config.model import GroupConfig, RobotConfig
+from rapidgen.config.yaml_text import yaml_flow, yaml_text
 from rapidgen.diagnostics import DiagnosticError, error
 from rapidgen.ros.package import srdf, urdf
 
 _START_SHARE = 0.8
 """allowed_start_tolerance as a share of the driver's: MoveIt is to complain before it does."""
-_WORDS = frozenset(["y", "n", "yes", "no", "on", "off", "true", "false", "null"])
-"""What YAML 1.1 takes for something else than a text."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,8 +43,9 @@ def ros2_package(config: RobotConfig, source: str, overrides: Sequence[str] = ()
 def ros2_cell(members: Sequence[CellMember], name: str) -> dict[str, str]:
     """The same for several robots, each with a controller and a node of its own, in one MoveIt.
 
-    Names of joints, links and planning groups begin with the robot's. Raises DiagnosticError where
-    two robots have the same one.
+    Names of joints, links and planning groups begin with the robot's; of `name`, which may be any
+    folder's, letters, digits and few signs are used. Raises DiagnosticError where two robots have
+    the same one.
     """
     names = [_plain(member.config.name) for member in members]
     twice = sorted({one for one in names if names.count(one) > 1})
@@ -59,7 +58,7 @@ def ros2_cell(members: Sequence[CellMember], name: str) -> dict[str, str]:
                 "give each configuration a `name` of its own",
             )
         )
-    return _ros2(members, name, names)
+    return _ros2(members, re.sub(r"[^\w .-]", "_", name), names)
 
 
 def _ros2(members: Sequence[CellMember], called: str, names: Sequence[str]) -> dict[str, str]:
@@ -74,7 +73,7 @@ def _ros2(members: Sequence[CellMember], called: str, names: Sequence[str]) -> d
             "name": one,
             "source": member.source,
             "set": [word for one in member.overrides for word in ("--set", one)],
-            "overrides": json.dumps(member.overrides),
+            "overrides": yaml_flow(member.overrides),
             "prefix": robot.prefix,
             "host": f"127.0.0.{number}",
             "groups": [
@@ -165,18 +164,12 @@ def _rendered(kind: str, name: str, context: Mapping[str, object]) -> dict[str, 
         lstrip_blocks=True,
     )
     environment.filters["quoted"] = repr
-    environment.filters["text"] = _text
+    environment.filters["text"] = yaml_text
     files = {}
     for template in sorted(environment.list_templates(extensions=["j2"])):
         path = template.removesuffix(".j2").replace("NAME", name)
         files[path] = environment.get_template(template).render(context)
     return files
-
-
-def _text(name: str) -> str:
-    """A name in YAML, quoted where it would not stay one: ROS reads `no` and `3` as YAML 1.1."""
-    is_plain = re.fullmatch(r"[A-Za-z_][\w/.-]*", name) and name.lower() not in _WORDS
-    return name if is_plain else json.dumps(name)
 
 
 def _solved(group: GroupConfig, prefix: str, drawn: urdf.Drawn) -> str:
