@@ -3,13 +3,18 @@
 Sources of the answers that differ between generations: the handlers name them.
 """
 
-import pytest
-from served import Caller, code_of, make_cabinet, make_desk
+import re
 
+import pytest
+from served import Caller, make_cabinet, make_desk
+
+from rapidgen.wire.rws import media
 from rapidgen.wire.rws.bodies import Generation
 from rapidgen.wire.rws.codes import CODES
 
 TASK, UNIT = "/rw/rapid/tasks/T_ROB1", "/rw/motionsystem/mechunits/ROB_1"
+REASONS = {"E_REJECT": {-2}, "E_EXEC_STATE": {-508}, "E_UNEXPECTED": {-517}}
+"""What stands as `icode` behind the words; mostly -1, -517 where a symbol is missing."""
 CFG, ELOG = "/rw/cfg/EIO/EIO_SIGNAL/instances", "/rw/elog"
 SYMBOL_ONE, SYMBOL_TWO = "/rw/rapid/symbol/data/RAPID", "/rw/rapid/symbol/RAPID"
 
@@ -170,7 +175,10 @@ def refused(caller, method, path, form, status, code):
     caller.desk.office.cabinet.controller.run_for(1.0)
     before = state_of(caller)
     reply = caller.send(method, path, form)
-    assert (reply.status, code_of(reply)) == (status, CODES[code])
+    fault = media.read(reply.body, reply.header("content-type")).fault
+    assert (reply.status, fault.code) == (status, CODES[code])
+    words = re.fullmatch(r"rapidgen\[1\] .*\S code:(-?\d+) icode:(-\d+)", fault.message)
+    assert (int(words[1]), int(words[2]) in REASONS.get(code, {-1, -517})) == (fault.code, True)
     assert state_of(caller) == before
 
 
