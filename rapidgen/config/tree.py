@@ -16,6 +16,7 @@ from rapidgen._reading import TooLarge, read_foreign
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, Span, error, refusal
 
 MAX_BYTES = 1_000_000
+MAX_LINES = 100_000
 MAX_DEPTH = 40
 MAX_NODES = 50_000
 
@@ -128,6 +129,11 @@ def parse(text: str, shown: str, *, at: Span | None = None) -> tuple[Node, list[
     from ruamel.yaml import YAML
     from ruamel.yaml.error import YAMLError
 
+    # Lines cost the most: without values there is no other limit on them.
+    if text.count("\n") > MAX_LINES:
+        message = f"{shown} has more than {MAX_LINES:,} lines"
+        help = "a configuration has a few hundred: is this the right file?"
+        raise refusal("RG002", at or Span(shown, 1, 1), message, help)
     try:
         return _Builder(YAML(typ="safe", pure=True).parse(text), shown, at).document()
     except YAMLError as fault:
