@@ -55,10 +55,15 @@ class ModuleEntry:
         )
 
 
+MAX_TASKS = 200
+MAX_MODULES = 2_000
+"""Far more than a controller takes: 20 tasks."""
+
+
 def tasks_of(cfg: CfgText) -> tuple[TaskSpec, ...]:
-    """CAB_TASKS in order, without modules. Raises RG708 for a fault in one."""
+    """CAB_TASKS in order, without modules. Raises RG708 for a fault in one, or too many."""
     found = []
-    for instance in cfg.instances("CAB_TASKS"):
+    for instance in _few(cfg, "CAB_TASKS", MAX_TASKS):
         name = _name(cfg, instance)
         kind = _word(cfg, instance, "Type", instance.text("Type") or "SEMISTATIC", TaskType)
         trust = instance.text("TrustLevel") or "SysFail"
@@ -82,7 +87,7 @@ def tasks_of(cfg: CfgText) -> tuple[TaskSpec, ...]:
 
 
 def modules_of(cfg: CfgText) -> tuple[ModuleEntry, ...]:
-    """CAB_TASK_MODULES in order, which is the order of loading."""
+    """CAB_TASK_MODULES in order, which is the order of loading. Raises RG708 for too many."""
     return tuple(
         ModuleEntry(
             instance.text("File"),
@@ -98,7 +103,7 @@ def modules_of(cfg: CfgText) -> tuple[ModuleEntry, ...]:
             instance.line,
             instance.flag("Install"),
         )
-        for instance in cfg.instances("CAB_TASK_MODULES")
+        for instance in _few(cfg, "CAB_TASK_MODULES", MAX_MODULES)
     )
 
 
@@ -203,6 +208,14 @@ def crosses_of(cfg: CfgText) -> tuple[CrossConnection, ...]:
             )
         )
     return tuple(found)
+
+
+def _few(cfg: CfgText, section: str, limit: int) -> list[Instance]:
+    """The instances of a section: what is done for each of them takes time."""
+    found = list(cfg.instances(section))
+    if len(found) > limit:
+        raise _fault(cfg, found[limit], f"{section} has more than {limit:,} instances")
+    return found
 
 
 def _name(cfg: CfgText, instance: Instance) -> str:

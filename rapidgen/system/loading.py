@@ -1,5 +1,6 @@
 """Module files as bytes, with the name that they declare."""
 
+import os
 import re
 from pathlib import Path
 
@@ -101,7 +102,7 @@ def load_entries(
         place = Span(cfg_path, entry.line, 1) if entry.line else None
         outside = not entry.file.strip().upper().startswith("HOME:")
         path = None if outside else home_file(home, entry.file)
-        if path is None or not path.exists():
+        if path is None or not os.path.exists(path):
             stem = entry.file.replace("\\", "/").rpartition("/")[2].rpartition(".")[0]
             if stem.casefold() in known:
                 continue

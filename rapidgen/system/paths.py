@@ -41,7 +41,7 @@ def read_limited(path: Path, *, below: Path | None = None) -> bytes:
 
 def is_there(path: Path) -> bool:
     """Whether a name stands for a file, or for a pipe or device, which `read_limited` refuses."""
-    return path.exists() and not path.is_dir()
+    return os.path.exists(path) and not os.path.isdir(path)
 
 
 def inside(root: Path, relative: str) -> Path:
@@ -104,7 +104,8 @@ def module_files(folder: Path) -> Iterator[Path]:
 def _entry(folder: Path, name: str) -> Path:
     """`name` in `folder`; controllers compare names without case, most file systems do not."""
     exact = folder / name
-    if not exact.exists() and folder.is_dir():
+    # Not Path.exists: it raises for a name that is too long.
+    if not os.path.exists(exact) and folder.is_dir():
         for entry in os.listdir(folder):
             if entry.casefold() == name.casefold():
                 return folder / entry
