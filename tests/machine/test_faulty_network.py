@@ -336,3 +336,40 @@ def test_half_open_begins_behind_so_many_bytes():
     net.settle()
     assert net.receive(program, 9) == b"a"
     assert net.receive(program, 9) == b""
+
+
+@pytest.mark.parametrize(
+    ("rules", "pieces"),
+    [
+        ([("split", 1, 0.001, 0)], [(0.1, b"a"), (1.1, b"b"), (2.1, b"c"), (3.1, b"d")]),
+        ([("split", 0, 0.001, 0)], [(0.1, b"a"), (1.1, b"b"), (2.1, b"c"), (3.1, b"d")]),
+        ([("split", 3, 0.001, 0)], [(0.1, b"abc"), (1.1, b"d")]),
+        # The rule begins in the middle, or two do.
+        ([("split", 1, 0.001, 2)], [(0.1, b"ab"), (1.1, b"c"), (2.1, b"d")]),
+        ([("delay", 0, 0.5, 1), ("silent", 0, 0.0, 3)], [(0.1, b"a"), (500.1, b"bc")]),
+        ([("silent", 0, 0.0, 3), ("delay", 0, 0.5, 1)], [(0.1, b"a"), (500.1, b"bc")]),
+        # A tenth of what passes in a second at a time, at least one byte.
+        ([("slow", 20, 0.0, 0)], [(0.1, b"ab"), (100.1, b"cd")]),
+        ([("slow", 100, 0.0, 0)], [(0.1, b"abcd")]),
+        ([("slow", 4, 0.0, 0)], [(0.1, b"a"), (250.1, b"b"), (500.1, b"c"), (750.1, b"d")]),
+        ([("slow", 1, 0.0, 2)], [(0.1, b"ab"), (1000.1, b"c"), (2000.1, b"d")]),
+        ([("slow", 0, 0.0, 2)], [(0.1, b"ab"), (1000.1, b"c"), (2000.1, b"d")]),
+        # Pieces and a delay together: the delay counts from when they were sent.
+        (
+            [("split", 2, 0.1, 0), ("delay", 0, 0.5, 0)],
+            [(500.1, b"ab"), (600.1, b"cd")],
+        ),
+    ],
+)
+def test_bytes_are_cut_by_the_rules_that_hold_for_them(rules, pieces):
+    made = (
+        NetworkRule(do, direction="out", bytes=count, seconds=seconds, after=after)
+        for do, count, seconds, after in rules
+    )
+    net = Net(*made)
+    program, client = net.pair()
+    net.wait(10 * S)
+    heard = net.heard(client, net.plain)
+    assert net.send(program, b"abcd") == 4
+    net.settle()
+    assert heard == pieces
