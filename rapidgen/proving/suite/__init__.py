@@ -4,6 +4,7 @@ from rapidgen.proving.behaviour import Behaviour, Theme
 from rapidgen.proving.suite import (
     batch_bytes,
     batches,
+    before_stops,
     ceiling,
     compatible,
     configured,
@@ -106,6 +107,7 @@ CASES: tuple[Behaviour, ...] = tuple(
         corners,
         supervisor,
         ended_tasks,
+        before_stops,
         interrupted,
         configured,
         ceiling,

@@ -272,8 +272,8 @@ def _held_at(
         if module == "ROS_stateServer":
             link.at_once(second)
         task.hold()
-        # Two or three PROGRESS, and less than what counts as the end of a task.
-        bench.controller.scheduler.after(200_000_000, task.release)
+        # One or two PROGRESS, and less than what counts as the end of a task.
+        bench.controller.scheduler.after(120_000_000, task.release)
 
     came = _once_at(bench, module, (home, line), 1, held)
     if module != "ROS_stateServer":

@@ -356,6 +356,9 @@ class Task(Process):
             self.obey()
         while self.held:
             self._park()
+        if self.events.due and not self.events.running:
+            # A stop without routines that was over before the task stood.
+            self.events.run(AT_RESTART)
         if self._renews:
             self._renew()
         interrupts = self.interrupts

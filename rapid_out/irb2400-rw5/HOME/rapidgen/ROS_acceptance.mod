@@ -8,7 +8,7 @@ MODULE ROS_acceptance
     ! What a trajectory that comes whole and one that comes in batches have in common. The one
     ! who takes a point unpacks it, lets it be checked here, and looks at ROS_fault then.
 
-    CONST string ROS_BUILD_ACCEPTANCE := "d508f18b3fd5";
+    CONST string ROS_BUILD_ACCEPTANCE := "68ba6638ed5b";
 
     ! s: longest duration of a point
     CONST num ROS_LONGEST := 3600;
@@ -47,6 +47,10 @@ MODULE ROS_acceptance
     VAR num ROS_to_feed := 0;
     VAR num ROS_fed := 0;
 
+    ! Stops and starts of the program that came before all that is being taken, ...
+    VAR num ROS_stops_before := 0;
+    ! ... and before the first point of the trajectory.
+    LOCAL VAR num program_stops := 0;
     ! Stops by the control server that came before the trajectory did.
     LOCAL VAR num stops_seen := 0;
     ! Warnings are rationed.
@@ -67,6 +71,7 @@ MODULE ROS_acceptance
         ROS_first := TRUE;
         ROS_count := 0;
         ROS_fault := ROS_REASON_NONE;
+        program_stops := ROS_stops_before;
         stops_seen := ROS_control_asked;
         ! The number first and its repetition last: see ROS_common.
         ROS_trajectory := ROS_next(ROS_trajectory);
@@ -86,6 +91,11 @@ MODULE ROS_acceptance
         ROS_session := ROS_trajectory;
         ! A stop that comes from here on finds it under way; one that came before did not.
         IF ROS_control_asked <> stops_seen ROS_end_session ROS_control_reason;
+        IF ROS_program_stops <> program_stops THEN
+            ROS_end_session ROS_cause(ROS_REASON_PROGRAM_STOPPED);
+            ! Its points are announced only when the robot has been stopped.
+            ROS_await_halt;
+        ENDIF
     ENDPROC
 
     ! -- checks of a point: values are accepted for being inside a range, so that one that is no
@@ -230,6 +240,7 @@ MODULE ROS_acceptance
         IF ROS_control_asked <> stops_seen RETURN ROS_control_reason;
         ! So is what forbade motion meanwhile, even if it is over.
         FOR try FROM 1 TO 30 DO
+            ROS_stops_seen := program_stops;
             ROS_look_asked := ROS_next(ROS_look_asked);
             IF ROS_unsupervised RETURN ROS_REASON_TASK_ENDED;
             IF NOT ROS_answered(ROS_LATE) THEN
@@ -238,6 +249,8 @@ MODULE ROS_acceptance
             ENDIF
             IF ROS_not_ready > ROS_REASON_NONE RETURN ROS_not_ready;
             IF ROS_hindered = ROS_trajectory RETURN ROS_hindrance;
+            ! Or if it is over before the supervisor has looked.
+            IF ROS_program_stops <> program_stops RETURN ROS_cause(ROS_REASON_PROGRAM_STOPPED);
             IF ROS_not_ready = ROS_REASON_NONE RETURN ROS_REASON_NONE;
             WaitTime 0.1;
         ENDFOR

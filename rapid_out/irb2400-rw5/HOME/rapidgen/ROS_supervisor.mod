@@ -11,7 +11,7 @@ MODULE ROS_supervisor
     ! which an old path must not go on: e-stop, motors off, program stop, change of mode.
     ! A pause: StopMove alone, so that the path is kept, and StartMove when it is asked for.
 
-    CONST string ROS_BUILD_SUPERVISOR := "d508f18b3fd5";
+    CONST string ROS_BUILD_SUPERVISOR := "68ba6638ed5b";
 
     LOCAL VAR intnum asked_to_stop;
     LOCAL VAR intnum asked_to_look;
@@ -285,6 +285,7 @@ MODULE ROS_supervisor
         IF ROS_service <> ROS_SERVING RETURN ROS_REASON_NOT_SERVING;
         IF ROS_latched OR ROS_paused >= 0 RETURN -1;
         IF ROS_interrupts_seen <> ROS_interrupts RETURN -1;
+        IF ROS_stops_seen <> ROS_program_stops RETURN -1;
         RETURN ROS_REASON_NONE;
     ENDFUNC
 

@@ -11,7 +11,7 @@ MODULE ROS_supervisor
     ! which an old path must not go on: e-stop, motors off, program stop, change of mode.
     ! A pause: StopMove alone, so that the path is kept, and StartMove when it is asked for.
 
-    CONST string ROS_BUILD_SUPERVISOR := "312e06487721";
+    CONST string ROS_BUILD_SUPERVISOR := "d7059e311700";
 
     LOCAL VAR intnum asked_to_stop;
     LOCAL VAR intnum asked_to_look;
@@ -285,6 +285,7 @@ MODULE ROS_supervisor
         IF ROS_service_1 <> ROS_SERVING RETURN ROS_REASON_NOT_SERVING;
         IF ROS_latched_1 OR ROS_paused_1 >= 0 RETURN -1;
         IF ROS_interrupts_seen_1 <> ROS_interrupts_1 RETURN -1;
+        IF ROS_stops_seen_1 <> ROS_program_stops_1 RETURN -1;
         RETURN ROS_REASON_NONE;
     ENDFUNC
 

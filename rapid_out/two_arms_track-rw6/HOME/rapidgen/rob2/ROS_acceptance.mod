@@ -8,7 +8,7 @@ MODULE ROS_acceptance
     ! What a trajectory that comes whole and one that comes in batches have in common. The one
     ! who takes a point unpacks it, lets it be checked here, and looks at ROS_fault then.
 
-    CONST string ROS_BUILD_ACCEPTANCE := "312e06487721";
+    CONST string ROS_BUILD_ACCEPTANCE := "d7059e311700";
 
     ! s: longest duration of a point
     CONST num ROS_LONGEST := 3600;
@@ -40,6 +40,10 @@ MODULE ROS_acceptance
     VAR num ROS_to_feed := 0;
     VAR num ROS_fed := 0;
 
+    ! Stops and starts of the program that came before all that is being taken, ...
+    VAR num ROS_stops_before := 0;
+    ! ... and before the first point of the trajectory.
+    LOCAL VAR num program_stops := 0;
     ! Stops by the control server that came before the trajectory did.
     LOCAL VAR num stops_seen := 0;
     ! Warnings are rationed.
@@ -60,6 +64,7 @@ MODULE ROS_acceptance
         ROS_first := TRUE;
         ROS_count := 0;
         ROS_fault := ROS_REASON_NONE;
+        program_stops := ROS_stops_before;
         stops_seen := ROS_control_asked_2;
         ! The number first and its repetition last: see ROS_common.
         ROS_trajectory_2 := ROS_next(ROS_trajectory_2);
@@ -79,6 +84,11 @@ MODULE ROS_acceptance
         ROS_session_2 := ROS_trajectory_2;
         ! A stop that comes from here on finds it under way; one that came before did not.
         IF ROS_control_asked_2 <> stops_seen ROS_end_session ROS_control_reason_2;
+        IF ROS_program_stops_2 <> program_stops THEN
+            ROS_end_session ROS_cause(ROS_REASON_PROGRAM_STOPPED);
+            ! Its points are announced only when the robot has been stopped.
+            ROS_await_halt;
+        ENDIF
     ENDPROC
 
     ! -- checks of a point: values are accepted for being inside a range, so that one that is no
@@ -148,6 +158,7 @@ MODULE ROS_acceptance
         IF ROS_control_asked_2 <> stops_seen RETURN ROS_control_reason_2;
         ! So is what forbade motion meanwhile, even if it is over.
         FOR try FROM 1 TO 30 DO
+            ROS_stops_seen_2 := program_stops;
             ROS_look_asked_2 := ROS_next(ROS_look_asked_2);
             IF ROS_unsupervised RETURN ROS_REASON_TASK_ENDED;
             IF NOT ROS_answered(ROS_LATE) THEN
@@ -156,6 +167,8 @@ MODULE ROS_acceptance
             ENDIF
             IF ROS_not_ready_2 > ROS_REASON_NONE RETURN ROS_not_ready_2;
             IF ROS_hindered_2 = ROS_trajectory_2 RETURN ROS_hindrance_2;
+            ! Or if it is over before the supervisor has looked.
+            IF ROS_program_stops_2 <> program_stops RETURN ROS_cause(ROS_REASON_PROGRAM_STOPPED);
             IF ROS_not_ready_2 = ROS_REASON_NONE RETURN ROS_REASON_NONE;
             WaitTime 0.1;
         ENDFOR

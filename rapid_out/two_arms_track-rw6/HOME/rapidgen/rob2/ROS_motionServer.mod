@@ -9,7 +9,7 @@ MODULE ROS_motionServer
     ! end (ROS_stream). The client's STOP lies in the same stream of bytes behind its points, so
     ! this task never waits for room: it reads, and feeds the ring in between.
 
-    CONST string ROS_BUILD_MOTION_SERVER := "312e06487721";
+    CONST string ROS_BUILD_MOTION_SERVER := "d7059e311700";
 
     LOCAL CONST num PORT := 11010;
     ! s between two looks for bytes while the ring is being fed
@@ -30,6 +30,10 @@ MODULE ROS_motionServer
     LOCAL VAR rawbytes early;
     LOCAL VAR num early_bytes := 0;
     LOCAL VAR clock since_look;
+    ! Stops and starts of the program that came before all that the newer client has sent, and before
+    ! any client came who has not been accepted yet.
+    LOCAL VAR num stops_before_newcomer := 0;
+    LOCAL VAR num stops_before_others := 0;
     LOCAL VAR rawbytes answer;
     ! Of the message at hand: what it asks for, its reply code, and the number of a point.
     LOCAL VAR num comm_type := 0;
@@ -53,6 +57,7 @@ MODULE ROS_motionServer
         ROS_phase_of_2 := ROS_trajectory_2;
         ROS_end_session ROS_REASON_CLIENT_LOST;
         ROS_listen server, PORT;
+        stops_before_others := ROS_program_stops_2;
         WHILE TRUE DO
             serve client_1, client_2;
             lose client_1;
@@ -68,7 +73,7 @@ MODULE ROS_motionServer
         VAR bool busy;
 
         IF NOT taken_over THEN
-            WHILE NOT ROS_accept(server, PORT, client, ROS_WAIT) DO
+            WHILE NOT has_come(client, ROS_WAIT) DO
                 ! Nobody, a stranger, or the server socket broke and was opened again.
             ENDWHILE
         ENDIF
@@ -76,6 +81,7 @@ MODULE ROS_motionServer
         linked := TRUE;
         ROS_part_bytes := 0;
         ROS_start_clock since_look;
+        ROS_stops_before := stops_before_newcomer;
         ! What it said while another one was served.
         received := early_bytes;
         early_bytes := 0;
@@ -85,6 +91,7 @@ MODULE ROS_motionServer
         ENDIF
         WHILE linked AND (NOT taken_over) DO
             busy := ROS_active();
+            note_stops client;
             IF ROS_fed < ROS_to_feed THEN
                 ROS_feed;
                 received := short_look(client);
@@ -108,15 +115,46 @@ MODULE ROS_motionServer
         RETURN;
     ENDPROC
 
+    ! TRUE if a client has come on `client` within `seconds`.
+    LOCAL FUNC bool has_come(VAR socketdev client, num seconds)
+        VAR num stops;
+
+        stops := ROS_program_stops_2;
+        IF ROS_accept(server, PORT, client, seconds) THEN
+            stops_before_newcomer := stops_before_others;
+            RETURN TRUE;
+        ENDIF
+        ! Who comes now has sent nothing before these stops.
+        IF ROS_nobody stops_before_others := stops;
+        ROS_stops_seen_2 := stops;
+        RETURN FALSE;
+    ENDFUNC
+
+    ! What has been received before a stop of the program must not move the robot: stops are known when
+    ! nothing is left to read.
+    LOCAL PROC note_stops(VAR socketdev client)
+        VAR num stops;
+
+        stops := ROS_program_stops_2;
+        IF stops = ROS_stops_before OR ROS_part_bytes > 0 RETURN;
+        IF ROS_peek(client) = 0 ROS_stops_before := stops;
+    ENDPROC
+
     ! A newer client is served when this one has been silent for a while: it may be the same
     ! one, whose old link is dead without a word. While a trajectory is under way that its client
     ! is silent means nothing, and to connect is no reason to stop the robot.
     LOCAL PROC look_at(VAR socketdev newcomer, num quiet)
         VAR num wish;
+        VAR num stops;
 
         ROS_start_clock since_look;
-        IF NOT waiting waiting := ROS_accept(server, PORT, newcomer, 0.001);
+        IF NOT waiting waiting := has_come(newcomer, 0.001);
         IF NOT waiting RETURN;
+        stops := ROS_program_stops_2;
+        IF early_bytes = 0 THEN
+            IF ROS_peek(newcomer) = 0 stops_before_newcomer := stops;
+        ENDIF
+        ROS_stops_seen_2 := stops;
         IF NOT ROS_active() THEN
             taken_over := (quiet >= PATIENCE);
             RETURN;
