@@ -206,6 +206,29 @@ def _said_enough(bench: Bench) -> None:
         raise Broken(f"SpeedRefresh is said again at {late}, 2 s behind the beginning")
 
 
+@case("speed-keeps-own", "SPEED multiplies the SpeedRefresh of the program, which is there again")
+def _keeps_own(bench: Bench) -> None:
+    """On a controller where that lasts; the operator's override is left alone."""
+    motion = replace(bench.setting.motion, refresh_lasts=True, refresh_standing=True)
+    setting = replace(bench.setting, motion=motion)
+    with bench.beside(bench.system, setting=setting) as other:
+        control, link, group = other.control(), other.motion(), other.motion_group
+        group.refresh, group.override = 0.5, 0.8
+        for percent in (50.0, 100.0):
+            points = straight(other, 2, 1.0)
+            since = other.now
+            other.sets_off(link, points, 0.3)
+            done(control.ask(messages.RawSpeed(percent)), "SPEED")
+            if abs(group.refresh - 0.5 * percent / 100) > 1e-3:
+                raise Broken(f"SPEED {percent}, SpeedRefresh was 0.5 and is {group.refresh}")
+            other.arrives(points, since, 100)
+            other.run(1)
+            other.sets_off(link, straight(other, 2, 0.5), 0.6)
+            other.wait_until_standing(30)
+            if (round(group.refresh, 3), group.override) != (0.5, 0.8):
+                raise Broken(f"after SPEED the speeds are {group.refresh} and {group.override}")
+
+
 def _refreshes(bench: Bench) -> list[tuple[float, float]]:
     """From now on, when the motion task says which SpeedRefresh."""
     said: list[tuple[float, float]] = []

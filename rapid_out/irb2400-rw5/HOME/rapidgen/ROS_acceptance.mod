@@ -8,7 +8,7 @@ MODULE ROS_acceptance
     ! What a trajectory that comes whole and one that comes in batches have in common. The one
     ! who takes a point unpacks it, lets it be checked here, and looks at ROS_fault then.
 
-    CONST string ROS_BUILD_ACCEPTANCE := "68ba6638ed5b";
+    CONST string ROS_BUILD_ACCEPTANCE := "33a345e9b546";
 
     ! s: longest duration of a point
     CONST num ROS_LONGEST := 3600;

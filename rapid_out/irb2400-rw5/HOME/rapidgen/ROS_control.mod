@@ -9,7 +9,7 @@ MODULE ROS_control
     ! heartbeat this task asks the supervisor, by an interrupt: only one task stops the robot, and
     ! starts it again. Only if that does not answer this task stops it. It may hang in a send.
 
-    CONST string ROS_BUILD_CONTROL := "68ba6638ed5b";
+    CONST string ROS_BUILD_CONTROL := "33a345e9b546";
 
     LOCAL CONST num PORT := 11001;
     ! s between two looks at what the robot does, and for new clients.

@@ -9,7 +9,7 @@ MODULE ROS_motion
     ! check was made before a point was put in. A point whose successor is there is passed
     ! through its zone; without one it is a stop point, so the planner never runs dry in a corner.
 
-    CONST string ROS_BUILD_MOTION := "68ba6638ed5b";
+    CONST string ROS_BUILD_MOTION := "33a345e9b546";
 
     ! With \T in the move the speed is only formal.
     LOCAL CONST speeddata SPEED := [1000,500,1000,1000];
@@ -56,6 +56,8 @@ MODULE ROS_motion
     LOCAL VAR num latest := 0;
     LOCAL VAR num share := 100;
     LOCAL VAR num repeats := 0;
+    ! Percent by the SpeedRefresh of the program itself, to which the driver returns.
+    LOCAL VAR num program_share := 100;
     ! Leaves a move whose path is gone, by a long jump out of the trap.
     LOCAL VAR errnum path_gone := -1;
     ! Main moves, or is about to: there the trap may end what it does.
@@ -496,7 +498,9 @@ MODULE ROS_motion
         IF ROS_speed_of = ROS_session AND ROS_active() percent := ROS_speed_wanted;
         IF percent < latest due := 100 * percent / latest;
         IF due <> share THEN
-            SpeedRefresh due;
+            ! Only when nothing of the driver's own is in effect, or may be.
+            IF share >= 100 AND repeats = 0 program_share := refreshed();
+            SpeedRefresh due * program_share / 100;
             share := due;
             repeats := 5;
             say_again;
@@ -509,6 +513,16 @@ MODULE ROS_motion
         RETURN;
     ENDPROC
 
+    ! Percent by SpeedRefresh: what the task has, of what the operator has set.
+    LOCAL FUNC num refreshed()
+        VAR num percent;
+
+        IF CSpeedOverride() <= 0 RETURN 100;
+        percent := 100 * CSpeedOverride(\CTask) / CSpeedOverride();
+        IF 0 <= percent AND percent <= 100 RETURN percent;
+        RETURN 100;
+    ENDFUNC
+
     ! It may hold for one move only, and do nothing at a standstill. One bell at a time may wait.
     LOCAL PROC say_again()
         IDelete tick;
@@ -520,7 +534,7 @@ MODULE ROS_motion
         IF share < 100 OR (NOT in_move) OR IsStopMoveAct() repeats := 5;
         repeats := repeats - 1;
         IF repeats > 0 say_again;
-        SpeedRefresh share;
+        SpeedRefresh share * program_share / 100;
     ERROR
         SkipWarn;
         RETURN;

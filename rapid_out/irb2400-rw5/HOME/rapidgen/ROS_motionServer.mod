@@ -9,7 +9,7 @@ MODULE ROS_motionServer
     ! end (ROS_stream). The client's STOP lies in the same stream of bytes behind its points, so
     ! this task never waits for room: it reads, and feeds the ring in between.
 
-    CONST string ROS_BUILD_MOTION_SERVER := "68ba6638ed5b";
+    CONST string ROS_BUILD_MOTION_SERVER := "33a345e9b546";
 
     LOCAL CONST num PORT := 11000;
     ! s between two looks for bytes while the ring is being fed

@@ -11,7 +11,7 @@ MODULE ROS_supervisor
     ! which an old path must not go on: e-stop, motors off, program stop, change of mode.
     ! A pause: StopMove alone, so that the path is kept, and StartMove when it is asked for.
 
-    CONST string ROS_BUILD_SUPERVISOR := "68ba6638ed5b";
+    CONST string ROS_BUILD_SUPERVISOR := "33a345e9b546";
 
     LOCAL VAR intnum asked_to_stop;
     LOCAL VAR intnum asked_to_look;

@@ -11,7 +11,7 @@ MODULE ROS_supervisor
     ! which an old path must not go on: e-stop, motors off, program stop, change of mode.
     ! A pause: StopMove alone, so that the path is kept, and StartMove when it is asked for.
 
-    CONST string ROS_BUILD_SUPERVISOR := "d7059e311700";
+    CONST string ROS_BUILD_SUPERVISOR := "6da5ed19b85e";
 
     LOCAL VAR intnum asked_to_stop;
     LOCAL VAR intnum asked_to_look;

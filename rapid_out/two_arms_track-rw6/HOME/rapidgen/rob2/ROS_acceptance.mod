@@ -8,7 +8,7 @@ MODULE ROS_acceptance
     ! What a trajectory that comes whole and one that comes in batches have in common. The one
     ! who takes a point unpacks it, lets it be checked here, and looks at ROS_fault then.
 
-    CONST string ROS_BUILD_ACCEPTANCE := "d7059e311700";
+    CONST string ROS_BUILD_ACCEPTANCE := "6da5ed19b85e";
 
     ! s: longest duration of a point
     CONST num ROS_LONGEST := 3600;

@@ -9,7 +9,7 @@ MODULE ROS_motionServer
     ! end (ROS_stream). The client's STOP lies in the same stream of bytes behind its points, so
     ! this task never waits for room: it reads, and feeds the ring in between.
 
-    CONST string ROS_BUILD_MOTION_SERVER := "d7059e311700";
+    CONST string ROS_BUILD_MOTION_SERVER := "6da5ed19b85e";
 
     LOCAL CONST num PORT := 11010;
     ! s between two looks for bytes while the ring is being fed
