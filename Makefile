@@ -233,6 +233,9 @@ rws-cuts: $(STAMP) ## 1 h: deployments over the web services cut at every reques
 image: $(STAMP) ## 5 min: the container image, built and tried by docker or podman
 	.ci/image
 
+stop-under-load: $(STAMP) ## 2 min: STOP to StopMove, idle and with both other ports flooded
+	$(BIN)/python benchmarks/stop_under_load.py
+
 endurance: $(STAMP) ## 2 min: memory of an idle driver that is watched for ten simulated hours
 	$(BIN)/python benchmarks/endurance.py
 

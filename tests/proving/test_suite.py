@@ -143,6 +143,25 @@ DEFECTS = {
         "IF NOT (taken_over AND ROS_active()) ROS_end_session ROS_REASON_CLIENT_LOST;",
         "",
     ),
+    # The event routines count no stop of the program.
+    "order-before-stop": (
+        "ROS_events",
+        "ROS_program_stops := ROS_next(ROS_program_stops);",
+        "",
+    ),
+    # What waits behind a client counts as new when it is read.
+    "waiting-before-stop": (
+        "ROS_motionServer",
+        "IF ROS_peek(newcomer) = 0 stops_before_newcomer := stops;",
+        "stops_before_newcomer := stops;",
+    ),
+    "power-loss-after-stop": (
+        "ROS_supervisor",
+        "ROS_start_clock since_bell;\n        ROS_start",
+        "ROS_start",
+    ),
+    "task-ends-moving": ("ROS_common", "RETURN unchanged >= ROS_MISSED_PULSES;", "RETURN FALSE;"),
+    "speed-keeps-own": ("ROS_motion", "program_share := refreshed();", "program_share := 100;"),
 }
 
 

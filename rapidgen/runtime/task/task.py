@@ -356,7 +356,7 @@ class Task(Process):
             self.obey()
         while self.held:
             self._park()
-        if self.events.due and not self.events.running:
+        if self.events.due and not (self.events.running or self.events.while_stopped):
             # A stop without routines that was over before the task stood.
             self.events.run(AT_RESTART)
         if self._renews:

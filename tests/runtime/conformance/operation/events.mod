@@ -38,6 +38,15 @@ MODULE events
     ! expect: START 22
     ! expect: main
     ! do: e-stop, run 1, stop, run 1
+    ! case: e_stop_routines=false
+    ! Also where the stop is over before the task has had a turn.
+    ! do: start, run 0.5
+    ! expect: POWER_ON 12
+    ! expect: START 22
+    ! expect: main
+    ! do: e-stop, reset-e-stop, motors-on, start, run 1.2
+    ! expect: RESTART 52
+    ! expect: end
     PROC power_on()
         tell "POWER_ON";
     ENDPROC

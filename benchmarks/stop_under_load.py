@@ -1,0 +1,85 @@
+"""STOP under load: from its last byte to StopMove, idle and with both other ports flooded.
+
+    python benchmarks/stop_under_load.py [--count N]
+
+Simulated time in the reference cost model. The robot moves; STOP comes on the control port. Under
+load the rest of a stream of 100,000 points arrives at once, and three state clients send HELLO
+without a pause. The 99th percentile under load must be at most twice the idle one: exit status 1.
+"""
+
+import argparse
+import sys
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+
+from benchmarks.streaming import batches, booted, reply
+from rapidgen.config import load_config
+from rapidgen.config.model import RobotConfig
+from rapidgen.proving.bench import HELLO
+from rapidgen.proving.instructions import watched_orders
+from rapidgen.proving.link import STOP
+from rapidgen.proving.messages import RawComm, encode
+
+POINTS = 100_000
+HELLOS = 20_000
+
+
+@cache
+def rest_of_stream() -> tuple[bytes, bytes]:
+    """The first batch, and all that follows."""
+    first, *others = batches(POINTS)
+    return first, b"".join(others)
+
+
+def stopping(config: RobotConfig, seed: int, *, loaded: bool) -> float:
+    """s from the delivery of STOP to StopMove."""
+    bench = booted(replace(config, state_period=0.02), seed=seed)
+    client, control = bench.motion(), bench.control()
+    watchers = [bench.watcher() for _ in range(3)]
+    first, rest = rest_of_stream()
+    client.send(first)
+    reply(client)
+    bench.wait_until_moving()
+    bench.run(0.6 + 0.0137 * seed)
+    if loaded:
+        client.at_once(rest)
+        for watcher in watchers:
+            watcher.at_once(HELLOS * encode(HELLO, RawComm.REQUEST))
+        bench.run(0.05 + 0.0031 * seed)
+    assert not bench.standing
+    orders = watched_orders(bench)
+    control.at_once(STOP)
+    start = bench.now
+
+    def stops() -> list[float]:
+        return [order.time for order in orders if order.instruction == "StopMove"]
+
+    assert bench.controller.run_until(lambda: bool(stops()), timeout=2)
+    taken = stops()[0] - start
+    bench.close()
+    return taken
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--count", type=int, default=60)
+    count = parser.parse_args().count
+    config = load_config("irb120")
+    highest = []
+    for loaded in (False, True):
+        found = sorted(stopping(config, seed % 100, loaded=loaded) for seed in range(count))
+        highest.append(found[int(0.99 * (count - 1))])
+        print(
+            f"STOP to StopMove, {'loaded' if loaded else 'idle'}: median "
+            f"{found[count // 2] * 1e3:.1f} ms, p99 {highest[-1] * 1e3:.1f} ms, worst "
+            f"{found[-1] * 1e3:.1f} ms"
+        )
+    print(f"p99 under load / idle: {highest[1] / highest[0]:.2f}")
+    return highest[1] > 2 * highest[0]
+
+
+if __name__ == "__main__":
+    sys.exit(main())
