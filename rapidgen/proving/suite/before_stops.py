@@ -59,7 +59,12 @@ def _order_before_stop(bench: Bench) -> None:
     bench.moves_through(bench.motion(), bench.wave(3))
 
 
-@case("part-before-stop", "an order of which a part came before a short stop", "R7a")
+@case(
+    "part-before-stop",
+    "an order of which a part came before a short stop",
+    "R7a",
+    background=True,
+)
 def _part_before_stop(bench: Bench) -> None:
     """Wherever it is cut, also inside a message; the next order is executed."""
     for way in _ways(bench):
