@@ -14,11 +14,10 @@ from rapidgen._reading import TooLarge, read_foreign
 from rapidgen.diagnostics import Diagnostic, Span, error, refusal
 
 MAX_BYTES = 20_000_000
-_ARG = re.compile(r"""<xacro:arg\s[^>]*?name\s*=\s*["']([^"']+)["']""")
+_ARG = re.compile(r"""<xacro:arg\s[^<>]*?name\s*=\s*["']([^"']+)["']""")
 _ARG_USE = re.compile(r"""\$\(arg\s+([^)\s]+)\s*\)|\barg\(\s*["']([^"']+)["']""")
-_MACRO = re.compile(r"<xacro:macro\s([^>]*)>", re.DOTALL)
-_ATTRIBUTE = re.compile(r"""([\w:]+)\s*=\s*(?:"([^"]*)"|'([^']*)')""", re.DOTALL)
-_COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
+_MACRO = re.compile(r"<xacro:macro\s([^<>]*)>", re.DOTALL)
+_ATTRIBUTE = re.compile(r"""([\w:]{1,64})\s*=\s*(?:"([^"]*)"|'([^']*)')""", re.DOTALL)
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,7 +78,7 @@ def _doctype(text: str) -> int:
     def declared(*_: object) -> None:
         raise _Declared
 
-    parser = expat.ParserCreate()
+    parser = expat.ParserCreate("utf-8")
     parser.StartDoctypeDeclHandler = declared
     try:
         with suppress(expat.ExpatError):  # said where the text is read
@@ -101,7 +100,7 @@ def xml_fault(data: bytes) -> str:
         parser.Parse(data, True)
     except _Declared:
         return "it has a document type"
-    except expat.ExpatError as fault:
+    except (expat.ExpatError, LookupError, ValueError) as fault:  # or its encoding is unknown
         return f"it is not well-formed XML: {fault}"
     return ""
 
@@ -114,7 +113,7 @@ def is_xacro(path: Path, text: str) -> bool:
 def macros(text: str) -> tuple[Macro, ...]:
     """Macros that a xacro text defines, in order."""
     found = []
-    plain = _COMMENT.sub("", text)
+    plain = _without_comments(text)
     for hit in _MACRO.finditer(plain):
         end = plain.find("</xacro:macro", hit.end())
         joints = plain.count("<joint", hit.end(), end if end >= 0 else len(plain))
@@ -141,12 +140,24 @@ def declared_arguments(texts: list[str]) -> set[str]:
     return names
 
 
+def _without_comments(text: str) -> str:
+    """The text with blanks in the place of comments, so that lines and columns stay.
+
+    No regular expression: one that does not find an end looks for it again from each beginning.
+    """
+    parts, at = [], 0
+    while (begin := text.find("<!--", at)) >= 0 and (end := text.find("-->", begin + 4)) >= 0:
+        parts += [text[at:begin], re.sub(r"[^\n]", " ", text[begin : end + 3])]
+        at = end + 3
+    return "".join([*parts, text[at:]])
+
+
 def leftovers(text: str, shown: str) -> list[Diagnostic]:
     """What expansion should have replaced (pitfall 3 of the field: RG033)."""
     found = []
     for hit in re.finditer(
-        r"\$\{[^}]*\}|\$\([^)]*\)|<(xacro:)?(macro|include|property|if|unless)[\s>/]",
-        _COMMENT.sub(lambda m: re.sub(r"[^\n]", " ", m[0]), text),
+        r"\$\{[^$}]*\}|\$\([^$)]*\)|<(xacro:)?(macro|include|property|if|unless)[\s>/]",
+        _without_comments(text),
     ):
         line = text.count("\n", 0, hit.start()) + 1
         column = hit.start() - text.rfind("\n", 0, hit.start())
