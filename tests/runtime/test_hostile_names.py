@@ -55,6 +55,7 @@ def test_names_and_texts_stay_such(tmp_path):
     lines += [f'VAR string zz{n} := "{text}";' for n, text in enumerate(TEXTS)]
     lines += [f"{word} := {word} + 1;\nzztotal := zztotal + {word};" for word in used]
     lines += [f"zzlengths := zzlengths + StrLen(zz{n});" for n in range(len(TEXTS))]
+    lines += [f'zz0 := "{text}";\nzzlengths := zzlengths + StrLen(zz0);' for text in TEXTS]
     lines += ["WaitTime 1000;", "ENDPROC", "ENDMODULE", ""]
     (tmp_path / "zz.mod").write_bytes("\n".join(lines).encode("latin-1"))
     with VirtualController.from_files([tmp_path / "zz.mod"]) as controller:
@@ -62,4 +63,4 @@ def test_names_and_texts_stay_such(tmp_path):
         task = controller.task("T_ROB1")
         assert controller.rapid_tasks["T_ROB1"].fault is None
         assert task["zztotal"] == 2 * len(used)
-        assert task["zzlengths"] == sum(len(text.replace("\\\\", "\\")) for text in TEXTS)
+        assert task["zzlengths"] == 2 * sum(len(text.replace("\\\\", "\\")) for text in TEXTS)
