@@ -211,9 +211,7 @@ def record(checkout: Path) -> dict[str, dict[str, object]]:
         folder = Path(name)
         files_of(folder)
         command(["new", "cell.yaml", "--robot", "irb120"], folder)
-        pages = sorted(
-            p.stem for p in (checkout / "rapidgen" / "diagnostics" / "pages").glob("RG*.md")
-        )
+        pages = re.findall(r"^RG\d+", str(command(["explain", "all"], folder)["out"]), re.M)
         language = checkout / "tests" / "rapid" / "conformance"
         with ThreadPoolExecutor(2) as pool:
             stories = pool.map(

@@ -9,6 +9,7 @@ import rapidgen
 from rapidgen.diagnostics.pages import codes, page, title
 
 PACKAGE = Path(rapidgen.__file__).parent
+FILES = sorted((PACKAGE / "diagnostics" / "pages").glob("*.md"))
 
 
 def used_codes():
@@ -30,6 +31,18 @@ def test_every_used_code_has_a_page():
 
 def test_no_page_is_without_a_use():
     assert not set(codes()) - set(used_codes())
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
+def test_file_has_the_codes_of_its_range_in_order_and_once(path):
+    first, last = re.match(r"RG(\d{3})-(\d{3})-", path.name).groups()
+    found = re.findall(r"^# RG(\d+)", path.read_text(encoding="utf-8"), re.MULTILINE)
+    assert found == sorted({code for code in found if first <= code <= last})
+
+
+def test_every_code_is_in_one_file():
+    text = "".join(path.read_text(encoding="utf-8") for path in FILES)
+    assert re.findall(r"^# (RG\d+)", text, re.MULTILINE) == codes()
 
 
 @pytest.mark.parametrize("code", codes())

@@ -1,18 +1,28 @@
-"""One page for every diagnostic code: `RGnnn.md`, with a bad and a good example."""
+"""Pages of the diagnostic codes: a file for each range of codes, a section for each code."""
 
+import re
+from functools import cache
 from pathlib import Path
 
 _FOLDER = Path(__file__).resolve().parent
 
 
+@cache
+def _pages() -> dict[str, str]:
+    """Return the section of each code, by the code."""
+    files = (path.read_text(encoding="utf-8") for path in sorted(_FOLDER.glob("RG*.md")))
+    sections = (part for text in files for part in re.split(r"^# (?=RG\d)", text, flags=re.M)[1:])
+    return {part.partition(":")[0]: f"# {part.rstrip()}\n" for part in sections}
+
+
 def codes() -> list[str]:
     """All codes, sorted."""
-    return sorted(path.stem for path in _FOLDER.glob("RG*.md"))
+    return sorted(_pages())
 
 
 def page(code: str) -> str:
     """Text of a code's page (Markdown)."""
-    return (_FOLDER / f"{code}.md").read_text(encoding="utf-8")
+    return _pages()[code]
 
 
 def title(code: str) -> str:
