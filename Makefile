@@ -143,10 +143,10 @@ triples: $(STAMP) ## 15 min: the same where any three assumptions about controll
 signature: $(STAMP) ## 3 h: the same on every example, and on any two of profile, commissioning, main, control
 	$(BIN)/python tools/signature.py
 
-mutants: $(STAMP) ## 5 min: a defect of the front end that turns it red, for each conformance file
+mutants: $(STAMP) ## 5 min: a defect of the front end that turns it red, for each conformance program
 	$(BIN)/python tools/conformance_mutants.py
 
-runtime-mutants: $(STAMP) ## 15 min: the same for the conformance files of the runtime
+runtime-mutants: $(STAMP) ## 15 min: the same for the conformance programs of the runtime
 	$(BIN)/python tools/conformance_mutants_runtime.py
 
 source-mutants: $(STAMP) ## 30 min: which mutants of client, servers, ros, deploy and machine their tests detect

@@ -1,6 +1,6 @@
 """Is each conformance file of the language red for a defect of its own?
 
-    python tools/conformance_mutants.py [--every N] [--share PERCENT] [-v] [FILE...]
+    python tools/conformance_mutants.py [--every N] [--share PERCENT] [-v] [NAME...]
 
 Makes mutants of the front end and of its tables (tools/mutation/front_end.py) until each
 conformance file has one that turns it red: other findings than it announces. A mutant
@@ -34,13 +34,14 @@ def tell(stage, campaign, started):
 
 def main():
     options = argparse.ArgumentParser(description=__doc__)
-    options.add_argument("--every", type=int, default=1, help="take each N-th file only")
-    options.add_argument("--share", type=float, default=10, help="per cent of files, at most")
+    options.add_argument("--every", type=int, default=1, help="take each N-th program only")
+    options.add_argument("--share", type=float, default=10, help="per cent of programs, at most")
     options.add_argument("-v", action="store_true", help="show the mutant of each file")
-    options.add_argument("file", nargs="*", help="names of conformance files")
+    options.add_argument("file", metavar="NAME", nargs="*", help="names of programs")
     given = options.parse_args()
     everything = conformance_files.all_files()
-    files = [f for f in everything if not given.file or f.path.stem in given.file][:: given.every]
+    wanted = [f for f in everything if not given.file or f.program.name in given.file]
+    files = wanted[:: given.every]
     started = time.monotonic()
     campaign = Campaign(files, everything, given.share)
     print(f"{len(files)} of {len(everything)} files; {campaign.limit} red at most", flush=True)
@@ -52,12 +53,11 @@ def main():
         campaign.functions()
         tell("broad", campaign, started)
     for file in files:
-        name = file.path.relative_to(conformance_files.FOLDER)
         if file not in campaign.shown:
-            print(f"NONE       {name}")
+            print(f"NONE       {file.name}")
         elif given.v:
             mutant, count = campaign.shown[file]
-            print(f"{count:4} red   {name}   {mutant}")
+            print(f"{count:4} red   {file.name}   {mutant}")
     return 1 if campaign.left else 0
 
 

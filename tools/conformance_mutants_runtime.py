@@ -1,6 +1,6 @@
 """Is each conformance file of the runtime red for a defect of its own?
 
-    python tools/conformance_mutants_runtime.py [--every N] [--share PERCENT] [-v] [FILE...]
+    python tools/conformance_mutants_runtime.py [--every N] [--share PERCENT] [-v] [NAME...]
 
 Makes mutants of machine, motion, runtime and controller until
 each conformance file of tests/runtime and tests/runtime/builtins has one that turns it
@@ -23,13 +23,14 @@ from tools.mutation.runtime import BROAD, GREEN, Campaign, all_files, outcome
 
 def main():
     options = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    options.add_argument("--every", type=int, default=1, help="take each N-th file only")
-    options.add_argument("--share", type=float, default=10, help="per cent of files, at most")
+    options.add_argument("--every", type=int, default=1, help="take each N-th program only")
+    options.add_argument("--share", type=float, default=10, help="per cent of programs, at most")
     options.add_argument("-v", action="store_true", help="show the mutant of each file")
-    options.add_argument("file", nargs="*", help="names of conformance files")
+    options.add_argument("file", metavar="NAME", nargs="*", help="names of programs")
     given = options.parse_args()
     everything = all_files()
-    files = [f for f in everything if not given.file or f.path.stem in given.file][:: given.every]
+    wanted = [f for f in everything if not given.file or f.program.name in given.file]
+    files = wanted[:: given.every]
     failing = [file for file in files if outcome(file) != GREEN]
     if failing:
         raise SystemExit("not green without a mutant: " + ", ".join(map(str, failing)))

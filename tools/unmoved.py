@@ -6,7 +6,7 @@
 
 The checkout names the inputs, so that both records are of the same programs: builds of the
 examples, stories of 50 schedules, traces of the conformance programs, every page of `explain`,
-exit code and output of some 40 commands, diagnostics of all conformance files of the language.
+exit code and output of some 40 commands, diagnostics of all conformance programs of the language.
 """
 
 import hashlib
@@ -18,6 +18,7 @@ import re
 import subprocess
 import sys
 import tempfile
+from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -138,9 +139,18 @@ def builds(checkout: Path, folder: Path) -> dict[str, object]:
 def traces(checkout: Path) -> dict[str, object]:
     """Every statement of every conformance program, as a hash, and what it printed."""
     found: dict[str, object] = {}
-    for path in sorted((checkout / "tests").glob("virtual_*/conformance/**/*.mod")):
-        found[str(path.relative_to(checkout))] = trace(path)
+    for folder in ("runtime/conformance", "runtime/builtins/conformance"):
+        for file, name, text in programs(checkout / "tests" / folder):
+            found[f"{folder}/{file}/{name}"] = trace(name, text)
     return found
+
+
+def programs(folder: Path) -> Iterator[tuple[str, str, str]]:
+    """Theme, name and text of each program; the `tests` on the path may be another checkout's."""
+    for path in sorted(folder.rglob("*.mod")):
+        parts = re.split(r"^!=== (\w+)\n", path.read_text(encoding="utf-8"), flags=re.MULTILINE)
+        for name, text in zip(parts[1::2], parts[2::2], strict=True):
+            yield path.stem, name, text
 
 
 def either(*names: str) -> object:
@@ -154,7 +164,7 @@ def either(*names: str) -> object:
     raise SystemExit(f"no module of {names}")
 
 
-def trace(path: Path) -> dict[str, object]:
+def trace(program: str, text: str) -> dict[str, object]:
     controller_room = either("rapidgen.controller", "rapidgen.virtual")
     tracing = either("rapidgen.controller.tracing", "rapidgen.virtual.tracing")
     switches = either(
@@ -164,7 +174,6 @@ def trace(path: Path) -> dict[str, object]:
     mechanics = either("rapidgen.controller.mechanics", "rapidgen.virtual.mechanics")
     load_config = importlib.import_module("rapidgen.config").load_config
     model = importlib.import_module("rapidgen.system.model")
-    text = path.read_text(encoding="utf-8")
 
     def marks(mark: str) -> list[str]:
         return [m.strip() for m in re.findall(rf"^\s*! {mark}:(.*)$", text, re.MULTILINE)]
@@ -172,7 +181,7 @@ def trace(path: Path) -> dict[str, object]:
     starts = [m.start() for m in re.finditer(r"^MODULE", text, re.MULTILINE)]
     modules = tuple(
         model.ModuleFile(
-            path.stem, path.name, ("\n" * text.count("\n", 0, a) + text[a:b]).encode("latin-1")
+            program, f"{program}.mod", ("\n" * text.count("\n", 0, a) + text[a:b]).encode("latin-1")
         )
         for a, b in zip([0, *starts[1:]], [*starts[1:], len(text)], strict=True)
     )
@@ -181,7 +190,7 @@ def trace(path: Path) -> dict[str, object]:
         name, entry = line.split()
         tasks.append(model.TaskSpec(name, "NORMAL", "NoSafety", entry, "ROB" in name, "", modules))
     signals = tuple(model.SignalSpec(*line.split()) for line in marks("signal"))
-    system = model.System(path.stem, tuple(tasks), signals)
+    system = model.System(program, tuple(tasks), signals)
     robots = [g for name in marks("robot") for g in mechanics.groups_for(system, load_config(name))]
     stream = io.StringIO()
     printed: list[str] = []
@@ -212,7 +221,10 @@ def record(checkout: Path) -> dict[str, dict[str, object]]:
         files_of(folder)
         command(["new", "cell.yaml", "--robot", "irb120"], folder)
         pages = re.findall(r"^RG\d+", str(command(["explain", "all"], folder)["out"]), re.M)
-        language = checkout / "tests" / "rapid" / "conformance"
+        language = folder / "language"
+        for theme, name, text in programs(checkout / "tests" / "rapid" / "conformance"):
+            (language / theme).mkdir(parents=True, exist_ok=True)
+            (language / theme / f"{name}.mod").write_text(text, encoding="utf-8")
         with ThreadPoolExecutor(2) as pool:
             stories = pool.map(
                 lambda seed: command(["test", "irb120", "--replay", str(seed)], folder), SEEDS
@@ -227,11 +239,8 @@ def record(checkout: Path) -> dict[str, dict[str, object]]:
             line: command(line.split(), folder) for line in COMMANDS.split("\n") if line
         }
         found["language"] = {
-            str(path.relative_to(language)): command(
-                ["check", str(path.relative_to(language)), "--format", "json"], language
-            )
+            path.name: command(["check", path.name, "--format", "json"], language)
             for path in sorted(language.iterdir())
-            if path.is_dir()
         }
         found["traces"] = traces(checkout)
     return found

@@ -1,4 +1,7 @@
-"""Conformance files: RAPID with its expectation in comments.
+"""Conformance programs: RAPID with its expectation in comments.
+
+They are in theme files, each below a line `!=== NAME` (tests/rapid_programs.py). Line numbers count
+from the line below that.
 
 The head says `! rule:` (what is shown), `! source:` (where that is known from) and, where needed,
 `! given: system` (judge it as a whole system), `! robotware: 5.0` and `! at 7: RG207` (for lines
@@ -14,6 +17,7 @@ from pathlib import Path
 from rapidgen.diagnostics import Diagnostic, Severity
 from rapidgen.rapid import Dialect, check, parse
 from rapidgen.system import ModuleFile, System, TaskSpec
+from tests.rapid_programs import Program, read_all
 
 FOLDER = Path(__file__).parent / "conformance"
 _HEAD = re.compile(r"^! (rule|source|given|robotware): (.*)$", re.MULTILINE)
@@ -23,22 +27,31 @@ _ARROW = re.compile(r"! -> ((?:RG\d{3}[?~]? ?)+)$")
 
 @dataclass(frozen=True, eq=False)
 class Conformance:
-    """One file, split into what it says about itself and its text."""
+    """One program, and what it says about itself."""
 
-    path: Path
-    text: str
+    program: Program
     head: dict[str, str]
     expected: Counter[tuple[int, str]]
 
     @property
+    def text(self) -> str:
+        """The program with its comments."""
+        return self.program.text
+
+    @property
+    def name(self) -> str:
+        """Theme file below the root, and program."""
+        return self.program.below(FOLDER)
+
+    @property
     def section(self) -> str:
-        """Folder below the root: the topic."""
-        return self.path.relative_to(FOLDER).parts[0]
+        """First part of the name: the topic."""
+        return self.name.split("/")[0]
 
     def findings(self) -> list[Diagnostic]:
         """What the checker says."""
         major, minor = map(int, self.head.get("robotware", "6.0").split("."))
-        name = self.path.name
+        name = f"{self.program.name}.mod"
         if self.head.get("given") != "system":
             return check(
                 parse(self.text, path=name, dialect=Dialect((major, minor))),
@@ -55,9 +68,9 @@ class Conformance:
         )
 
 
-def read(path: Path) -> Conformance:
-    """Read one file."""
-    text = path.read_text("utf-8")
+def read(program: Program) -> Conformance:
+    """Read what a program says about itself."""
+    text = program.text
     expected: Counter[tuple[int, str]] = Counter()
     for number, line in enumerate(text.split("\n"), 1):
         arrow = _ARROW.search(line)
@@ -65,9 +78,9 @@ def read(path: Path) -> Conformance:
             expected.update((number, code) for code in arrow[1].split())
     for number, codes in _AT.findall(text):
         expected.update((int(number), code) for code in codes.split())
-    return Conformance(path, text, dict(_HEAD.findall(text)), expected)
+    return Conformance(program, dict(_HEAD.findall(text)), expected)
 
 
 def all_files() -> list[Conformance]:
-    """All conformance files in order."""
-    return [read(path) for path in sorted(FOLDER.rglob("*.mod"))]
+    """All conformance programs in order."""
+    return [read(program) for program in read_all(FOLDER)]

@@ -1,12 +1,14 @@
-"""Lists rules of docs/rapid/language.md without a conformance file or test, and files without rule.
+"""Lists rules of docs/rapid/language.md without a program or test, and programs without a rule.
 
-python tests/rapid/uncovered.py
+python -m tests.rapid.uncovered
 """
 
 import re
 import sys
 from fnmatch import fnmatchcase
 from pathlib import Path
+
+from tests.rapid_programs import read_all
 
 ROOT = Path(__file__).resolve().parents[2]
 FOLDER = ROOT / "tests" / "rapid" / "conformance"
@@ -23,8 +25,8 @@ def rules():
 
 
 def uncovered():
-    """Patterns without a file, and files without a pattern."""
-    names = [f.relative_to(FOLDER).with_suffix("").as_posix() for f in FOLDER.rglob("*.mod")]
+    """Patterns without a program, and programs without a pattern."""
+    names = [program.below(FOLDER) for program in read_all(FOLDER)]
     patterns = [(rule, p) for rule, _, listed in rules() for p in listed]
     names += _tests()
     empty = [f"{rule}: {p}" for rule, p in patterns if not any(fnmatchcase(n, p) for n in names)]

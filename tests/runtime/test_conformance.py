@@ -1,6 +1,7 @@
 """Programs in RAPID that say what they expect, in both kinds of accounting.
 
-The head of a file names its source; comments tell the rest:
+They are in theme files, each below a line `!=== NAME` (tests/rapid_programs.py). Line numbers count
+from the line below that. The head of a program names its source; comments tell the rest:
 `! expect: TEXT` one TPWrite, in order · `! fault: NAME LINE` how a task ends ·
 `! dialect: SWITCH=VALUE` · `! signal: NAME TYPE [BITS]` · `! robot: SHIPPED NAME` ·
 `! cycle: N` main runs again, N lines are read · `! until: S` simulated seconds to run at most ·
@@ -29,9 +30,14 @@ from rapidgen.rapid.switches import parse_switches
 from rapidgen.runtime.task.pointer import CannotStep
 from rapidgen.runtime.text import value_text
 from rapidgen.system.model import ArcSignals, EventRoutine, ModuleFile, SignalSpec, System, TaskSpec
+from tests.rapid_programs import Program, read_all
 
 HERE = Path(__file__).parent
-FILES = sorted(p for p in HERE.rglob("*.mod") if "conformance" in p.parts)
+PROGRAMS = [
+    program
+    for folder in (HERE / "builtins" / "conformance", HERE / "conformance")
+    for program in read_all(folder)
+]
 SCRIPT = ("do", "refused", "expect", "state", "at", "value", "log")
 
 
@@ -46,23 +52,25 @@ def words(text: str, mark: str) -> list[list[str]]:
     return [rest.split() for _, rest in marks(text, mark)]
 
 
-def modules(path: Path, text: str) -> Iterator[ModuleFile]:
-    """The modules of a file; the lines of each are counted from the file's beginning."""
+def modules(program: Program) -> Iterator[ModuleFile]:
+    """The modules of a program; the lines of each are counted from the program's beginning."""
+    text, path = program.text, f"{program.file}/{program.name}.mod"
     starts = [m.start() for m in re.finditer(r"^MODULE", text, re.MULTILINE)]
     for start, end in zip([0, *starts[1:]], [*starts[1:], len(text)], strict=True):
         lines = "\n" * text.count("\n", 0, start)
-        yield ModuleFile(path.stem, str(path), (lines + text[start:end]).encode("latin-1"))
+        yield ModuleFile(program.name, path, (lines + text[start:end]).encode("latin-1"))
 
 
-def system(path: Path, text: str) -> System:
-    """What the head of a file describes."""
-    files = tuple(modules(path, text))
+def system(program: Program) -> System:
+    """What the head of a program describes."""
+    text = program.text
+    files = tuple(modules(program))
     tasks = [TaskSpec("T_ROB1", "NORMAL", "SysFail", "main", True, "", files)]
     for name, entry, *type_ in words(text, "task"):
         kind = type_[0] if type_ else "NORMAL"
         tasks.append(TaskSpec(name, kind, "NoSafety", entry, "ROB" in name, "", files))
     return System(
-        path.stem,
+        program.name,
         tuple(tasks),
         signals=tuple(
             SignalSpec(name, kind, size=int(size[0]) if size else 1)
@@ -74,11 +82,12 @@ def system(path: Path, text: str) -> System:
 
 
 class Run:
-    """A controller with the program of a file."""
+    """A controller with a program."""
 
-    def __init__(self, path: Path, text: str, case: str, accounting: str) -> None:
+    def __init__(self, program: Program, case: str, accounting: str) -> None:
+        text = program.text
         self.lines = text.splitlines()
-        whole = system(path, text)
+        whole = system(program)
         given = [rest for _, rest in marks(text, "dialect")] + case.split(",")
         settings = dict(part.split("=") for part in given if part.startswith("motion."))
         switches = ",".join(part for part in given if not part.startswith("motion."))
@@ -212,21 +221,22 @@ def cases(text: str) -> Iterator[tuple[str, list[tuple[str, str]]]]:
     return iter(found)
 
 
-@pytest.mark.parametrize("path", FILES, ids=lambda p: str(p.relative_to(HERE)))
-def test_program_does_what_its_source_says(path: Path) -> None:
-    text = path.read_text(encoding="utf-8")
-    assert marks(text, "source"), "name the source"
+@pytest.mark.parametrize("program", PROGRAMS, ids=lambda p: p.below(HERE))
+def test_program_does_what_its_source_says(program: Program) -> None:
+    text = program.text
+    assert marks(text, "source"), f"{program}: name the source"
     for case, told in cases(text):
         ends = []
+        where = f"{program} {case}"
         for accounting in ("block", "statement"):
-            run = Run(path, text, case, accounting)
+            run = Run(program, case, accounting)
             with run.controller:
                 found = run.script([line for line in told if line[0] != "fault"])
-                assert found == [line for line in told if line[0] not in ("do", "fault")], case
-                assert run.faults() == [rest for mark, rest in told if mark == "fault"], case
+                assert found == [line for line in told if line[0] not in ("do", "fault")], where
+                assert run.faults() == [rest for mark, rest in told if mark == "fault"], where
                 ends.append(run.controller.scheduler.now)
-        assert ends[0] == ends[1], "block and statement accounting differ"
+        assert ends[0] == ends[1], f"{where}: block and statement accounting differ"
 
 
 def test_there_are_programs() -> None:
-    assert len(FILES) >= 130
+    assert len(PROGRAMS) >= 130

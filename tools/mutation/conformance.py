@@ -1,4 +1,4 @@
-"""A mutant that turns it red, for each conformance file; see tools/conformance_mutants.py."""
+"""A mutant that turns it red, for each conformance program; see tools/conformance_mutants.py."""
 
 import gc
 import signal

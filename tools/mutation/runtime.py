@@ -15,7 +15,8 @@ from pathlib import Path
 
 import rapidgen
 from rapidgen.machine.process import Process
-from tests.runtime.test_conformance import FILES, test_program_does_what_its_source_says
+from tests.rapid_programs import Program
+from tests.runtime.test_conformance import HERE, PROGRAMS, test_program_does_what_its_source_says
 from tools.mutation.front_end import Mutant, NoProgram, of_functions
 
 ROOMS = ("machine", "motion", "runtime", "controller")
@@ -33,18 +34,18 @@ Place = tuple[str, int]
 
 @dataclass(frozen=True)
 class File:
-    """A conformance file and what judges it (AssertionError: red)."""
+    """A conformance program and what judges it (AssertionError: red)."""
 
-    path: Path
-    judge: Callable[[Path], None]
+    program: Program
+    judge: Callable[[Program], None]
 
     def __str__(self) -> str:
-        return f"{self.path.parents[1].name}/{self.path.parent.name}/{self.path.name}"
+        return self.program.below(HERE)
 
 
 def all_files() -> list[File]:
-    """Every conformance file of the runtime."""
-    return [File(path, test_program_does_what_its_source_says) for path in FILES]
+    """Every conformance program of the runtime."""
+    return [File(program, test_program_does_what_its_source_says) for program in PROGRAMS]
 
 
 # -- a file in a process of its own ----------------------------------------------------------
@@ -71,7 +72,7 @@ def _apart(work: Callable[[], int], pipe: int | None = None) -> int:
 
 def _judged(file: File) -> int:
     try:
-        file.judge(file.path)
+        file.judge(file.program)
     except AssertionError:
         return RED
     return GREEN

@@ -1,3 +1,4 @@
+!=== egm
 MODULE egm
     ! source: [manual] 3HAC073318 2.2 and 5: states, identities, EGMRunJoint without axes, EGMStop
     ! from a trap, ERR_UDPUC_COMM; [code] a public program notes 0 behind EGMReset, 1 behind EGMGetId
@@ -93,4 +94,196 @@ MODULE egm
     TRAP stops
         EGMStop id, EGM_STOP_HOLD;
     ENDTRAP
+ENDMODULE
+!=== egm_identities
+MODULE egm_identities
+    ! source: [manual] 3HAC073318: at most four identities; [code] a GoFa with RobotWare 7.21 stops
+    ! with "Too many EGM instances"
+    ! robot: irb120
+    ! expect: four
+    ! expect: one was given back
+    ! fault: 49911 22
+    VAR egmident many{6};
+
+    PROC main()
+        FOR i FROM 1 TO 4 DO
+            EGMGetId many{i};
+        ENDFOR
+        TPWrite "four";
+        EGMReset many{2};
+        Take 5;
+        TPWrite "one was given back";
+        Take 6;
+    ENDPROC
+
+    PROC Take(num i)
+        EGMGetId many{i};
+    ENDPROC
+ENDMODULE
+!=== egm_mismatch
+MODULE egm_mismatch
+    ! source: [manual] 3HAC073318: EGMActPose and EGMRunJoint do not belong together, event 41826
+    ! robot: irb120
+    ! fault: 41826 13
+    CONST egm_minmax near := [-0.5, 0.5];
+    VAR egmident id;
+
+    PROC main()
+        EGMGetId id;
+        EGMSetupUC ROB_1, id, "default", "UCdevice" \Pose;
+        EGMActPose id, tool0.tframe, EGM_FRAME_BASE, tool0.tframe, EGM_FRAME_BASE \x:=near;
+        ! An error without a number: no handler gets it.
+        EGMRunJoint id, EGM_STOP_HOLD \J1;
+    ERROR
+        TRYNEXT;
+    ENDPROC
+ENDMODULE
+!=== egm_moving
+MODULE egm_moving
+    ! source: [manual] 3HAC073318: guidance begins and ends in a fine point
+    ! robot: irb120
+    ! fault: 49911 13
+    CONST jointtarget far := [[40,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+    VAR egmident id;
+
+    PROC main()
+        EGMGetId id;
+        EGMSetupUC ROB_1, id, "default", "UCdevice" \Joint;
+        EGMActJoint id;
+        MoveAbsJ far, v100, z50, tool0;
+        EGMRunJoint id, EGM_STOP_HOLD \J1;
+    ENDPROC
+ENDMODULE
+!=== egm_never
+MODULE egm_never
+    ! source: a GoFa with RobotWare 7.21 stayed in EGMRunJoint for 2 min with 5 s told [code: abb-gofa]
+    ! dialect: egm_patience=never
+    ! robot: irb120
+    ! expect: 30 and 30
+    CONST egm_minmax near := [-0.5, 0.5];
+    VAR egmident id;
+    VAR intnum ends;
+    VAR clock watch;
+    VAR num first;
+
+    PROC main()
+        EGMGetId id;
+        CONNECT ends WITH stops;
+        first := Lasts();
+        TPWrite ValToStr(first) + " and " + ValToStr(Lasts(\told:=5));
+    ENDPROC
+
+    FUNC num Lasts(\num told)
+        IF Present(told) THEN
+            EGMSetupUC ROB_1, id, "default", "UCdevice" \Joint \CommTimeout:=told;
+        ELSE
+            EGMSetupUC ROB_1, id, "default", "UCdevice" \Joint;
+        ENDIF
+        EGMActJoint id \J1:=near;
+        ITimer \Single, 30, ends;
+        ClkReset watch;
+        ClkStart watch;
+        EGMRunJoint id, EGM_STOP_HOLD \J1;
+        RETURN Round(ClkRead(watch));
+    ERROR
+        IF ERRNO = ERR_UDPUC_COMM RETURN Round(ClkRead(watch));
+    ENDFUNC
+
+    TRAP stops
+        EGMStop id, EGM_STOP_HOLD;
+    ENDTRAP
+ENDMODULE
+!=== egm_not_awaited
+MODULE egm_not_awaited
+    ! source: [manual] 3HAC073318: behind \NoWaitCond a lost partner is always fatal; event 41822
+    ! robot: irb120
+    ! expect: 2 after 4
+    ! fault: 41822 16
+    CONST egm_minmax near := [-0.5, 0.5];
+    VAR egmident id;
+
+    PROC main()
+        EGMGetId id;
+        EGMSetupUC ROB_1, id, "default", "UCdevice" \Joint \CommTimeout:=5;
+        EGMActJoint id \J1:=near;
+        EGMRunJoint id, EGM_STOP_HOLD \NoWaitCond \J1;
+        WaitTime 4;
+        TPWrite ValToStr(EGMGetState(id)) + " after 4";
+        EGMWaitCond id;
+        TPWrite "never";
+    ERROR
+        TRYNEXT;
+    ENDPROC
+ENDMODULE
+!=== egm_told
+MODULE egm_told
+    ! source: without \CommTimeout no time is documented [manual 3HAC073318]
+    ! dialect: egm_patience=told
+    ! robot: irb120
+    ! expect: 30 and 5
+    CONST egm_minmax near := [-0.5, 0.5];
+    VAR egmident id;
+    VAR intnum ends;
+    VAR clock watch;
+    VAR num first;
+
+    PROC main()
+        EGMGetId id;
+        CONNECT ends WITH stops;
+        first := Lasts();
+        TPWrite ValToStr(first) + " and " + ValToStr(Lasts(\told:=5));
+    ENDPROC
+
+    FUNC num Lasts(\num told)
+        IF Present(told) THEN
+            EGMSetupUC ROB_1, id, "default", "UCdevice" \Joint \CommTimeout:=told;
+        ELSE
+            EGMSetupUC ROB_1, id, "default", "UCdevice" \Joint;
+        ENDIF
+        EGMActJoint id \J1:=near;
+        ITimer \Single, 30, ends;
+        ClkReset watch;
+        ClkStart watch;
+        EGMRunJoint id, EGM_STOP_HOLD \J1;
+        RETURN Round(ClkRead(watch));
+    ERROR
+        IF ERRNO = ERR_UDPUC_COMM RETURN Round(ClkRead(watch));
+    ENDFUNC
+
+    TRAP stops
+        EGMStop id, EGM_STOP_HOLD;
+    ENDTRAP
+ENDMODULE
+!=== egm_tool_without_a_load
+MODULE egm_tool_without_a_load
+    ! source: event 41438 at EGMActJoint (ros-industrial/abb_libegm, issue 73); of a tool [mem]
+    ! robot: irb120
+    ! fault: 41438 12
+    CONST egm_minmax near := [-0.5, 0.5];
+    PERS tooldata held := [TRUE, [[0, 0, 0], [1, 0, 0, 0]], [-1, [0, 0, 0], [1, 0, 0, 0], 0, 0, 0]];
+    VAR egmident id;
+
+    PROC main()
+        EGMGetId id;
+        EGMSetupUC ROB_1, id, "default", "UCdevice" \Pose;
+        EGMActPose id \Tool:=held, tool0.tframe, EGM_FRAME_BASE, tool0.tframe, EGM_FRAME_BASE \x:=near;
+    ENDPROC
+ENDMODULE
+!=== egm_undefined_load
+MODULE egm_undefined_load
+    ! source: event 41438 at EGMActJoint with a load of 0 kg (ros-industrial/abb_libegm, issue 73)
+    ! robot: irb120
+    ! fault: 41438 13
+    CONST egm_minmax near := [-0.5, 0.5];
+    PERS loaddata nothing := [0, [0, 0, 0], [1, 0, 0, 0], 0, 0, 0];
+    VAR egmident id;
+
+    PROC main()
+        EGMGetId id;
+        EGMSetupUC ROB_1, id, "default", "UCdevice" \Joint;
+        EGMActJoint id \TLoad:=load0 \J1:=near;
+        EGMActJoint id \TLoad:=nothing \J1:=near;
+    ERROR
+        TRYNEXT;
+    ENDPROC
 ENDMODULE

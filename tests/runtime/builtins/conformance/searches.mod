@@ -1,3 +1,40 @@
+!=== search_external
+MODULE search_external
+    ! source: [manual] 3HAC050917 SearchExtJ: as SearchL, with external axes alone
+    ! robot: irb120_track
+    ! expect: found TRUE at 250
+    ! expect: none
+    ! expect: 400
+    PERS bool hit := FALSE;
+    VAR jointtarget j;
+    VAR jointtarget found;
+    VAR intnum i;
+    TRAP comes
+        hit := TRUE;
+    ENDTRAP
+    PROC main()
+        j := CJointT();
+        j.extax.eax_a := 200;
+        MoveAbsJ j, v1000, fine, tool0;
+        j.extax.eax_a := 300;
+        CONNECT i WITH comes;
+        ITimer \Single, 0.5, i;
+        SearchExtJ \SStop, hit, found, j, vlin100;
+        TPWrite "found " + ValToStr(found.extax.eax_a > 240 AND found.extax.eax_a < 260) + " at "
+            + ValToStr(Round(found.extax.eax_a / 50) * 50);
+        j.extax.eax_a := 400;
+        hit := FALSE;
+        SearchExtJ hit, found, j, vlin100;
+    ERROR
+        IF ERRNO = ERR_WHLSEARCH THEN
+            TPWrite "none";
+            found := CJointT();
+            TPWrite ValToStr(Round(found.extax.eax_a));
+            TRYNEXT;
+        ENDIF
+    ENDPROC
+ENDMODULE
+!=== searches
 MODULE searches
     ! source: [manual] S4 datasys 2-SearchL: no hit keeps the point, a signal that is high is an error; StorePath in a trap
     ! robot: irb120
@@ -51,5 +88,67 @@ MODULE searches
         VAR pos here;
         here := CPos();
         TPWrite ValToStr(Round(here.y \Dec:=3));
+    ENDPROC
+ENDMODULE
+!=== trigg_data
+MODULE trigg_data
+    ! source: 3HAC050917 TriggDataReset, TriggDataCopy, TriggDataValid [manual]
+    ! robot: irb120
+    ! signal: doFirst DO
+    ! signal: doSecond DO
+    ! expect: FALSE
+    ! expect: TRUE TRUE
+    ! expect: FALSE TRUE
+    ! expect: 1 0
+    CONST jointtarget start := [[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+    CONST robtarget p := [[364.354,0,594],[0.5,0,0.866025,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+    VAR triggdata one;
+    VAR triggdata other;
+
+    PROC main()
+        MoveAbsJ start, v1000, fine, tool0;
+        TPWrite ValToStr(TriggDataValid(one));
+        TriggIO one, 20 \DOp:=doFirst, 1;
+        TriggDataCopy one, other;
+        TPWrite ValToStr(TriggDataValid(one)) + " " + ValToStr(TriggDataValid(other));
+        TriggDataReset one;
+        TPWrite ValToStr(TriggDataValid(one)) + " " + ValToStr(TriggDataValid(other));
+        TriggIO one, 20 \DOp:=doSecond, 1;
+        TriggL Offs(p,0,60,0), v200, other, fine, tool0;
+        TPWrite ValToStr(DOutput(doFirst)) + " " + ValToStr(DOutput(doSecond));
+    ENDPROC
+ENDMODULE
+!=== trigg_nowhere
+MODULE trigg_nowhere
+    ! source: S4 datasys 2-TriggL-3: with the robot position at the end point the conditions are
+    ! fulfilled immediately and at the same position; 2-MoveLDO-2: when it reaches the stop point
+    ! robot: irb120
+    ! signal: doNear DO
+    ! signal: doTime DO
+    ! signal: goDone GO
+    ! expect: 1 1 1
+    ! expect: 0
+    ! expect: 0 behind the corner
+    CONST jointtarget start := [[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+    CONST robtarget p := [[364.354,0,594],[0.5,0,0.866025,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+    VAR triggdata near;
+    VAR triggdata early;
+    VAR triggdata off;
+
+    PROC main()
+        MoveAbsJ start, v1000, fine, tool0;
+        MoveL p, v200, fine, tool0;
+        TriggIO near, 20 \DOp:=doNear, 1;
+        TriggIO early, 0.2 \Time \DOp:=doTime, 1;
+        TriggIO off, 0 \Start \DOp:=doNear, 0;
+        TriggL p, v200, near \T2:=early, fine, tool0;
+        MoveLGO p, v200, z10, tool0, goDone \Value:=1;
+        TPWrite ValToStr(DOutput(doNear)) + " " + ValToStr(DOutput(doTime)) + " " + ValToStr(GOutput(goDone));
+        ! The robot is not there yet: behind the corner it is.
+        MoveL Offs(p,0,60,0), v200, z20, tool0;
+        MoveLGO Offs(p,0,60,0), v200, z20, tool0, goDone \Value:=0;
+        IF GOutput(goDone) = 1 TPWrite ValToStr(DOutput(doNear) - 1);
+        TriggL Offs(p,0,60,0), v200, off, fine, tool0;
+        TPWrite ValToStr(GOutput(goDone) + DOutput(doNear)) + " behind the corner";
     ENDPROC
 ENDMODULE

@@ -1,7 +1,0 @@
-! rule: ENDPROC is reserved
-! source: [K §2.4]
-MODULE Demo
-    RECORD r
-        num endproc;  ! -> RG201
-    ENDRECORD
-ENDMODULE

@@ -1,7 +1,0 @@
-! rule: IF is reserved
-! source: [K §2.4]
-MODULE Demo
-    RECORD r
-        num if;  ! -> RG201
-    ENDRECORD
-ENDMODULE

@@ -1,7 +1,0 @@
-! rule: OR is reserved
-! source: [K §2.4]
-MODULE Demo
-    RECORD r
-        num or;  ! -> RG201
-    ENDRECORD
-ENDMODULE

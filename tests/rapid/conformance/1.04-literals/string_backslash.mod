@@ -1,7 +1,0 @@
-! rule: a backslash in a string is written twice
-! source: [K §2.7]
-MODULE Demo
-    PROC main()
-        TPWrite "a\\b";
-    ENDPROC
-ENDMODULE

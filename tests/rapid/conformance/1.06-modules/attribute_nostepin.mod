@@ -1,4 +1,0 @@
-! rule: the attribute list NOSTEPIN
-! source: [K §9.1]
-MODULE Demo(NOSTEPIN)
-ENDMODULE

@@ -1,4 +1,0 @@
-! rule: the attribute list SYSMODULE, NOSTEPIN, VIEWONLY
-! source: [K §9.1]
-MODULE Demo(SYSMODULE, NOSTEPIN, VIEWONLY)
-ENDMODULE

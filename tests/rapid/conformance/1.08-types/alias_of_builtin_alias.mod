@@ -1,5 +1,0 @@
-! rule: errnum is an alias too
-! source: [K §2.15]
-MODULE Demo
-    ALIAS errnum a;  ! -> RG327
-ENDMODULE

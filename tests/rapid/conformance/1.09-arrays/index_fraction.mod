@@ -1,8 +1,0 @@
-! rule: an index is whole
-! source: [K §3.5]; loaded as behind the end (index_too_large): the error comes when it is executed
-MODULE Demo
-    VAR num a{3};
-    PROC main()
-        a{1.5} := 1;  ! -> RG318?
-    ENDPROC
-ENDMODULE

@@ -1,8 +1,0 @@
-! rule: non-value types are VAR parameters
-! source: [K §2.16]
-MODULE Demo
-    PROC main()
-    ENDPROC
-    PROC p(PERS clock c)  ! -> RG328
-    ENDPROC
-ENDMODULE

@@ -1,7 +1,0 @@
-! rule: TRYNEXT stands in an ERROR handler only
-! source: [K §4.8, 4.10, 4.11]
-MODULE Demo
-    PROC main()
-        TRYNEXT;  ! -> RG321
-    ENDPROC
-ENDMODULE

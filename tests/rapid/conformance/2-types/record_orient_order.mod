@@ -1,9 +1,0 @@
-! rule: orient has 4 components
-! source: [manual] 3HAC050917
-MODULE Demo
-    VAR orient a;
-    PROC main()
-        a := [1, 1, 1, 1];
-        a := [1, 1, 1, 1, 1];  ! -> RG330
-    ENDPROC
-ENDMODULE
