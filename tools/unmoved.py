@@ -187,11 +187,19 @@ def trace(program: str, text: str) -> dict[str, object]:
     )
     tasks = [model.TaskSpec("T_ROB1", "NORMAL", "SysFail", "main", True, "", modules)]
     for line in marks("task"):
-        name, entry = line.split()
-        tasks.append(model.TaskSpec(name, "NORMAL", "NoSafety", entry, "ROB" in name, "", modules))
-    signals = tuple(model.SignalSpec(*line.split()) for line in marks("signal"))
+        name, entry, *type_ = line.split()
+        kind = type_[0] if type_ else "NORMAL"
+        tasks.append(model.TaskSpec(name, kind, "NoSafety", entry, "ROB" in name, "", modules))
+    signals = tuple(
+        model.SignalSpec(name, kind, size=int(size[0]) if size else 1)
+        for name, kind, *size in map(str.split, marks("signal"))
+    )
     system = model.System(program, tuple(tasks), signals)
-    robots = [g for name in marks("robot") for g in mechanics.groups_for(system, load_config(name))]
+    robots = [
+        group
+        for name in marks("robot")
+        for group in mechanics.groups_for(system, load_config(name).groups)
+    ]
     stream = io.StringIO()
     printed: list[str] = []
     with controller_room.VirtualController(
