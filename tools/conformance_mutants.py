@@ -1,9 +1,9 @@
-"""Is each conformance file of the language red for a defect of its own?
+"""Is each conformance program of the language red for a defect of its own?
 
     python tools/conformance_mutants.py [--every N] [--share PERCENT] [-v] [NAME...]
 
 Makes mutants of the front end and of its tables (tools/mutation/front_end.py) until each
-conformance file has one that turns it red: other findings than it announces. A mutant
+conformance program has one that turns it red: other findings than it announces. A mutant
 counts when it turns at
 most PERCENT of all files red (default 10): one that breaks everything says nothing about a file.
 What is left then (texts of the commonest kind, which any broad defect hits) may have a mutant that

@@ -1,9 +1,9 @@
-"""Is each conformance file of the runtime red for a defect of its own?
+"""Is each conformance program of the runtime red for a defect of its own?
 
     python tools/conformance_mutants_runtime.py [--every N] [--share PERCENT] [-v] [NAME...]
 
 Makes mutants of machine, motion, runtime and controller until
-each conformance file of tests/runtime and tests/runtime/builtins has one that turns it
+each conformance program of tests/runtime and tests/runtime/builtins has one that turns it
 red. A mutant counts when it turns at most PERCENT of all files red (default 10); for a file that
 has no such mutant, up to half of them, told apart. Hangs and crashes do not count. Tried first is
 what the fewest files execute; each trial is a process of its own.

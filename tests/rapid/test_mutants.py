@@ -1,4 +1,4 @@
-"""Conformance files are red for defects: a sample; all in tools/conformance_mutants.py."""
+"""Conformance programs are red for defects: a sample; all in tools/conformance_mutants.py."""
 
 import gc
 import signal

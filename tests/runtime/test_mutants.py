@@ -1,4 +1,4 @@
-"""Conformance files are red for defects: a sample; all in
+"""Conformance programs are red for defects: a sample; all in
 tools/conformance_mutants_runtime.py."""
 
 from dataclasses import replace

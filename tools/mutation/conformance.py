@@ -200,7 +200,7 @@ class Campaign:
 
 @contextmanager
 def judged_anew():
-    """The conformance files are judged by the package as it is imported now."""
+    """The conformance programs are judged by the package as it is imported now."""
     names = ("check", "parse", "Dialect")
     before = {name: getattr(conformance_files, name) for name in names}
     for name in names:

@@ -1,4 +1,4 @@
-"""A mutant of the runtime that turns it red, for each conformance file.
+"""A mutant of the runtime that turns it red, for each conformance program.
 
 See tools/conformance_mutants_runtime.py. Mutants are made as those of the front end
 (tools/mutation/front_end.py).
