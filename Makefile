@@ -26,11 +26,11 @@ test:
 	@$(MAKE) --no-print-directory --jobs $$(getconf _NPROCESSORS_ONLN) --output-sync=target $(CHECKS)
 	@$(MAKE) --no-print-directory unit
 
-# The page of rapidgen/view: TypeScript, checked and bundled; again when a source of it has changed.
-PAGE := rapidgen/view/assets/index.html
+# The page of rapidgen/viewer: TypeScript, checked and bundled; again when a source of it has changed.
+PAGE := rapidgen/viewer/assets/index.html
 page: $(PAGE)
-$(PAGE): $(STAMP) $(shell find rapidgen/view/page -path '*/node_modules' -prune -o -type f -print)
-	time $(BIN)/python rapidgen/view/page/build_page.py
+$(PAGE): $(STAMP) $(shell find rapidgen/viewer/page -path '*/node_modules' -prune -o -type f -print)
+	time $(BIN)/python rapidgen/viewer/page/build_page.py
 
 # Exact versions of everything that develops and tests rapidgen; `make lock` updates them.
 LOCK := .ci/requirements.txt
@@ -71,7 +71,7 @@ wheel: $(STAMP) $(PAGE)
 	$(BIN)/uv venv --quiet --python $(BIN)/python $(WHEEL)/env
 	$(BIN)/uv pip install --quiet --python $(WHEEL)/env/bin/python --constraint $(LOCK) $(WHEEL)/dist/*.whl
 	cd $(WHEEL) && time env/bin/rapidgen demo --output demo
-	cd $(WHEEL) && env/bin/python -c 'from rapidgen.view.plotting import ASSETS; assert (ASSETS / "page.js").is_file(), ASSETS'
+	cd $(WHEEL) && env/bin/python -c 'from rapidgen.viewer.plotting import ASSETS; assert (ASSETS / "page.js").is_file(), ASSETS'
 
 # The generated driver for some simulated hours; `make driver-day` is the long form.
 driver-hours: $(STAMP)

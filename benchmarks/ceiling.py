@@ -19,8 +19,8 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from rapidgen.config import load_config
 from rapidgen.generate import build, make_system
-from rapidgen.proving.bench import Bench
-from rapidgen.proving.suite.ceiling import ALLOWED, fastest, is_taken, random_way
+from rapidgen.verification.suite.tcp_speed_limit import ALLOWED, fastest, is_taken, random_way
+from rapidgen.verification.testbench import Bench
 
 CHUNK = 20
 """Trajectories of one controller."""

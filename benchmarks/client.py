@@ -22,7 +22,7 @@ from rapidgen.client import AsyncRobot, MotionStopped, Robot, RobotError, Timeou
 from rapidgen.client.core.group import Group
 from rapidgen.client.core.robot import STOP_FRAME
 from rapidgen.client.core.state_port import StatePort
-from rapidgen.wire.simple_message.bulk import (
+from rapidgen.wire.simple_message.numpy_codec import (
     FRAME_BYTES,
     decode_batches,
     encode_points,

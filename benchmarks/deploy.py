@@ -20,8 +20,8 @@ from pathlib import Path
 from queue import Queue
 
 from rapidgen.deploy import Access, connect, make_plan, parse_target
-from rapidgen.deploy.session import Job, apply_all, plan_all, wanted_set
-from rapidgen.faces import serve_ftp
+from rapidgen.deploy.command_run import Job, apply_all, plan_all, wanted_set
+from rapidgen.servers import serve_ftp
 
 PASSWORD = "benchmark"
 COUNT = 50

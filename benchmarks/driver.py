@@ -22,9 +22,9 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from rapidgen.config import load_config
 from rapidgen.generate import build, make_system
 from rapidgen.motion import MotionSettings
-from rapidgen.proving.bench import Bench
-from rapidgen.proving.link import STOP, point_frame
-from rapidgen.proving.track import off
+from rapidgen.verification.position_checks import off
+from rapidgen.verification.raw_connection import STOP, point_frame
+from rapidgen.verification.testbench import Bench
 from tools.foreign.abb_driver import read_system
 
 ROUNDING = 1e-4

@@ -13,8 +13,8 @@ from types import SimpleNamespace
 from rapidgen.axes import frames
 from rapidgen.axes.kinematics import Kinematics
 from rapidgen.config import load_config
+from rapidgen.machine.event_log import EventLog
 from rapidgen.machine.io import IOSystem
-from rapidgen.machine.log import EventLog
 from rapidgen.machine.scheduler import S, Scheduler
 from rapidgen.motion import MotionGroup, MotionSystem
 from rapidgen.motion.moves import CartesianMove, JointMove, Move, MoveSpeed, Zone

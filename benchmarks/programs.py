@@ -19,12 +19,12 @@ from driven import driven
 from rapidgen.client import Program
 from rapidgen.config import load_config
 from rapidgen.generate import build, make_system
-from rapidgen.proving.batches import millionths
-from rapidgen.proving.bench import Bench
-from rapidgen.proving.messages import RawInstruction, RawStreamFlag
-from rapidgen.proving.programs import Programmer, RawOrder, bent, reached
-from rapidgen.proving.stream import Streamer
 from rapidgen.system.model import ModuleFile
+from rapidgen.verification.batches import millionths
+from rapidgen.verification.messages import RawInstruction, RawStreamFlag
+from rapidgen.verification.raw_programs import Programmer, RawOrder, bent, reached
+from rapidgen.verification.stream import Streamer
+from rapidgen.verification.testbench import Bench
 
 BENT = [0.2, 0.1, 0.1, 0.3, 0.6, -0.2]
 COUNT = 1000

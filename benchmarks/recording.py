@@ -13,8 +13,8 @@ from collections.abc import Callable
 from pathlib import Path
 
 from rapidgen.controller.controller import VirtualController
-from rapidgen.view.recording.reader import RecordingFile
-from rapidgen.view.recording.writer import record
+from rapidgen.viewer.recording.reader import RecordingFile
+from rapidgen.viewer.recording.writer import record
 
 PROGRAM = """MODULE m
   CONST jointtarget a := [[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]];

@@ -20,9 +20,9 @@ sys.path[:0] = [str(ROOT / "tests" / "ros"), str(ROOT / "tests" / "client")]
 from driven import booted, robot_of  # noqa: E402
 from ready import goal, station  # noqa: E402
 
-from rapidgen.ros.following import Policy  # noqa: E402
+from rapidgen.ros.goal_execution import Policy  # noqa: E402
 from rapidgen.ros.goals import Ending  # noqa: E402
-from rapidgen.ros.keeping import RobotLink  # noqa: E402
+from rapidgen.ros.robot_link import RobotLink  # noqa: E402
 from rapidgen.testing.asyncio_clock import VirtualLoop  # noqa: E402
 
 LOOK = 0.001

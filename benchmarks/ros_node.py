@@ -27,7 +27,7 @@ from rclpy.signals import SignalHandlerOptions
 from sensor_msgs.msg import JointState
 
 from rapidgen.client import AsyncRobot
-from rapidgen.ros.stamps import Stamps
+from rapidgen.ros.time_stamps import Stamps
 
 LATER, MORE = 2.0, 5.0
 """ms of p99, and points of CPU, that the node may add."""

@@ -24,8 +24,8 @@ from websockets.sync.client import connect
 from rapidgen.client.rws import Controller, topics
 from rapidgen.client.rws.transport import socket_options
 from rapidgen.config import load_config
-from rapidgen.controller.cabinet import Cabinet
-from rapidgen.faces.rws.server import serve_rws
+from rapidgen.controller.runner import Cabinet
+from rapidgen.servers.rws.server import serve_rws
 from rapidgen.system import read_files
 from rapidgen.system.model import SignalSpec
 from rapidgen.wire.rws.bodies import Generation

@@ -18,10 +18,10 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from rapidgen.config import load_config
 from rapidgen.generate import build, make_system
-from rapidgen.machine.costs import Costs
-from rapidgen.proving.bench import Bench
-from rapidgen.proving.messages import STATUS
-from rapidgen.proving.settings import Setting
+from rapidgen.machine.cost_model import Costs
+from rapidgen.verification.messages import STATUS
+from rapidgen.verification.settings import Setting
+from rapidgen.verification.testbench import Bench
 from rapidgen.wire.simple_message import messages, spec
 
 ALL = spec.Feature.PROGRESS | spec.Feature.FEEDBACK

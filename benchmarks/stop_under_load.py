@@ -18,10 +18,10 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from benchmarks.streaming import batches, booted, reply
 from rapidgen.config import load_config
 from rapidgen.config.model import RobotConfig
-from rapidgen.proving.bench import HELLO
-from rapidgen.proving.instructions import watched_orders
-from rapidgen.proving.link import STOP
-from rapidgen.proving.messages import RawComm, encode
+from rapidgen.verification.instruction_hooks import watched_orders
+from rapidgen.verification.messages import RawComm, encode
+from rapidgen.verification.raw_connection import STOP
+from rapidgen.verification.testbench import HELLO
 
 POINTS = 100_000
 HELLOS = 20_000

@@ -28,13 +28,13 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from rapidgen.config import load_config
 from rapidgen.config.model import RobotConfig
 from rapidgen.generate import build, make_system
-from rapidgen.machine.costs import Costs
-from rapidgen.proving.bench import Bench
-from rapidgen.proving.link import STOP, RawLink, point_frame
-from rapidgen.proving.messages import POINT_BYTES, POINTS, RawComm, RawPointsAccepted
-from rapidgen.proving.settings import Setting
+from rapidgen.machine.cost_model import Costs
 from rapidgen.system.model import System
-from rapidgen.wire.simple_message.bulk import encode_points
+from rapidgen.verification.messages import POINT_BYTES, POINTS, RawComm, RawPointsAccepted
+from rapidgen.verification.raw_connection import STOP, RawLink, point_frame
+from rapidgen.verification.settings import Setting
+from rapidgen.verification.testbench import Bench
+from rapidgen.wire.simple_message.numpy_codec import encode_points
 from rapidgen.wire.simple_message.spec import StreamFlag
 from tools.foreign.abb_driver import read_system
 

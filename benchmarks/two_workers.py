@@ -12,7 +12,7 @@ from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
 
 from rapidgen.config import load_config
-from rapidgen.proving.run import prove
+from rapidgen.verification.suite_runner import prove
 
 
 def seconds(schedules: int, jobs: int) -> float:

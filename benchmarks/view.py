@@ -23,7 +23,7 @@ import aiohttp
 import numpy as np
 from playwright.sync_api import sync_playwright
 
-from rapidgen.view.server import ASSETS
+from rapidgen.viewer.server import ASSETS
 
 ARGUMENTS = (
     "--no-sandbox --disable-gpu --use-gl=angle --use-angle=swiftshader "

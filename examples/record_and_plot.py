@@ -1,7 +1,7 @@
 """What was commanded and what was executed, recorded by the controller's clock, and drawn."""
 
 from rapidgen.client import Trajectory
-from rapidgen.view import plot
+from rapidgen.viewer import plot
 from trying import robot_of
 
 with robot_of("irb120", feedback=True) as robot:

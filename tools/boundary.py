@@ -2,8 +2,8 @@
 
     python tools/boundary.py [--jobs N] [--share SHARE] [--results FILE] [ROBOT]
 
-All trials of rapidgen/proving/boundary.py under three hostile settings, and a seeded tenth of them
-under each row in which any two assumptions about controllers meet. FILE (JSON lines) keeps the
+All trials of rapidgen/verification/boundary.py under three hostile settings, and a seeded tenth of
+them under each row in which any two assumptions about controllers meet. FILE (JSON lines) keeps the
 results: the next call goes on there. `--share` takes a seeded share of everything.
 """
 
@@ -18,8 +18,8 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from rapidgen.config import load_config
 from rapidgen.generate import build, make_system
-from rapidgen.proving.boundary import STATES, failing, prepare, trials
-from rapidgen.proving.settings import assumed, rows
+from rapidgen.verification.boundary import STATES, failing, prepare, trials
+from rapidgen.verification.settings import assumed, rows
 from tools.campaigns import outcomes
 
 STRICT = ("argument_error=fatal", "pack_beyond=error", "negative_mod=error")

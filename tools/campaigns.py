@@ -4,8 +4,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from rapidgen.proving.results import Results
-from rapidgen.proving.workers import Call, Known, Local, in_order
+from rapidgen.verification.result_file import Results
+from rapidgen.verification.worker_pool import Call, Known, Local, in_order
 
 
 def outcomes(

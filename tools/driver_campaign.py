@@ -23,11 +23,11 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from rapidgen.config import load_config
 from rapidgen.generate import build, make_system
-from rapidgen.proving.bench import FAILURES, Bench
-from rapidgen.proving.messages import STATUS
-from rapidgen.proving.settings import Setting
-from rapidgen.proving.suite.hostile import campaign
 from rapidgen.rapid.switches import parse_switches
+from rapidgen.verification.messages import STATUS
+from rapidgen.verification.settings import Setting
+from rapidgen.verification.suite.hostile_clients import campaign
+from rapidgen.verification.testbench import FAILURES, Bench
 
 CHUNK = 500
 """Openings for one controller."""

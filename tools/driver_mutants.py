@@ -35,13 +35,13 @@ from rapidgen.cli.progress import Bars
 from rapidgen.config import load_config
 from rapidgen.controller.cell import in_its_cell
 from rapidgen.generate import build, make_system
-from rapidgen.proving.campaign import Campaign, Limits
-from rapidgen.proving.cluster import Cluster
-from rapidgen.proving.results import Results
-from rapidgen.proving.settings import possible, settings
-from rapidgen.proving.settings import rows as assumptions
-from rapidgen.proving.suite import CASES
-from rapidgen.proving.workers import Local
+from rapidgen.verification.campaign import Campaign, Limits
+from rapidgen.verification.cluster import Cluster
+from rapidgen.verification.result_file import Results
+from rapidgen.verification.settings import possible, settings
+from rapidgen.verification.settings import rows as assumptions
+from rapidgen.verification.suite import CASES
+from rapidgen.verification.worker_pool import Local
 from tools.mutation.driver import mutants
 from tools.mutation.judging import HANGS, VERDICTS, Learning, Question, grounds, verdicts
 

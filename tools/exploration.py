@@ -3,8 +3,8 @@
     python tools/exploration.py [--campaigns N] [--seeds N] [--jobs N] [FOLDER]
     python tools/exploration.py --of ROBOT... [--seeds N] [--jobs N] [--results FOLDER]
 
-R1, R5, R7a, R7b and R12 (tests/proving/defective says what they are), each in a small driver of
-our own that has nothing else wrong: of N campaigns from other seeds, schedules until the first
+R1, R5, R7a, R7b and R12 (tests/verification/defective says what they are), each in a small driver
+of our own that has nothing else wrong: of N campaigns from other seeds, schedules until the first
 finding, the median and all. The same driver without a defect, and the generated one, where nothing
 may be found; and how many pairs of statements of two tasks they have met. With FOLDER,
 which has abb_driver's six modules, also these, unchanged: a finding there is counted for what its
@@ -28,11 +28,11 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from rapidgen.cli.progress import Bars
 from rapidgen.config import load_config
 from rapidgen.generate import build, make_system
-from rapidgen.proving.explore import ground_of
-from rapidgen.proving.guide import Guide
-from rapidgen.proving.run import DriverUnderTest, prove, schedules
-from rapidgen.proving.workers import Call, Local, in_order
-from tests.proving.defective import CAPACITY, DEFECTS, small_driver
+from rapidgen.verification.schedule_exploration import ground_of
+from rapidgen.verification.schedule_selection import Guide
+from rapidgen.verification.suite_runner import DriverUnderTest, prove, schedules
+from rapidgen.verification.worker_pool import Call, Local, in_order
+from tests.verification.defective import CAPACITY, DEFECTS, small_driver
 from tools.foreign.abb_driver import read_system
 
 ABB_CAPACITY = 100

@@ -6,7 +6,7 @@ N schedules (default 20,000), shared out among the robots: after each the robot 
 come to rest, and takes and executes a new trajectory once the program has been started. `--pairs`
 shares them out among the settings in which any two assumptions about controllers meet, too. What
 does not hold is told with its seed: `--first SEED --count 1` with the same robots does it again,
-with the event log. `rapidgen/proving/fast_stops.py` says what is done.
+with the event log. `rapidgen/verification/fast_stops.py` says what is done.
 """
 
 import argparse
@@ -21,10 +21,10 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from rapidgen.config import load_config
 from rapidgen.controller.cell import in_its_cell
 from rapidgen.generate import build, make_system
-from rapidgen.proving.bench import Bench
-from rapidgen.proving.fast_stops import fast_stop
-from rapidgen.proving.settings import assumed, rows
-from rapidgen.proving.workers import Local, each, in_a_fork
+from rapidgen.verification.fast_stops import fast_stop
+from rapidgen.verification.settings import assumed, rows
+from rapidgen.verification.testbench import Bench
+from rapidgen.verification.worker_pool import Local, each, in_a_fork
 
 ROBOTS = ("irb120", "irb6700", "irb2400", "irb120_track", "irb14000")
 FAR = (0.01, 0.1, 0.5)

@@ -20,7 +20,7 @@ import numpy as np
 from rapidgen.axes import frames
 from rapidgen.machine.scheduler import S
 from rapidgen.motion import MotionSettings
-from rapidgen.motion.faults import MotionFault
+from rapidgen.motion.fault_reasons import MotionFault
 from rapidgen.motion.moves import CartesianMove, JointMove, MoveSpeed
 from rapidgen.runtime.task.task import Task
 from tests.motion.cell import Cell, zone

@@ -21,16 +21,16 @@ from itertools import count
 from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
-sys.path[:0] = [str(ROOT / "tests" / folder) for folder in ("faces/rws", "client/rws")]
+sys.path[:0] = [str(ROOT / "tests" / folder) for folder in ("servers/rws", "client/rws")]
 
 from served import Caller, make_cabinet, make_desk  # noqa: E402
 from test_hostile import FLOWS, NOWHERE, run  # noqa: E402
 
 from rapidgen.client.rws.address import parse_address  # noqa: E402
 from rapidgen.client.rws.core import Login, RwsCore  # noqa: E402
-from rapidgen.faces.rws import routing  # noqa: E402
-from rapidgen.faces.rws.asking import Received  # noqa: E402
-from rapidgen.faces.rws.disks import VOLUMES  # noqa: E402
+from rapidgen.servers.rws import routing  # noqa: E402
+from rapidgen.servers.rws.disks import VOLUMES  # noqa: E402
+from rapidgen.servers.rws.messages import Received  # noqa: E402
 from rapidgen.wire.rws import media  # noqa: E402
 from rapidgen.wire.rws.bodies import Generation  # noqa: E402
 from rapidgen.wire.rws.operations import Route  # noqa: E402

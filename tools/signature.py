@@ -21,9 +21,9 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from rapidgen.config import load_config
-from rapidgen.proving.covering import covering
-from rapidgen.proving.report import as_json
-from rapidgen.proving.run import prove
+from rapidgen.verification.covering_array import covering
+from rapidgen.verification.report import as_json
+from rapidgen.verification.suite_runner import prove
 
 ROOT = Path(__file__).resolve().parents[1]
 BASE = ROOT / "robots" / "examples" / "irb120-rw6.yaml"

@@ -40,7 +40,7 @@ from queue import Empty, SimpleQueue
 from typing import Any
 
 ROOT = Path(__file__).resolve().parents[1]
-PACKAGES = ("client", "faces/rws", "ros", "deploy", "machine")
+PACKAGES = ("client", "servers/rws", "ros", "deploy", "machine")
 EQUIVALENT = ROOT / "tools" / "equivalent_mutants.txt"
 IGNORED = shutil.ignore_patterns(
     ".git", ".venv", "build", "dist", "node_modules", "__pycache__", ".*_cache"

@@ -20,11 +20,11 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from rapidgen.config import load_config
 from rapidgen.generate import build, make_system
-from rapidgen.proving.bench import FAILURES
-from rapidgen.proving.boundary import prepare
-from rapidgen.proving.link import STOP
-from rapidgen.proving.settings import assumed
-from rapidgen.proving.workers import in_a_fork
+from rapidgen.verification.boundary import prepare
+from rapidgen.verification.raw_connection import STOP
+from rapidgen.verification.settings import assumed
+from rapidgen.verification.testbench import FAILURES
+from rapidgen.verification.worker_pool import in_a_fork
 from tools.campaigns import outcomes
 
 STATES = ("receiving", "moving", "streaming", "program")

@@ -20,7 +20,7 @@ from rapidgen.axes import frames
 from rapidgen.axes.frames import Axis, Pose, Vector, error
 
 if TYPE_CHECKING:
-    from rapidgen.axes.numeric import Search
+    from rapidgen.axes.numeric_ik import Search
 
 _ROUNDS = 25
 _EXACT = 1e-9
@@ -102,7 +102,7 @@ class ArmAngle:
     ) -> tuple[float, ...] | None:
         import numpy as np  # only where an arm has seven axes
 
-        from rapidgen.axes.numeric import solved
+        from rapidgen.axes.numeric_ik import solved
 
         values, last = list(start), 1e9
         for _ in range(_ROUNDS):

@@ -19,9 +19,9 @@ from rapidgen.axes.four_axes import Branch as FourBranch
 from rapidgen.axes.frames import Pose, Quaternion
 from rapidgen.axes.limits import ROUNDING
 from rapidgen.axes.mapping import JointMap
-from rapidgen.axes.recognising import Four, SixAxes, four_axes, six_axes
-from rapidgen.axes.searching import ArmSearch
-from rapidgen.axes.wrist import BRANCHES, SINGULAR, Angles
+from rapidgen.axes.posture_search import ArmSearch
+from rapidgen.axes.solver_selection import Four, SixAxes, four_axes, six_axes
+from rapidgen.axes.spherical_wrist import BRANCHES, SINGULAR, Angles
 from rapidgen.config.model import ChainLink, GroupConfig
 
 if TYPE_CHECKING:

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from rapidgen.axes import frames
 from rapidgen.axes.frames import Pose, Vector
-from rapidgen.axes.wrist import Angles, WristArm
+from rapidgen.axes.spherical_wrist import Angles, WristArm
 
 Floats: TypeAlias = NDArray[np.float64]
 Number = TypeVar("Number", float, Floats)

@@ -18,9 +18,9 @@ import typer
 from typer.exceptions import TyperException
 
 from rapidgen import __version__, _extras
-from rapidgen.cli.loudness import set_up
-from rapidgen.cli.plain_values import PlainCommand, PlainGroup
+from rapidgen.cli.option_values import PlainCommand, PlainGroup
 from rapidgen.cli.terminal import use_colour
+from rapidgen.cli.verbosity import set_up
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, as_data, error, render
 
 # Each verb is a file of its own, imported when it is asked for; its help begins with the

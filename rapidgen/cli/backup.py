@@ -31,7 +31,7 @@ def backup(
     import shutil
     from datetime import datetime
 
-    from rapidgen.cli.web_services import controller
+    from rapidgen.cli.rws_session import controller
 
     if output.exists():
         raise refusal("RG660", None, f"{output} is there already", "name a folder that is not")

@@ -48,7 +48,7 @@ def build(
     _tell(model.diagnostics)
     cell = None
     if backup is not None:
-        from rapidgen.generate.cell import fit, read_cell
+        from rapidgen.generate.existing_controller import fit, read_cell
 
         cell = read_cell(backup)
         # What modules a backup lacks is no matter of cfg.

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from rapidgen.config.model import GroupConfig, RobotConfig
-    from rapidgen.generate.cell import Cell
+    from rapidgen.generate.existing_controller import Cell
     from rapidgen.rapid import Dialect
     from rapidgen.rapid.checks import Payload
     from rapidgen.rapid.syntax.nodes import Declaration, Module
@@ -159,7 +159,7 @@ def _built(model: "RobotConfig") -> list[Diagnostic]:
 def _on(cell: "Cell", model: "RobotConfig") -> list[Diagnostic]:
     """What is wrong with a configuration on the controller that it is for."""
     from rapidgen.generate import build
-    from rapidgen.generate.cell import fit
+    from rapidgen.generate.existing_controller import fit
 
     notes = [note for note in cell.notes if note.code != "RG710"]
     try:
@@ -172,7 +172,7 @@ def _on(cell: "Cell", model: "RobotConfig") -> list[Diagnostic]:
 def _cell(backup: Path | None) -> "Cell | None":
     if backup is None:
         return None
-    from rapidgen.generate.cell import read_cell
+    from rapidgen.generate.existing_controller import read_cell
 
     return read_cell(backup)
 

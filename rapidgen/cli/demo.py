@@ -142,8 +142,8 @@ def _draw(
     output: Path, trajectory: "Trajectory", recording: "JointRecording", group: "GroupConfig"
 ) -> None:
     _say("draw     what was commanded and executed")
-    from rapidgen.view import plot
-    from rapidgen.view.plotting import files_of
+    from rapidgen.viewer import plot
+    from rapidgen.viewer.plotting import files_of
 
     title = f"{group.model or group.name}: commanded and executed joints"
     made = plot(trajectory, recording, title=title)

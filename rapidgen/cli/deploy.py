@@ -36,11 +36,10 @@ def deploy(
 
     rapidgen deploy cell1.yaml --to "ftp://192.168.125.1/hd0a/SYSTEM/HOME"
     """
-    from rapidgen.cli.carrying_out import carry_out, make_sure, show_plans
-    from rapidgen.cli.hello import hello
-    from rapidgen.cli.web_services import agree
-    from rapidgen.deploy.fleet import parse_targets
-    from rapidgen.deploy.session import (
+    from rapidgen.cli.driver_query import hello
+    from rapidgen.cli.plan_execution import carry_out, make_sure, show_plans
+    from rapidgen.cli.rws_session import agree
+    from rapidgen.deploy.command_run import (
         FleetJob,
         check_plans,
         plan_all,
@@ -48,6 +47,7 @@ def deploy(
         save_neighbours,
         wanted_set,
     )
+    from rapidgen.deploy.fleet import parse_targets
     from rapidgen.deploy.target import Access
 
     wanted = wanted_set(config, overrides or ())

@@ -38,10 +38,10 @@ def doctor(
     import json
     from dataclasses import asdict
 
-    from rapidgen.cli.hello import error_reason, hello
-    from rapidgen.cli.web_services import agree
+    from rapidgen.cli.driver_query import error_reason, hello
+    from rapidgen.cli.rws_session import agree
+    from rapidgen.deploy.command_run import wanted_set
     from rapidgen.deploy.doctor import examine
-    from rapidgen.deploy.session import wanted_set
     from rapidgen.deploy.target import Access, parse_target
 
     checks = examine(

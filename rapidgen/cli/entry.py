@@ -13,7 +13,7 @@ def run() -> None:
     gc.set_threshold(200_000, 20, 50)
     words = sys.argv[1:]
     if words[:1] == ["stop"]:
-        from rapidgen.cli.quick_stop import send
+        from rapidgen.cli.send_stop import send
 
         send(words[1:])
     from rapidgen._interruption import raise_on_signals

@@ -26,7 +26,7 @@ def fmt(
     Encoding and line ends stay as they are; where a file mixes them, its commonest is taken, and
     that is said. A file with syntax errors is not touched.
     """
-    from rapidgen._writing import write_whole
+    from rapidgen._atomic_write import write_whole
     from rapidgen.rapid import format_source
     from rapidgen.system.paths import read_limited
 

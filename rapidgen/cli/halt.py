@@ -21,7 +21,7 @@ def halt(
 
     The robot stops on its path. Not a safety function. (`rapidgen stop` asks the driver.)
     """
-    from rapidgen.cli.web_services import controller
+    from rapidgen.cli.rws_session import controller
 
     with controller(host, user, secrets, fingerprint) as found:
         found.stop(everything=everything)

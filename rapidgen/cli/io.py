@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from rapidgen.cli import options
-from rapidgen.cli.goals import plain_number
+from rapidgen.cli.target_text import plain_number
 
 
 def io(
@@ -84,8 +84,8 @@ def _over_web_services(
     secrets: Path | None,
     fingerprint: str,
 ) -> list[_Read]:
-    from rapidgen.cli.carrying_out import make_sure
-    from rapidgen.cli.web_services import controller
+    from rapidgen.cli.plan_execution import make_sure
+    from rapidgen.cli.rws_session import controller
 
     with controller(host, user, secrets, fingerprint) as found:
         if value is not None:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from rapidgen.cli import options
-from rapidgen.cli.goals import Figures, Units, figure, named_of, named_text, read_figures
+from rapidgen.cli.target_text import Figures, Units, figure, named_of, named_text, read_figures
 
 if TYPE_CHECKING:
     from rapidgen.client import Robot
@@ -44,7 +44,7 @@ def jog(
     rapidgen jog cell.yaml joint_1=5 joint_3=-2 --to sim
     rapidgen jog cell.yaml z=20 --to sim
     """
-    from rapidgen.cli.moving import confirm_at, permitted, told_of_a_cut
+    from rapidgen.cli.motion_commands import confirm_at, permitted, told_of_a_cut
     from rapidgen.client import Robot
 
     units = Units(rad)

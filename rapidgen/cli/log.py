@@ -30,7 +30,7 @@ def log(
     import time
     from dataclasses import asdict
 
-    from rapidgen.cli.web_services import controller
+    from rapidgen.cli.rws_session import controller
     from rapidgen.client.errors import ConnectionFailed, ConnectionLost
     from rapidgen.client.rws.model import LogEvent
 

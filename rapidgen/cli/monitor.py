@@ -35,20 +35,20 @@ def monitor(
     from rich.live import Live
 
     from rapidgen.client import Robot
-    from rapidgen.view import live
+    from rapidgen.viewer import state_lines
 
     robot = Robot(config, address=to or None, group=group, watch=True, reconnect=reconnect)
-    watcher = live.Watcher()
+    watcher = state_lines.Watcher()
     is_live = not (plain or as_json) and sys.stdout.isatty()
     with robot, Live(refresh_per_second=10) if is_live else nullcontext() as screen:
         for number, state in enumerate(robot.states(), 1):
             watcher.take(state, robot.events[-1] if robot.events else None)
             if screen is not None:
                 width, place = screen.console.width, str(robot.address)
-                screen.update(live.as_table(state, watcher, robot.group, place, width))
+                screen.update(state_lines.as_table(state, watcher, robot.group, place, width))
             else:
-                told = live.as_json(state, watcher) if as_json else None
-                typer.echo(told or live.as_line(state, watcher, robot.group))
+                told = state_lines.as_json(state, watcher) if as_json else None
+                typer.echo(told or state_lines.as_line(state, watcher, robot.group))
             if number == count:
                 break
     return 0

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from rapidgen.cli import options
-from rapidgen.cli.goals import (
+from rapidgen.cli.target_text import (
     Figures,
     Units,
     figure,
@@ -89,7 +89,7 @@ def move(
 
     rapidgen move cell.yaml --joints 0,10,0,0,30,0 --to sim
     """
-    from rapidgen.cli.moving import carried_out, confirm_at, permitted
+    from rapidgen.cli.motion_commands import carried_out, confirm_at, permitted
     from rapidgen.cli.plot import draw_motion
     from rapidgen.client import Robot
     from rapidgen.client.permission import first_speed, remember
@@ -159,8 +159,8 @@ def _one_goal(points: Path | None, joints: str, pose: str, approach: float | Non
 
 def _writable(record: Path | None, plot: Path | None) -> list[Path]:
     """The plot's files; all that is to be written is refused now where it cannot be."""
-    from rapidgen.cli.observed import refuse_unwritable
-    from rapidgen.view.plotting import files_of
+    from rapidgen.cli.run_outputs import refuse_unwritable
+    from rapidgen.viewer.plotting import files_of
 
     files = files_of(plot) if plot is not None else []
     refuse_unwritable([*([record] if record is not None else []), *files])

@@ -75,8 +75,8 @@ def new(
     force: Annotated[bool, typer.Option("--force", help="Replace an existing file.")] = False,
 ) -> None:
     """Write a commented configuration that checks and builds. What stays open is marked in it."""
-    from rapidgen.cli.asking import ask_open, ask_source, is_terminal
-    from rapidgen.config.described import Answers
+    from rapidgen.cli.wizard import ask_open, ask_source, is_terminal
+    from rapidgen.config.from_description import Answers
     from rapidgen.config.scaffold import assignments, from_model, from_urdf, ranges, write_new
 
     if robot is None and urdf is None and is_terminal():

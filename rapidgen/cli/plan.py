@@ -37,12 +37,12 @@ def plan(
     """
     import json
 
-    from rapidgen.cli.observed import refuse_unwritable
-    from rapidgen.cli.web_services import agree
+    from rapidgen.cli.run_outputs import refuse_unwritable
+    from rapidgen.cli.rws_session import agree
+    from rapidgen.deploy.command_run import FleetJob, plan_all, wanted_set, write_plans
     from rapidgen.deploy.fleet import parse_targets
     from rapidgen.deploy.plan import plan_json
-    from rapidgen.deploy.session import FleetJob, plan_all, wanted_set, write_plans
-    from rapidgen.deploy.show import plans_text
+    from rapidgen.deploy.plan_text import plans_text
     from rapidgen.deploy.target import Access
 
     if out is not None:

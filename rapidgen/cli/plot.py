@@ -48,8 +48,8 @@ def plot(
     from rapidgen.client.core.group import Group
     from rapidgen.client.trajectory import Trajectory
     from rapidgen.config import load_config
-    from rapidgen.view import plot as draw
-    from rapidgen.view.plotting import files_of
+    from rapidgen.viewer import plot as draw
+    from rapidgen.viewer.plotting import files_of
 
     group, metres = None, linear or ()
     if robot:
@@ -84,7 +84,7 @@ def draw_motion(
     executed: "JointRecording | None",
 ) -> None:
     """Write a trajectory and what became of it."""
-    from rapidgen.view import plot as draw
+    from rapidgen.viewer import plot as draw
 
     both = (commanded, executed) if executed is not None and len(executed) else (commanded,)
     made = draw(*both, group=robot.group, title=f"joints at {robot.address}")

@@ -5,7 +5,7 @@ from typing import Annotated
 import typer
 
 from rapidgen.cli import options
-from rapidgen.cli.goals import Units, joints_of, joints_text, pose_text, read_figures
+from rapidgen.cli.target_text import Units, joints_of, joints_text, pose_text, read_figures
 
 
 def pose(
@@ -32,7 +32,7 @@ def pose(
     units = Units(rad)
     robot = Robot(config, address=to or None, group=group, watch=True)
     if joints:
-        from rapidgen.client.target import resolve
+        from rapidgen.client.connect_target import resolve
 
         _, known = resolve(config, robot.address, group)
         assert known is not None

@@ -24,8 +24,8 @@ def probe(
     `rapidgen run --dialect` takes. It moves nothing and sets no output, unless `--moving` asks
     for the other module: that one turns axis 6 by 10 degrees, after a question on the pendant.
     """
+    from rapidgen._atomic_write import write_whole
     from rapidgen._data import data_folder
-    from rapidgen._writing import write_whole
 
     name = "ROS_probe_motion.mod" if moving else "ROS_probe.mod"
     text = (data_folder("templates") / name).read_text(encoding="latin-1")

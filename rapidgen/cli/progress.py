@@ -5,7 +5,7 @@ import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING, TextIO
 
-from rapidgen.cli.loudness import is_quiet
+from rapidgen.cli.verbosity import is_quiet
 
 if TYPE_CHECKING:
     from rich.progress import TaskID

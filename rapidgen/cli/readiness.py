@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 from rapidgen.diagnostics import refusal
 
 if TYPE_CHECKING:
-    from rapidgen.controller.booting import Bootable
+    from rapidgen.controller.boot_targets import Bootable
     from rapidgen.controller.controller import VirtualController
 
 PATIENCE = 10.0

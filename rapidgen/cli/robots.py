@@ -17,7 +17,7 @@ def robots(
 ) -> None:
     """List the shipped models. `robots show NAME` prints axes, reach and sources."""
     from rapidgen.config.catalogue import shipped_models, variant_named, variant_text
-    from rapidgen.config.library import variants
+    from rapidgen.config.variant_library import variants
     from rapidgen.config.variant_model import lacks, model_name, names
     from rapidgen.diagnostics import refusal
 

@@ -38,11 +38,10 @@ def rollback(
     """
     import json
 
-    from rapidgen.cli.carrying_out import carry_out, make_sure, show_plans
-    from rapidgen.cli.hello import hello
-    from rapidgen.cli.web_services import agree
-    from rapidgen.deploy.fleet import parse_targets
-    from rapidgen.deploy.session import (
+    from rapidgen.cli.driver_query import hello
+    from rapidgen.cli.plan_execution import carry_out, make_sure, show_plans
+    from rapidgen.cli.rws_session import agree
+    from rapidgen.deploy.command_run import (
         FleetJob,
         config_name,
         earlier_set,
@@ -50,6 +49,7 @@ def rollback(
         plan_all,
         refuse_conflicts,
     )
+    from rapidgen.deploy.fleet import parse_targets
     from rapidgen.deploy.target import Access
 
     name = config_name(config)

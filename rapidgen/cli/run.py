@@ -80,9 +80,9 @@ def run(
     code 1 when a task stopped with an error, on a deadlock, and at the limits of time, statements
     and memory.
     """
-    from rapidgen.cli.bootable import chosen, guessed_told
-    from rapidgen.cli.memory import at_most
-    from rapidgen.cli.observed import Observed, Outputs
+    from rapidgen.cli.boot_options import chosen, guessed_told
+    from rapidgen.cli.memory_limit import at_most
+    from rapidgen.cli.run_outputs import Observed, Outputs
     from rapidgen.controller.controller import VirtualController
     from rapidgen.machine.operator import read_answers
 
@@ -170,7 +170,7 @@ def _run(
     controller: "VirtualController", max_time: float, max_statements: int, cell: str
 ) -> list[Diagnostic]:
     """Run to the end; what went wrong."""
-    from rapidgen.controller.passes import run_through
+    from rapidgen.controller.inference.restarts import run_through
 
     ended = run_through(controller, max_time=max_time, max_statements=max_statements)
     found = [

@@ -13,7 +13,7 @@ def schema(
     """Print the JSON schema of the configuration file."""
     import json
 
-    from rapidgen.config.reference import cell_schema, json_schema
+    from rapidgen.config.schema_reference import cell_schema, json_schema
 
     made = cell_schema() if cell else json_schema()
     typer.echo(json.dumps(made, indent=2, ensure_ascii=False))

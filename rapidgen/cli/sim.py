@@ -14,10 +14,10 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
     from rapidgen._json import Members
-    from rapidgen.controller.booting import Bootable
-    from rapidgen.controller.cabinet import Cabinet
+    from rapidgen.controller.boot_targets import Bootable
     from rapidgen.controller.controller import VirtualController
-    from rapidgen.view.appearance import Appearance
+    from rapidgen.controller.runner import Cabinet
+    from rapidgen.viewer.appearance import Appearance
 
 
 def sim(
@@ -104,10 +104,10 @@ def sim(
     What the operator and the event log would show goes to stderr. Ctrl-C ends it. The other verbs
     find it by `--to sim`.
     """
-    from rapidgen.cli.bootable import chosen
-    from rapidgen.cli.observed import Outputs, observing
-    from rapidgen.controller.cabinet import Cabinet
+    from rapidgen.cli.boot_options import chosen
+    from rapidgen.cli.run_outputs import Outputs, observing
     from rapidgen.controller.faults import FaultPlan, read_plan
+    from rapidgen.controller.runner import Cabinet
     from rapidgen.machine.operator import read_answers
 
     if ports is not None and port_offset:
@@ -166,9 +166,9 @@ def _serve(
     import json
     import os
 
-    from rapidgen._running import Simulator, published
-    from rapidgen.cli.ending import on_signal
+    from rapidgen._simulator_registry import Simulator, published
     from rapidgen.cli.readiness import PATIENCE, Readiness
+    from rapidgen.cli.termination import on_signal
 
     ended = False
 
@@ -221,8 +221,8 @@ def _serve(
 @contextmanager
 def _control(cabinet: "Cabinet") -> "Iterator[Members]":
     """The control socket, again after each restart; its port and token."""
-    from rapidgen.faces.control_commands import READABLE, commands, subscribe
-    from rapidgen.faces.control_socket import ControlSocket
+    from rapidgen.servers.control_commands import READABLE, commands, subscribe
+    from rapidgen.servers.control_socket import ControlSocket
 
     def opened(port: int, token: str) -> ControlSocket:
         controller = cabinet.controller
@@ -269,7 +269,7 @@ def _faces(
     import os
     from contextlib import ExitStack
 
-    from rapidgen.faces import serve_ftp, serve_sftp
+    from rapidgen.servers import serve_ftp, serve_sftp
 
     told: Members = {}
     with ExitStack() as stack:
@@ -289,8 +289,8 @@ def _faces(
             told[name] = login
         generation, port, strict, denied = rws
         if generation is not None:
-            from rapidgen.faces.rws.office import Accounts
-            from rapidgen.faces.rws.server import KNOWN, serve_rws
+            from rapidgen.servers.rws.context import Accounts
+            from rapidgen.servers.rws.server import KNOWN, serve_rws
             from rapidgen.wire.rws.bodies import Generation
 
             own = os.environ.get("RAPIDGEN_PASSWORD") or KNOWN
@@ -308,7 +308,7 @@ def _faces(
 
 def _look(target: "Bootable") -> "Appearance":
     """What the robots look like; what of it cannot be drawn is told."""
-    from rapidgen.view.appearance import appearance
+    from rapidgen.viewer.appearance import appearance
 
     look = appearance(target.groups, target.described, target.overrides, target.cell)
     for fault in look.faults:
@@ -327,8 +327,8 @@ def _page(
     if look is None:
         yield {}
         return
-    from rapidgen.view.server import serve_page
-    from rapidgen.view.simulator.simulation import Simulation
+    from rapidgen.viewer.server import serve_page
+    from rapidgen.viewer.simulator.simulation import Simulation
 
     page = serve_page(Simulation(cabinet, look), host, port, look.files)
     cabinet.on_boot.append(page.renew)
@@ -353,8 +353,8 @@ def _recording(
             raise typer.BadParameter("--watch is for --record")
         yield
         return
-    from rapidgen.view.recording.looks import carried
-    from rapidgen.view.recording.writer import record
+    from rapidgen.viewer.recording.appearance import carried
+    from rapidgen.viewer.recording.writer import record
 
     kept = carried(look)
     for fault in kept.faults[len(look.faults) :]:

@@ -25,9 +25,9 @@ def start(
 
     Shows mode, speed, selected tasks and their pointers, asks, switches the motors on and starts.
     """
-    from rapidgen.cli.carrying_out import make_sure
+    from rapidgen.cli.plan_execution import make_sure
+    from rapidgen.cli.rws_session import ask_pendant, controller
     from rapidgen.cli.status import show, state
-    from rapidgen.cli.web_services import ask_pendant, controller
 
     with controller(host, user, secrets, fingerprint) as found:
         told = state(found)

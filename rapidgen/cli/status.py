@@ -25,7 +25,7 @@ def status(
     """
     import json
 
-    from rapidgen.cli.web_services import controller
+    from rapidgen.cli.rws_session import controller
 
     with controller(host, user, secrets, fingerprint) as found:
         told = state(found)

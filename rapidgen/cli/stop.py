@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from rapidgen.cli import options
-from rapidgen.cli.goals import Units, named_text
+from rapidgen.cli.target_text import Units, named_text
 
 
 def stop(
@@ -20,7 +20,7 @@ def stop(
 ) -> int:
     """Stop the robot: every motion group, or one. Not a safety function."""
     from rapidgen.client import Cell, Robot, Timeouts
-    from rapidgen.client.target import groups_of
+    from rapidgen.client.connect_target import groups_of
 
     names = [group] if group else groups_of(config)
     quick = Timeouts(connect=2, stop=2)

@@ -29,8 +29,8 @@ def symbols(
     import json
     from dataclasses import asdict
 
-    from rapidgen.cli.carrying_out import make_sure
-    from rapidgen.cli.web_services import ask_pendant, controller
+    from rapidgen.cli.plan_execution import make_sure
+    from rapidgen.cli.rws_session import ask_pendant, controller
     from rapidgen.client.rws.values import read
 
     parts = name.split("/") if name else []

@@ -17,9 +17,9 @@ if TYPE_CHECKING:
     from rapidgen.config.layers import Overrides
     from rapidgen.config.model import RobotConfig
     from rapidgen.controller.controller import VirtualController
-    from rapidgen.proving.model import Proof
-    from rapidgen.proving.run import DriverUnderTest
-    from rapidgen.proving.workers import Workers
+    from rapidgen.verification.model import Proof
+    from rapidgen.verification.suite_runner import DriverUnderTest
+    from rapidgen.verification.worker_pool import Workers
 
 
 def test(
@@ -106,12 +106,12 @@ def test(
     import json
 
     from rapidgen.config import load_config
-    from rapidgen.proving.campaign import Limits
-    from rapidgen.proving.report import as_json as report_as_json
-    from rapidgen.proving.report import write_html, write_junit
-    from rapidgen.proving.run import prove
-    from rapidgen.proving.settings import assumed
-    from rapidgen.proving.workers import WorkersLost
+    from rapidgen.verification.campaign import Limits
+    from rapidgen.verification.report import as_json as report_as_json
+    from rapidgen.verification.report import write_html, write_junit
+    from rapidgen.verification.settings import assumed
+    from rapidgen.verification.suite_runner import prove
+    from rapidgen.verification.worker_pool import WorkersLost
 
     model = load_config(config, overrides=overrides or ())
     if backup is not None:
@@ -177,7 +177,7 @@ def _nothing(report: "Proof") -> DiagnosticError:
 def _fitted(model: "RobotConfig", backup: Path) -> "RobotConfig":
     """The driver for a cell: its names, release, main; its own programs do not run."""
     from rapidgen.generate import build
-    from rapidgen.generate.cell import fit, read_cell
+    from rapidgen.generate.existing_controller import fit, read_cell
 
     cell = read_cell(backup)
     fitted = fit(model, cell)
@@ -186,7 +186,7 @@ def _fitted(model: "RobotConfig", backup: Path) -> "RobotConfig":
 
 
 def _check_names(names: list[str]) -> None:
-    from rapidgen.proving.suite import CASES
+    from rapidgen.verification.suite import CASES
 
     known = [case.name for case in CASES]
     wrong = [name for name in names if name not in known]
@@ -204,7 +204,7 @@ def _check_names(names: list[str]) -> None:
 
 def _check_writable(path: Path | None) -> None:
     """Say before a long run that its report has nowhere to go."""
-    from rapidgen._writing import check_writable
+    from rapidgen._atomic_write import check_writable
 
     if path is None:
         return
@@ -220,7 +220,7 @@ def _check_writable(path: Path | None) -> None:
 
 
 def _of_cluster(address: str) -> "Callable[[DriverUnderTest], Workers]":
-    from rapidgen.proving.cluster import Cluster
+    from rapidgen.verification.cluster import Cluster
 
     return lambda driver: Cluster(address, driver, lambda text: typer.echo(text, err=True))
 
@@ -260,7 +260,7 @@ def _list(as_json: bool) -> int:
     """What there is to prove, by group."""
     import json
 
-    from rapidgen.proving.suite import CASES
+    from rapidgen.verification.suite import CASES
 
     if as_json:
         rows = [{"case": c.name, "group": c.group, "title": c.title} for c in CASES]
@@ -279,8 +279,8 @@ def _show(report: "Proof", uncovered: bool, durations: int, command: str) -> Non
     from rich.console import Console
     from rich.table import Table
 
-    from rapidgen.proving.model import is_program
-    from rapidgen.proving.report import complaint, met, missed, slowest, untried
+    from rapidgen.verification.model import is_program
+    from rapidgen.verification.report import complaint, met, missed, slowest, untried
 
     console = Console(highlight=False)
     table = Table("group", "held", "of", "answers", box=None)
@@ -331,8 +331,8 @@ def _recorder(
     config: "RobotConfig", file: Path, overrides: "Overrides", path: Path
 ) -> "Callable[[VirtualController], Callable[[], None]]":
     """What begins a recording into a file, with what the robots look like."""
-    from rapidgen.view.appearance import appearance
-    from rapidgen.view.recording.writer import record
+    from rapidgen.viewer.appearance import appearance
+    from rapidgen.viewer.recording.writer import record
 
     _check_writable(path)
     described = {group.name: file for group in config.groups} if file.is_file() else {}
@@ -345,8 +345,8 @@ def _replay(
     trace: Path | None,
     begin: "Callable[[VirtualController], Callable[[], None]] | None",
 ) -> int:
-    from rapidgen.proving.model import is_program, title
-    from rapidgen.proving.run import replay
+    from rapidgen.verification.model import is_program, title
+    from rapidgen.verification.suite_runner import replay
 
     _check_writable(trace)
     with trace.open("w", encoding="utf-8") if trace else nullcontext() as story:

@@ -34,11 +34,10 @@ def uninstall(
 
     rapidgen uninstall cell1.yaml --to "sftp://admin@192.168.125.1/HOME"
     """
-    from rapidgen.cli.carrying_out import carry_out, make_sure, show_plans
-    from rapidgen.cli.hello import hello
-    from rapidgen.cli.web_services import agree
-    from rapidgen.deploy.fleet import parse_targets
-    from rapidgen.deploy.session import (
+    from rapidgen.cli.driver_query import hello
+    from rapidgen.cli.plan_execution import carry_out, make_sure, show_plans
+    from rapidgen.cli.rws_session import agree
+    from rapidgen.deploy.command_run import (
         FleetJob,
         check_names,
         config_name,
@@ -46,6 +45,7 @@ def uninstall(
         refuse_conflicts,
         save_edits,
     )
+    from rapidgen.deploy.fleet import parse_targets
     from rapidgen.deploy.target import Access
 
     name = config_name(config)

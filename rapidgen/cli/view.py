@@ -15,8 +15,8 @@ if TYPE_CHECKING:
     from rapidgen.client import Robot
     from rapidgen.client.address import Address
     from rapidgen.config.model import GroupConfig
-    from rapidgen.view.appearance import Appearance
-    from rapidgen.view.aspect import Viewed
+    from rapidgen.viewer.appearance import Appearance
+    from rapidgen.viewer.provider import Viewed
 
 _LOOK = 3.0
 """s that a controller may take to answer a look at a port."""
@@ -62,8 +62,8 @@ def view(
                 raise typer.BadParameter("--csv is of a recording")
             viewed, look = _robots(stack, target, to, group, take, reconnect)
             return _serve(viewed, host, port, look.files)
-        from rapidgen.view.recording.reader import RecordingFile
-        from rapidgen.view.recording.viewing import RecordingSubject
+        from rapidgen.viewer.recording.playback import RecordingSubject
+        from rapidgen.viewer.recording.reader import RecordingFile
 
         recording = stack.enter_context(RecordingFile(Path(target)))
         if csv is None:
@@ -89,8 +89,8 @@ def _serve(viewed: "Viewed", host: str, port: int, files: "Mapping[str, bytes]")
     import json
     import threading
 
-    from rapidgen.cli.ending import on_signal
-    from rapidgen.view.server import serve_page
+    from rapidgen.cli.termination import on_signal
+    from rapidgen.viewer.server import serve_page
 
     ended = threading.Event()
     with on_signal(ended.set):
@@ -112,9 +112,9 @@ def _robots(
     """All robots of a configuration, or one at an address, connected until the stack closes; and
     what they look like."""
     from rapidgen.client import Robot
-    from rapidgen.client.target import groups_of
-    from rapidgen.view.appearance import appearance
-    from rapidgen.view.robot.observed import ObservedRobots
+    from rapidgen.client.connect_target import groups_of
+    from rapidgen.viewer.appearance import appearance
+    from rapidgen.viewer.robot.observed import ObservedRobots
 
     robots = []
     for name in [group] if group else groups_of(target):

@@ -38,7 +38,7 @@ from rapidgen.client.program import (
     Zone,
     pulse,
 )
-from rapidgen.client.threads import Execution, ProgramRun, Robot, Stream
+from rapidgen.client.sync import Execution, ProgramRun, Robot, Stream
 from rapidgen.client.trajectory import Trajectory, Waypoint
 from rapidgen.wire.simple_message.spec import EventType, Reason, TrajectoryState
 

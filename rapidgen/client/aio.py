@@ -9,8 +9,10 @@ from collections.abc import AsyncIterable, AsyncIterator, Iterable, Sequence
 from contextlib import nullcontext
 from typing import TypeVar, cast
 
+from rapidgen._compat import Self
 from rapidgen.client import deadline, flows
 from rapidgen.client.address import Address
+from rapidgen.client.api import ExecutionSurface, MakeCore, RobotSurface, RunSurface, StreamSurface
 from rapidgen.client.core.job import batches
 from rapidgen.client.core.robot import STOP_FRAME
 from rapidgen.client.core.state import State
@@ -31,15 +33,7 @@ from rapidgen.client.flows.effects import (
     SendAtOnce,
     Wait,
 )
-from rapidgen.client.surface import (
-    ExecutionSurface,
-    MakeCore,
-    RobotSurface,
-    RunSurface,
-    StreamSurface,
-)
-from rapidgen.python310 import Self
-from rapidgen.wire.simple_message.bulk import FRAME_BYTES
+from rapidgen.wire.simple_message.numpy_codec import FRAME_BYTES
 from rapidgen.wire.simple_message.spec import Port
 
 T = TypeVar("T")

@@ -6,6 +6,7 @@ from collections.abc import Callable, Coroutine, Iterator, Mapping
 from concurrent.futures import FIRST_EXCEPTION, Future, ThreadPoolExecutor, wait
 from typing import TypeVar
 
+from rapidgen._compat import Self
 from rapidgen.client.aio import AsyncExecution, AsyncRobot
 from rapidgen.client.core.checks import CheckedTrajectory
 from rapidgen.client.core.job import Job
@@ -16,10 +17,9 @@ from rapidgen.client.errors import InvalidTarget, InvalidTrajectory, RobotError
 from rapidgen.client.flows.download import Sending
 from rapidgen.client.flows.effects import Flow
 from rapidgen.client.flows.motion import armed, ready
-from rapidgen.client.threads import Execution, Robot
+from rapidgen.client.sync import Execution, Robot
 from rapidgen.client.trajectory import Trajectory
 from rapidgen.diagnostics import Diagnostic
-from rapidgen.python310 import Self
 
 T = TypeVar("T")
 

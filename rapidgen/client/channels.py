@@ -12,7 +12,7 @@ from select import POLLOUT, poll
 
 from rapidgen.client.address import Address
 from rapidgen.client.errors import ConnectionLost, RobotTimeout, not_reached, os_reason
-from rapidgen.wire.simple_message.bulk import FRAME_BYTES
+from rapidgen.wire.simple_message.numpy_codec import FRAME_BYTES
 from rapidgen.wire.simple_message.spec import Port
 
 _CHUNK = 64 * FRAME_BYTES

@@ -29,9 +29,9 @@ from collections.abc import Iterable
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from rapidgen._running import running
+from rapidgen._compat import Self
+from rapidgen._simulator_registry import running
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, error
-from rapidgen.python310 import Self
 
 if TYPE_CHECKING:
     from rapidgen.client.core.state import Event, State

@@ -123,7 +123,7 @@ def write_csv(path: Path, times: Array, positions: Array, names: Sequence[str]) 
     # Not needed to move a robot: that shall begin quickly.
     import csv
 
-    from rapidgen._writing import write_whole
+    from rapidgen._atomic_write import write_whole
 
     names = names or [f"joint_{i + 1}" for i in range(positions.shape[1])]
     out = io.StringIO()

@@ -11,11 +11,11 @@ from dataclasses import astuple, dataclass
 from math import radians
 from typing import SupportsFloat, TypeAlias, TypedDict
 
+from rapidgen._compat import Self, Unpack
 from rapidgen.axes.frames import Pose
 from rapidgen.axes.kinematics import AxisConfiguration
 from rapidgen.client.errors import InvalidProgram
 from rapidgen.diagnostics import suggest
-from rapidgen.python310 import Self, Unpack
 from rapidgen.wire.simple_message.spec import Instruction, MarkPlace
 
 _MM = 0.001

@@ -4,11 +4,11 @@ from pathlib import Path
 
 import numpy as np
 
+from rapidgen._compat import Self
 from rapidgen.client.core.group import Group
 from rapidgen.client.core.state import Feedback, State
 from rapidgen.client.core.state_port import Sample
 from rapidgen.client.trajectory import Array, Trajectory
-from rapidgen.python310 import Self
 
 
 class JointRecording:

@@ -12,7 +12,7 @@ import numpy.typing as npt
 from rapidgen.axes.timing import parametrise, resample
 from rapidgen.client import files
 from rapidgen.client.errors import InvalidTrajectory
-from rapidgen.client.tables import table
+from rapidgen.client.html_tables import table
 
 if TYPE_CHECKING:
     from rapidgen.client.core.group import Group

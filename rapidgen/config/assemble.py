@@ -13,8 +13,16 @@ from rapidgen.config.layers import (
     override_tree,
 )
 from rapidgen.config.registry import find_shipped, is_path
-from rapidgen.config.tree import MappingNode, Node, ScalarNode, decode, parse, read_bytes, to_python
 from rapidgen.config.variant_model import PATH, label, model_text, named
+from rapidgen.config.yaml_tree import (
+    MappingNode,
+    Node,
+    ScalarNode,
+    decode,
+    parse,
+    read_bytes,
+    to_python,
+)
 from rapidgen.diagnostics import Diagnostic, Span, error, refusal
 
 Figures = dict[tuple[str, str], float]

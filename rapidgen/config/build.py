@@ -11,7 +11,7 @@ from rapidgen.config.draft import Path as KeyPath
 from rapidgen.config.joints import joints_of
 from rapidgen.config.plausibility import Arm, is_radians, length_of
 from rapidgen.config.registry import find_shipped
-from rapidgen.config.tooling import data_of, routine_of, tool_of, work_object_of
+from rapidgen.config.tools import data_of, routine_of, tool_of, work_object_of
 from rapidgen.config.variant_model import label
 from rapidgen.diagnostics import Severity, suggest
 

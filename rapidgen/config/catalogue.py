@@ -6,11 +6,11 @@ from math import dist
 
 from rapidgen._json import Members
 from rapidgen.config.geometry import distance
-from rapidgen.config.library import Variant, variants
 from rapidgen.config.load import load_config
 from rapidgen.config.registry import find_shipped, shipped_names
-from rapidgen.config.tree import MappingNode, ScalarNode, decode, parse, read_bytes
+from rapidgen.config.variant_library import Variant, variants
 from rapidgen.config.variant_model import lacks, model_name
+from rapidgen.config.yaml_tree import MappingNode, ScalarNode, decode, parse, read_bytes
 from rapidgen.diagnostics import refusal, suggest
 
 

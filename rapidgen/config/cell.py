@@ -11,10 +11,9 @@ from pathlib import Path
 from typing import Annotated
 
 from rapidgen.config.assemble import keys_of, shown_path
-from rapidgen.config.compiled import shipped_groups
 from rapidgen.config.draft import DraftFindings
-from rapidgen.config.few import few
 from rapidgen.config.model import Load, Placement, Tool, WorkObject
+from rapidgen.config.model_cache import shipped_groups
 from rapidgen.config.plausibility import Arm, arm_of, load_doubts
 from rapidgen.config.registry import is_path, shipped_names
 from rapidgen.config.rules import Rule
@@ -30,9 +29,10 @@ from rapidgen.config.schema import (
     WorkObjectDataKeys,
     WorkObjectKeys,
 )
-from rapidgen.config.tooling import load_of, placement_of, tool_of, work_object_of
-from rapidgen.config.tree import read_bytes
+from rapidgen.config.tools import load_of, placement_of, tool_of, work_object_of
+from rapidgen.config.truncation import few
 from rapidgen.config.validate import sound
+from rapidgen.config.yaml_tree import read_bytes
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
 
 GROUP_BITS = 32

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 from rapidgen.config.model import ChainLink
-from rapidgen.config.tree import MappingNode, place_of
+from rapidgen.config.yaml_tree import MappingNode, place_of
 from rapidgen.diagnostics import Diagnostic, Severity, Span, error
 
 Path = tuple[str | int, ...]

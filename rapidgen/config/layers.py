@@ -9,7 +9,14 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from rapidgen.config.schema import GROUP_KEYS
-from rapidgen.config.tree import MappingNode, Node, ScalarNode, SequenceNode, from_python, parse
+from rapidgen.config.yaml_tree import (
+    MappingNode,
+    Node,
+    ScalarNode,
+    SequenceNode,
+    from_python,
+    parse,
+)
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, Span, error
 
 Entries = dict[str, tuple[Span, Node]]

@@ -9,12 +9,12 @@ from pathlib import Path
 from rapidgen.config import schema
 from rapidgen.config.assemble import Assembly, Basis, assemble
 from rapidgen.config.build import build
-from rapidgen.config.contradictions import contradictions
+from rapidgen.config.consistency import contradictions
 from rapidgen.config.draft import DraftFindings, GroupDraft, JointDraft
-from rapidgen.config.few import few
 from rapidgen.config.layers import Overrides
 from rapidgen.config.model import ChainLink, RobotConfig
-from rapidgen.config.open_lines import take_open
+from rapidgen.config.placeholders import take_open
+from rapidgen.config.truncation import few
 from rapidgen.config.validate import validate
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, suggest
 

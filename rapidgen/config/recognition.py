@@ -11,7 +11,14 @@ from dataclasses import dataclass, replace
 from itertools import pairwise, product
 
 from rapidgen.config.geometry import Line, Skeleton, apply, distance, laid, turn
-from rapidgen.config.library import SAME_PLACE, SAME_TURN, Variant, closeness, family, variants
+from rapidgen.config.variant_library import (
+    SAME_PLACE,
+    SAME_TURN,
+    Variant,
+    closeness,
+    family,
+    variants,
+)
 from rapidgen.config.vectors import Vector, add, cross, dot, norm, scale, subtract, unit
 
 _ROUGH = 0.01

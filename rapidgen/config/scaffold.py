@@ -4,15 +4,15 @@ import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from rapidgen._writing import write_whole
+from rapidgen._atomic_write import write_whole
 from rapidgen.config import schema
 from rapidgen.config.catalogue import model_description
-from rapidgen.config.described import Answers, GroupText, describe
-from rapidgen.config.library import Variant, variants
+from rapidgen.config.from_description import Answers, GroupText, describe
 from rapidgen.config.load import load_config
 from rapidgen.config.model import RobotConfig
-from rapidgen.config.open_lines import OPEN
+from rapidgen.config.placeholders import OPEN
 from rapidgen.config.registry import find_shipped
+from rapidgen.config.variant_library import Variant, variants
 from rapidgen.config.variant_model import model_name, named
 from rapidgen.config.yaml_text import yaml_flow, yaml_text
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, refusal

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field, fields
 from typing import Annotated, Any, ClassVar, Literal, get_args
 
 from rapidgen.config.rules import Rule
-from rapidgen.config.tree import Number
+from rapidgen.config.yaml_tree import Number
 
 # fmt: off
 Axis = Literal[

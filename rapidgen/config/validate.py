@@ -16,7 +16,7 @@ from rapidgen._json import Json, items, members
 from rapidgen.config.layers import group_names
 from rapidgen.config.rules import Hint, core
 from rapidgen.config.schema import FORMS, GROUP_KEYS, TOP_KEYS, ConfigurationKeys
-from rapidgen.config.tree import MappingNode, place_of, to_python
+from rapidgen.config.yaml_tree import MappingNode, place_of, to_python
 from rapidgen.diagnostics import Diagnostic, error, suggest
 
 Path = tuple[str | int, ...]

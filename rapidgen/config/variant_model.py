@@ -7,8 +7,8 @@ is known; what another one lacks is said. Speeds that no source has stay open (R
 import re
 
 from rapidgen._data import data_folder
-from rapidgen.config.library import Variant, variants
-from rapidgen.config.open_lines import OPEN
+from rapidgen.config.placeholders import OPEN
+from rapidgen.config.variant_library import Variant, variants
 from rapidgen.config.vectors import Vector, subtract
 
 PATH = data_folder("robots") / "variants.json"

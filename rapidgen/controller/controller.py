@@ -7,26 +7,26 @@ from os import PathLike
 from pathlib import Path
 from typing import Literal, TypedDict, TypeVar, get_args
 
+from rapidgen._compat import Self, Unpack
 from rapidgen.config.model import GroupConfig, RobotConfig
-from rapidgen.controller.booting import Bootable, Wishes, load_target
+from rapidgen.controller.boot_targets import Bootable, Wishes, load_target
+from rapidgen.controller.cell_setup import Surroundings, settle
 from rapidgen.controller.event_log import ControllerLog
 from rapidgen.controller.faults import FaultPlan
 from rapidgen.controller.faults import schedule as schedule_faults
 from rapidgen.controller.loading import Trees, configured, load
 from rapidgen.controller.operation import OperatingMode, Operation
-from rapidgen.controller.surroundings import Surroundings, settle
 from rapidgen.controller.system_signals import SystemSignals
 from rapidgen.controller.thread import ControllerThread
 from rapidgen.controller.views import Signals, TaskView, unknown
 from rapidgen.machine.arc_equipment import ArcEquipment
 from rapidgen.machine.cameras import cameras
-from rapidgen.machine.costs import Costs
+from rapidgen.machine.cost_model import Costs
 from rapidgen.machine.egm import EgmSessions
 from rapidgen.machine.files import FileSystem
 from rapidgen.machine.force import ForceSensors
 from rapidgen.machine.io import IOSystem
-from rapidgen.machine.meetings import Meetings
-from rapidgen.machine.network.faulty import FaultyNetwork
+from rapidgen.machine.network.fault_injection import FaultyNetwork
 from rapidgen.machine.network.interface import Network
 from rapidgen.machine.network.memory import MemoryNetwork
 from rapidgen.machine.network.sockets import SocketTable
@@ -34,18 +34,18 @@ from rapidgen.machine.network.system import PortMap, SystemNetwork
 from rapidgen.machine.operator import Answer, Operator
 from rapidgen.machine.scheduler import AdvanceEnd, ClockKind, Schedule, Scheduler
 from rapidgen.machine.smart_gripper import Hands
+from rapidgen.machine.sync_points import Meetings
 from rapidgen.machine.system_parameters import SystemParameters
-from rapidgen.machine.texts import TextTables
+from rapidgen.machine.text_tables import TextTables
 from rapidgen.motion.group import MotionGroup
 from rapidgen.motion.recorder import Recorder
 from rapidgen.motion.system import MotionSystem
-from rapidgen.python310 import Self, Unpack
 from rapidgen.rapid.switches import Switches
 from rapidgen.runtime.compiler.context import Options
 from rapidgen.runtime.compiler.linking import Shared
 from rapidgen.runtime.queues import QueueSystem
 from rapidgen.runtime.robot_data import RobotData
-from rapidgen.runtime.task.statements import Statements
+from rapidgen.runtime.task.statement_hooks import Statements
 from rapidgen.runtime.task.task import Task
 from rapidgen.system.model import System
 

@@ -7,7 +7,7 @@ TRYNEXT make thousands a second, of which the log keeps the last.
 from collections import deque
 from collections.abc import Callable, Iterator
 
-from rapidgen.machine.log import Event, EventLog, EventType, TimeSource
+from rapidgen.machine.event_log import Event, EventLog, EventType, TimeSource
 from rapidgen.runtime.errors import error_name
 
 RECOVERED = 40_199

@@ -6,8 +6,8 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from rapidgen.config import load_config, shipped_names
-from rapidgen.config.compiled import shipped_groups
 from rapidgen.config.model import GroupConfig
+from rapidgen.config.model_cache import shipped_groups
 from rapidgen.diagnostics import Diagnostic, Severity, error, refusal
 from rapidgen.system.model import System
 
@@ -104,7 +104,7 @@ def robots_named(name: str) -> Sequence[GroupConfig]:
     """The robots that a user names: a shipped model, a configuration, a variant of the library."""
     if name in shipped_names():
         return shipped_groups(name)
-    from rapidgen.config.of_variant import group_of, variant_named
+    from rapidgen.config.variant_group import group_of, variant_named
 
     variant = variant_named(name)
     group = group_of(variant) if variant is not None else None
@@ -114,7 +114,7 @@ def robots_named(name: str) -> Sequence[GroupConfig]:
 def _of_type(name: str, unit: str) -> tuple[Sequence[GroupConfig], list[Diagnostic]]:
     """The robots of a type in MOC.cfg: of the very variant, else of the model of its number."""
     from rapidgen.config.catalogue import model_description
-    from rapidgen.config.of_variant import ASSUMED_SPEED, group_of, variants_of
+    from rapidgen.config.variant_group import ASSUMED_SPEED, group_of, variants_of
 
     very, kin = variants_of(name)
     model = model_of(name)

@@ -1,10 +1,10 @@
 """Plan, apply, verify and roll back what lies on a controller."""
 
 from rapidgen.deploy.apply import apply
-from rapidgen.deploy.driverset import DriverSet, from_files, from_folder
-from rapidgen.deploy.keep import backup_set
+from rapidgen.deploy.driver_set import DriverSet, from_files, from_folder
 from rapidgen.deploy.plan import Plan, plan_json
-from rapidgen.deploy.planning import make_plan
+from rapidgen.deploy.planner import make_plan
+from rapidgen.deploy.retention import backup_set
 from rapidgen.deploy.target import Access, connect, parse_target
 from rapidgen.deploy.transports.registry import Target
 from rapidgen.deploy.transports.transport import Transport, TransportFault

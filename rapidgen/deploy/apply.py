@@ -10,23 +10,8 @@ from collections.abc import Callable
 from contextlib import nullcontext
 from dataclasses import replace
 
-from rapidgen.deploy.driverset import FENCE, NEW, DriverSet, SetFile, digest
-from rapidgen.deploy.keep import (
-    back_up,
-    delete_backup,
-    delete_backups,
-    delete_empty_folders,
-    new_manifest,
-    now,
-)
-from rapidgen.deploy.live.carry import Live, LiveOptions, after_files, before_files, check, writing
-from rapidgen.deploy.live.plan import InMemory
-from rapidgen.deploy.neighbour import Neighbour
-from rapidgen.deploy.plan import DAMAGED, FileChange, Plan
-from rapidgen.deploy.planning import make_plan
-from rapidgen.deploy.state import Journal, encode, journal_json, manifest_json
-from rapidgen.deploy.transports.transport import Transport, TransportFault, read_or_none, refused
-from rapidgen.deploy.work import (
+from rapidgen.deploy.driver_set import FENCE, NEW, DriverSet, SetFile, digest
+from rapidgen.deploy.file_operations import (
     Say,
     Work,
     delete,
@@ -39,6 +24,28 @@ from rapidgen.deploy.work import (
     swap,
     write,
 )
+from rapidgen.deploy.online.apply import (
+    Live,
+    LiveOptions,
+    after_files,
+    before_files,
+    check,
+    writing,
+)
+from rapidgen.deploy.online.plan import InMemory
+from rapidgen.deploy.other_driver import Neighbour
+from rapidgen.deploy.plan import DAMAGED, FileChange, Plan
+from rapidgen.deploy.planner import make_plan
+from rapidgen.deploy.retention import (
+    back_up,
+    delete_backup,
+    delete_backups,
+    delete_empty_folders,
+    new_manifest,
+    now,
+)
+from rapidgen.deploy.state_folder import Journal, encode, journal_json, manifest_json
+from rapidgen.deploy.transports.transport import Transport, TransportFault, read_or_none, refused
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, error
 
 

@@ -10,11 +10,11 @@ from typing import Literal
 from rapidgen._json import members, whole
 from rapidgen.client.core.motion import fix_of
 from rapidgen.deploy.cfg import keyed, may_be_refused, name_of
-from rapidgen.deploy.driverset import DriverSet
-from rapidgen.deploy.live.plan import LivePlan
-from rapidgen.deploy.neighbour import MODULE
+from rapidgen.deploy.driver_set import DriverSet
+from rapidgen.deploy.online.plan import LivePlan
+from rapidgen.deploy.other_driver import MODULE
 from rapidgen.deploy.plan import Plan
-from rapidgen.deploy.planning import make_plan
+from rapidgen.deploy.planner import make_plan
 from rapidgen.deploy.secrets import Credentials, Secret
 from rapidgen.deploy.syspar import loaded_cfg
 from rapidgen.deploy.target import Access, connect, credentials

@@ -10,11 +10,11 @@ from typing import Literal
 
 from rapidgen._json import Json, Members
 from rapidgen.deploy.cfg import CfgChange
-from rapidgen.deploy.driverset import DriverSet, digest
-from rapidgen.deploy.live.plan import LivePlan
-from rapidgen.deploy.neighbour import Neighbour
-from rapidgen.deploy.state import FileRecord, Manifest, StateFolder
-from rapidgen.deploy.steps import ManualStep
+from rapidgen.deploy.driver_set import DriverSet, digest
+from rapidgen.deploy.manual_steps import ManualStep
+from rapidgen.deploy.online.plan import LivePlan
+from rapidgen.deploy.other_driver import Neighbour
+from rapidgen.deploy.state_folder import FileRecord, Manifest, StateFolder
 from rapidgen.system import CfgText
 
 DAMAGED = (

@@ -9,8 +9,8 @@ from collections.abc import Sequence
 
 from rapidgen._json import members
 from rapidgen.deploy.cfg import CfgChange
-from rapidgen.deploy.driverset import DriverSet
-from rapidgen.deploy.steps import ManualStep
+from rapidgen.deploy.driver_set import DriverSet
+from rapidgen.deploy.manual_steps import ManualStep
 from rapidgen.deploy.transports.transport import refused
 from rapidgen.system import CfgText, Instance
 

@@ -5,7 +5,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
 
-from rapidgen.python310 import StrEnum
+from rapidgen._compat import StrEnum
 
 
 class Severity(StrEnum):

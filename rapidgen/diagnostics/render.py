@@ -4,10 +4,10 @@ import json
 import re
 from collections.abc import Callable, Iterable, Sequence
 
+from rapidgen._compat import StrEnum
 from rapidgen._json import Json
 from rapidgen._reading import read_foreign
 from rapidgen.diagnostics.model import Diagnostic, Severity, Span
-from rapidgen.python310 import StrEnum
 
 _COLOURS = {Severity.ERROR: "1;31", Severity.WARNING: "1;33", Severity.INFO: "1;36"}
 _LARGEST = 20_000_000

@@ -8,9 +8,9 @@ if TYPE_CHECKING:
     from collections.abc import Collection
 
     from rapidgen.config.model import RobotConfig
-    from rapidgen.generate.cell import Cell
+    from rapidgen.generate.existing_controller import Cell
     from rapidgen.system import System
-    from rapidgen.system.onto import Under
+    from rapidgen.system.build_loading import Under
 
 __all__ = ["Change", "Output", "OutputFile", "build", "compare", "make_system", "write"]
 

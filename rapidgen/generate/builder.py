@@ -14,19 +14,25 @@ from rapidgen.config import to_manifest
 from rapidgen.config.model import GroupConfig, RobotConfig
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.generate import layout
-from rapidgen.generate.cell import Cell, check_data, in_the_way, missing, used_signals
 from rapidgen.generate.cell_routines import check_routines
 from rapidgen.generate.context import group_context, used_constants
+from rapidgen.generate.existing_controller import (
+    Cell,
+    check_data,
+    in_the_way,
+    missing,
+    used_signals,
+)
 from rapidgen.generate.lint import lint
-from rapidgen.generate.naming import check_tasks, naming
+from rapidgen.generate.name_checks import check_tasks, naming
 from rapidgen.generate.numbers import literal
 from rapidgen.generate.output import Output, OutputFile, manifest_file
 from rapidgen.generate.parameters import OPEN_FILES, cfg_files
 from rapidgen.generate.readme import readme_context
 from rapidgen.generate.render import Rendered, Renderer
 from rapidgen.system import ModuleFile, System, TaskSpec, expand_lines, write_cfg
-from rapidgen.system.interpret import ModuleEntry
-from rapidgen.system.onto import Under, additions, delivered, of_backup, onto
+from rapidgen.system.build_loading import Under, additions, delivered, of_backup, onto
+from rapidgen.system.cfg_reader import ModuleEntry
 
 # In the place of the build's id until all is there that it depends on; as long as one.
 _UNKNOWN = "{build---id}"

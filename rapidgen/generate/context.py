@@ -20,7 +20,7 @@ from rapidgen.config.model import (
     WorkObject,
 )
 from rapidgen.generate import layout
-from rapidgen.generate.hello import hello_reply
+from rapidgen.generate.hello_reply import hello_reply
 from rapidgen.generate.lint import MAX_LINE
 from rapidgen.generate.numbers import inward, literal
 from rapidgen.generate.status import STATUS_SIGNALS

@@ -8,7 +8,7 @@ from rapidgen.generate import layout
 from rapidgen.generate.context import to_rapid
 from rapidgen.generate.numbers import inward, literal
 from rapidgen.system import System
-from rapidgen.system.compose import SIGNALS_IN_SYS
+from rapidgen.system.cfg_writer import SIGNALS_IN_SYS
 
 _TRUST = {"SysFail": "SysFail", "SysStop": "SysStop", "NoSafety": "None (no safety)"}
 

@@ -14,9 +14,9 @@ from contextlib import suppress
 from pathlib import Path
 from typing import IO
 
+from rapidgen._compat import StrEnum
 from rapidgen._reading import NotRegular, TooLarge, open_foreign
 from rapidgen.diagnostics import refusal
-from rapidgen.python310 import StrEnum
 
 _DEVICES = {
     "home:": "HOME",

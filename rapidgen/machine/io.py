@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from typing import Final, Literal
 
-from rapidgen.machine.log import EventLog
+from rapidgen.machine.event_log import EventLog
 from rapidgen.machine.scheduler import S, Scheduler, Timer, WaitSet
 from rapidgen.system.model import CrossConnection, SignalSpec, SignalType, System
 

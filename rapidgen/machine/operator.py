@@ -11,7 +11,7 @@ from itertools import count
 from pathlib import Path
 
 from rapidgen._reading import read_foreign
-from rapidgen.config.tree import MAX_BYTES, data_of
+from rapidgen.config.yaml_tree import MAX_BYTES, data_of
 from rapidgen.diagnostics import DiagnosticError, Span, error
 from rapidgen.machine.scheduler import S, Scheduler, WaitSet
 

@@ -8,9 +8,9 @@ from rapidgen.axes import frames
 from rapidgen.axes.frames import Pose
 from rapidgen.axes.kinematics import ConfigurationCheck, Kinematics, Posture
 from rapidgen.axes.limits import outside
-from rapidgen.axes.shapes import LARGEST_ARC, Arc, Line, arc_through
-from rapidgen.axes.unreached import unreached
-from rapidgen.motion.faults import MotionFault, Refusal
+from rapidgen.axes.path_shapes import LARGEST_ARC, Arc, Line, arc_through
+from rapidgen.axes.reach_errors import unreached
+from rapidgen.motion.fault_reasons import MotionFault, Refusal
 from rapidgen.motion.moves import (
     NO_TURN,
     SHORTEST,
@@ -23,7 +23,7 @@ from rapidgen.motion.moves import (
 )
 from rapidgen.motion.pieces import AxisLimits, Piece
 from rapidgen.motion.sampling import interval_limits, largest_step, spaced
-from rapidgen.motion.singular import put_tcp, wrist_end, wrist_places
+from rapidgen.motion.singularities import put_tcp, wrist_end, wrist_places
 
 _STEP = 0.12
 """rad or m of one axis that an interval of the sampling should not exceed."""

@@ -12,7 +12,7 @@ from rapidgen.axes import frames
 from rapidgen.axes.frames import Pose, Quaternion, Vector
 from rapidgen.axes.kinematics import Kinematics, Posture
 from rapidgen.motion.cartesian import CartesianWay, external_places, with_external
-from rapidgen.motion.faults import MotionFault, Refusal
+from rapidgen.motion.fault_reasons import MotionFault, Refusal
 from rapidgen.motion.legs import Geometry, JointWay, Leg
 from rapidgen.motion.moves import (
     NO_TURN,

@@ -7,12 +7,12 @@ from rapidgen.axes.kinematics import Posture
 from rapidgen.config.model import Joint
 from rapidgen.machine.scheduler import S, Scheduler
 from rapidgen.motion import smoothing
-from rapidgen.motion.coasting import Coast, coast, moment_before
+from rapidgen.motion.braking import Coast, coast, moment_before
 from rapidgen.motion.motion import Motion
 from rapidgen.motion.path import Path
 from rapidgen.motion.pieces import Piece
 from rapidgen.motion.settings import MotionSettings
-from rapidgen.motion.timelaw import Stretch, TimeLaw, brake, plan
+from rapidgen.motion.speed_profile import Stretch, TimeLaw, brake, plan
 
 MANUAL_REDUCED = 0.25
 """m/s of the TCP in manual mode with reduced speed."""

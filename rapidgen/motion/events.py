@@ -1,6 +1,6 @@
 """Events that a robot writes by itself. Numbers from 59900 on are ours: ABB's are not public."""
 
-from rapidgen.machine.log import EventLog
+from rapidgen.machine.event_log import EventLog
 from rapidgen.motion.moves import Move
 
 CORNER_PATH_FAILURE = 50_024

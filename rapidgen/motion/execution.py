@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from math import ceil, inf
 
 from rapidgen.axes.kinematics import Posture
-from rapidgen.machine.log import EventLog
+from rapidgen.machine.event_log import EventLog
 from rapidgen.machine.scheduler import S, Scheduler, Timer, WaitSet
 from rapidgen.motion import events
 from rapidgen.motion.corners import zone_entry
@@ -18,11 +18,11 @@ from rapidgen.motion.legs import Leg
 from rapidgen.motion.motion import Motion
 from rapidgen.motion.moves import Move
 from rapidgen.motion.path import Path
-from rapidgen.motion.pathevents import PathEvents
+from rapidgen.motion.path_events import PathEvents
 from rapidgen.motion.pieces import AxisLimits
 from rapidgen.motion.planner import Planner
-from rapidgen.motion.punctuality import Punctuality
-from rapidgen.motion.timelaw import TimeLaw
+from rapidgen.motion.speed_profile import TimeLaw
+from rapidgen.motion.timing_monitor import Punctuality
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,11 +11,11 @@ from typing import Protocol
 from rapidgen.axes.kinematics import Kinematics, MovingFrame, Posture
 from rapidgen.axes.mapping import JointMap
 from rapidgen.config.model import GroupConfig
+from rapidgen.machine.event_log import EventLog
 from rapidgen.machine.io import IOSystem
-from rapidgen.machine.log import EventLog
 from rapidgen.machine.scheduler import Scheduler, WaitSet
 from rapidgen.motion.execution import PathExecution, PutAside
-from rapidgen.motion.faults import MotionFault, Refusal
+from rapidgen.motion.fault_reasons import MotionFault, Refusal
 from rapidgen.motion.legs import Leg
 from rapidgen.motion.modal import ModalSettings
 from rapidgen.motion.motion import Motion

@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 from math import inf
 
 from rapidgen.axes.frames import IDENTITY, Pose
-from rapidgen.axes.shapes import CircleMode
+from rapidgen.axes.path_shapes import CircleMode
 from rapidgen.motion.moves import Singularities
 
 

@@ -6,11 +6,11 @@ from math import ceil
 from rapidgen.axes.kinematics import Posture
 from rapidgen.machine.scheduler import S
 from rapidgen.motion import smoothing
-from rapidgen.motion.coasting import Coast
+from rapidgen.motion.braking import Coast
 from rapidgen.motion.moves import Move
 from rapidgen.motion.path import posture_at
 from rapidgen.motion.pieces import Piece
-from rapidgen.motion.timelaw import TimeLaw
+from rapidgen.motion.speed_profile import TimeLaw
 
 
 @dataclass(frozen=True, slots=True)

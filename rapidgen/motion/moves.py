@@ -7,8 +7,8 @@ from math import inf, sqrt
 
 from rapidgen.axes.frames import IDENTITY, Pose, compose, invert
 from rapidgen.axes.kinematics import AxisConfiguration, MovingFrame, Posture
-from rapidgen.axes.shapes import CircleMode
-from rapidgen.motion.faults import MotionFault, Refusal
+from rapidgen.axes.path_shapes import CircleMode
+from rapidgen.motion.fault_reasons import MotionFault, Refusal
 
 NO_WAY = 1e-7
 """m of TCP way that count as none."""

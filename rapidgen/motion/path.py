@@ -11,7 +11,7 @@ from rapidgen.motion.corners import corner
 from rapidgen.motion.legs import Geometry, Leg
 from rapidgen.motion.moves import Move
 from rapidgen.motion.pieces import AxisLimits, Piece, joint_line
-from rapidgen.motion.timelaw import TimeLaw
+from rapidgen.motion.speed_profile import TimeLaw
 
 WayMaker = Callable[[Posture, Move, bool], Geometry]
 """(from, move, from rest) -> geometry of the move."""

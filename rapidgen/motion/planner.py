@@ -11,7 +11,7 @@ from rapidgen.axes.kinematics import Kinematics, Posture
 from rapidgen.axes.limits import outside
 from rapidgen.config.model import GroupConfig
 from rapidgen.motion.cartesian import CartesianWay
-from rapidgen.motion.faults import MotionFault, Refusal
+from rapidgen.motion.fault_reasons import MotionFault, Refusal
 from rapidgen.motion.legs import Geometry, joint_measure, joint_way, lever_measure
 from rapidgen.motion.modal import ModalSettings
 from rapidgen.motion.moves import NO_WAY, CartesianMove, JointMove, Move

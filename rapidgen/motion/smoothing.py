@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
-from rapidgen.motion.timelaw import Stretch, TimeLaw
+from rapidgen.motion.speed_profile import Stretch, TimeLaw
 
 _ROUNDS = 60
 _EXACT = 1e-11

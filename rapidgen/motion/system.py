@@ -3,8 +3,8 @@
 from collections.abc import Callable, Iterable
 
 from rapidgen.config.model import GroupConfig
+from rapidgen.machine.event_log import EventLog
 from rapidgen.machine.io import IOSystem
-from rapidgen.machine.log import EventLog
 from rapidgen.machine.scheduler import Scheduler
 from rapidgen.motion.group import MotionGroup
 from rapidgen.motion.recorder import Recorder

@@ -18,7 +18,7 @@ from rapidgen.motion import smoothing
 from rapidgen.motion.group import MotionGroup
 from rapidgen.motion.motion import Motion
 from rapidgen.motion.path import posture_at
-from rapidgen.motion.timelaw import brake
+from rapidgen.motion.speed_profile import brake
 
 _FASTEST_TCP = 10.0
 """m/s that no TCP exceeds, for moves whose speed in space is not known."""

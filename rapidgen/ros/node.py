@@ -36,12 +36,12 @@ from rapidgen.client.errors import RobotError
 from rapidgen.config import load_config
 from rapidgen.config.model import RobotConfig
 from rapidgen.diagnostics import DiagnosticError
-from rapidgen.ros.following import GoalFeedback, UnderWay, reason
+from rapidgen.ros.goal_execution import GoalFeedback, UnderWay, reason
 from rapidgen.ros.goals import Ending, Goal, Outcome, Point, Tolerance
-from rapidgen.ros.keeping import RobotLink, set_speeds
-from rapidgen.ros.own_services import ARE_THERE, MISSING, Message, Serve, services
 from rapidgen.ros.parameters import DECLARED, NAMES, WHOLE, Parameters, check_address, read
-from rapidgen.ros.telling import Health, JointStates, RobotStatus
+from rapidgen.ros.robot_link import RobotLink, set_speeds
+from rapidgen.ros.status_messages import Health, JointStates, RobotStatus
+from rapidgen.ros.user_services import ARE_THERE, MISSING, Message, Serve, services
 
 try:  # A package that not every distribution has.
     from industrial_msgs.msg import RobotStatus as RobotStatusMessage

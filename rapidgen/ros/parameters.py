@@ -8,7 +8,7 @@ from typing import Any, Literal, cast
 from rapidgen.client.address import parse_address
 from rapidgen.config.model import RobotConfig
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, error
-from rapidgen.ros.following import Policy
+from rapidgen.ros.goal_execution import Policy
 from rapidgen.ros.goals import Defaults
 
 WHOLE = 100.0

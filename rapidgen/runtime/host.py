@@ -6,20 +6,20 @@ from typing import Literal, Protocol, TypeAlias
 
 from rapidgen.machine.arc_equipment import ArcEquipment
 from rapidgen.machine.cameras import Camera
-from rapidgen.machine.costs import Costs
+from rapidgen.machine.cost_model import Costs
 from rapidgen.machine.egm import EgmSessions
+from rapidgen.machine.event_log import EventLog
 from rapidgen.machine.files import FileSystem
 from rapidgen.machine.force import ForceSensors
 from rapidgen.machine.io import IOSystem
-from rapidgen.machine.log import EventLog
-from rapidgen.machine.meetings import Meetings
 from rapidgen.machine.network.interface import Network
 from rapidgen.machine.network.sockets import SocketTable
 from rapidgen.machine.operator import Operator
 from rapidgen.machine.scheduler import Scheduler
 from rapidgen.machine.smart_gripper import Hands
+from rapidgen.machine.sync_points import Meetings
 from rapidgen.machine.system_parameters import SystemParameters
-from rapidgen.machine.texts import TextTables
+from rapidgen.machine.text_tables import TextTables
 from rapidgen.motion.group import Waiter
 from rapidgen.motion.system import MotionSystem
 from rapidgen.rapid.switches import Switches
@@ -30,7 +30,7 @@ from rapidgen.runtime.cyclic import CyclicBools
 from rapidgen.runtime.errors import FatalError, Location
 from rapidgen.runtime.queues import QueueSystem
 from rapidgen.runtime.robot_data import RobotData
-from rapidgen.runtime.task.statements import Statements
+from rapidgen.runtime.task.statement_hooks import Statements
 from rapidgen.system.model import ModuleFile, System, TaskSpec
 
 TaskState: TypeAlias = Literal["ready", "running", "stopped", "finished", "error", "empty"]

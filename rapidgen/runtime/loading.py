@@ -9,8 +9,8 @@ from pathlib import Path
 from rapidgen._reading import TooLarge, read_foreign
 from rapidgen.diagnostics import Severity
 from rapidgen.machine.calendar import date_time
-from rapidgen.runtime.compiler.missing import missing_routines
 from rapidgen.runtime.compiler.symbols import LoadedModule, Origin
+from rapidgen.runtime.compiler.undefined_calls import missing_routines
 from rapidgen.runtime.disks import file_path, spend
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.host import RapidTask

@@ -17,9 +17,9 @@ if TYPE_CHECKING:
         parse_cfg,
         write_cfg,
     )
-    from rapidgen.system.compose import eio_cfg, sys_cfg
+    from rapidgen.system.cfg_writer import eio_cfg, sys_cfg
     from rapidgen.system.folder import expand_lines, is_generated, read_folder, read_manifest
-    from rapidgen.system.loose import read_files, task_folders
+    from rapidgen.system.loose_files import read_files, task_folders
     from rapidgen.system.model import (
         CrossConnection,
         EventRoutine,
@@ -92,7 +92,7 @@ def read_system(path: Path | str, *, notes: list[Diagnostic] | None = None) -> "
     from rapidgen.diagnostics import refusal
     from rapidgen.system.backup import is_backup, read_backup
     from rapidgen.system.folder import is_generated, read_folder
-    from rapidgen.system.loose import read_files
+    from rapidgen.system.loose_files import read_files
 
     path = Path(path)
     if path.is_dir():

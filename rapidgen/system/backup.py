@@ -12,12 +12,12 @@ from dataclasses import replace
 from pathlib import Path
 
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, error, refusal
-from rapidgen.system.adding import faults_within
 from rapidgen.system.arc import arc_signals
 from rapidgen.system.base.releases import DOMAINS
 from rapidgen.system.cfg import CfgText, parse_cfg
+from rapidgen.system.cfg_loading import faults_within
+from rapidgen.system.cfg_reader import ModuleEntry, modules_of, tasks_of, with_cfg
 from rapidgen.system.controller_cfg import ControllerCfg
-from rapidgen.system.interpret import ModuleEntry, modules_of, tasks_of, with_cfg
 from rapidgen.system.loading import load_entries, load_module
 from rapidgen.system.model import ModuleFile, System, TaskSpec, UdpDevice
 from rapidgen.system.paths import inside, is_there, module_files, read_limited

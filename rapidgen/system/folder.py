@@ -9,10 +9,10 @@ from pathlib import Path
 from rapidgen._json import Json, Members, items, members, text, whole
 from rapidgen.diagnostics import Diagnostic
 from rapidgen.system.backup import backup_cfg, read_backup
-from rapidgen.system.interpret import ModuleEntry
+from rapidgen.system.build_loading import Under, additions, bad_manifest, delivered, of_backup, onto
+from rapidgen.system.cfg_reader import ModuleEntry
 from rapidgen.system.loading import Origin, load_entries
 from rapidgen.system.model import ModuleFile, System, TaskSpec
-from rapidgen.system.onto import Under, additions, bad_manifest, delivered, of_backup, onto
 from rapidgen.system.paths import inside, is_there, read_limited
 
 MANIFEST = "manifest.json"

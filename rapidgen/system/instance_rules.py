@@ -5,8 +5,7 @@ from dataclasses import dataclass
 
 from rapidgen.diagnostics import Diagnostic, Span, error, suggest
 from rapidgen.system.cfg import CfgText, Instance
-from rapidgen.system.controller_cfg import ControllerCfg
-from rapidgen.system.vocabulary import (
+from rapidgen.system.cfg_schema import (
     INPUTS,
     OPEN_7,
     OUTPUTS_7,
@@ -16,6 +15,7 @@ from rapidgen.system.vocabulary import (
     TRUST_LEVELS,
     SystemSignal,
 )
+from rapidgen.system.controller_cfg import ControllerCfg
 
 _MAX_NAME = 32
 """Characters of a task's or signal's name [mem]."""

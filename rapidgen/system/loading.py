@@ -5,7 +5,7 @@ import re
 from pathlib import Path
 
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, Span, error, refusal
-from rapidgen.system.interpret import ModuleEntry
+from rapidgen.system.cfg_reader import ModuleEntry
 from rapidgen.system.model import ModuleFile, TaskSpec
 from rapidgen.system.paths import (
     MODULE_SUFFIXES,

@@ -23,7 +23,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from rapidgen.python310 import Unpack
+from rapidgen._compat import Unpack
 
 if TYPE_CHECKING:
     from rapidgen.controller.controller import Choices, VirtualController
@@ -87,7 +87,7 @@ def virtual_controller(
     list, or a `System`. `robot`, `entry`, `cell` and `start` are those of `rapidgen run`, all other
     options those of `VirtualController`. All are closed after the test.
     """
-    from rapidgen.controller.booting import Wishes, load_target
+    from rapidgen.controller.boot_targets import Wishes, load_target
     from rapidgen.controller.controller import VirtualController
     from rapidgen.system.model import System
 

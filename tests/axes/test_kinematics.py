@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 import yourdfpy
 
-from rapidgen.axes import frames, numeric
+from rapidgen.axes import frames, numeric_ik
 from rapidgen.axes.kinematics import Kinematics, quarter
-from rapidgen.axes.wrist import BRANCHES
+from rapidgen.axes.spherical_wrist import BRANCHES
 from rapidgen.config import load_config, shipped_names
 
 GROUPS = [(name, group) for name in shipped_names() for group in load_config(name).groups]
@@ -303,8 +303,8 @@ def test_home_of_an_irb_140():
 def test_endlessly_many_postures_of_a_pose_are_compared_all_at_once(monkeypatch):
     """A tool straight down on axis 1: axes 1 and 6 turn about one line, most starts arrive."""
     calls = []
-    wrapped = numeric._wrapped
-    monkeypatch.setattr(numeric, "_wrapped", lambda *a: calls.append(1) or wrapped(*a))
+    wrapped = numeric_ik._wrapped
+    monkeypatch.setattr(numeric_ik, "_wrapped", lambda *a: calls.append(1) or wrapped(*a))
     own = Kinematics.of(load_config("irb14050").groups[0])
     near = tuple((j.lower + j.upper) / 2 for j in own.group.joints)
     list(own.found(((0.0, 0.0, 0.05), (0.0, 1.0, 0.0, 0.0)), near))
@@ -314,4 +314,4 @@ def test_endlessly_many_postures_of_a_pose_are_compared_all_at_once(monkeypatch)
 def test_a_singular_arm_is_no_end_of_a_search():
     """Rows of the Jacobian vanish with a tool straight down in the robot's own foot."""
     singular = np.array([[1.0, 0.0], [0.0, 0.0]])
-    assert numeric.solved(singular, np.array([2.0, 0.0])) == pytest.approx([2.0, 0.0])
+    assert numeric_ik.solved(singular, np.array([2.0, 0.0])) == pytest.approx([2.0, 0.0])

@@ -12,7 +12,7 @@ import pytest
 from rapidgen.axes import frames
 from rapidgen.axes.arm_angle import ArmAngle
 from rapidgen.axes.kinematics import Kinematics
-from rapidgen.axes.unreached import unreached
+from rapidgen.axes.reach_errors import unreached
 from rapidgen.config import load_config
 
 # fmt: off

@@ -3,7 +3,7 @@
 import re
 
 from rapidgen.cli.app import main
-from rapidgen.view import plotting
+from rapidgen.viewer import plotting
 
 
 def test_it_says_each_step_and_what_comes_next(tmp_path, capsys, monkeypatch):

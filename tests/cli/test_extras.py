@@ -20,13 +20,13 @@ else:
 BEYOND = {
     "rapidgen.client.rws.": "web",
     "rapidgen.deploy.transports.rws": "web",
-    "rapidgen.faces.rws.server": "web",
-    "rapidgen.faces.web_thread": "web",
-    "rapidgen.proving.cluster": "cluster",
-    "rapidgen.view.doorkeeper": "web",
-    "rapidgen.view.drawn": "plot",
-    "rapidgen.view.recording": "recording",
-    "rapidgen.view.server": "web",
+    "rapidgen.servers.rws.server": "web",
+    "rapidgen.servers.aiohttp_thread": "web",
+    "rapidgen.verification.cluster": "cluster",
+    "rapidgen.viewer.auth": "web",
+    "rapidgen.viewer.matplotlib_charts": "plot",
+    "rapidgen.viewer.recording": "recording",
+    "rapidgen.viewer.server": "web",
 }
 PLAIN = f"""
 import json, sys

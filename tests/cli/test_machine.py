@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from rapidgen._writing import write_whole
+from rapidgen._atomic_write import write_whole
 from rapidgen.cli.app import main
 from rapidgen.config import load_config
 from rapidgen.generate import build
@@ -139,7 +139,7 @@ def test_a_file_is_written_whole_or_not_at_all(folder):
     script = (
         "import resource, signal\n"
         "from pathlib import Path\n"
-        "from rapidgen._writing import write_whole\n"
+        "from rapidgen._atomic_write import write_whole\n"
         "signal.signal(signal.SIGXFSZ, signal.SIG_IGN)\n"
         "resource.setrlimit(resource.RLIMIT_FSIZE, (10, 10))\n"
         "try:\n"

@@ -10,8 +10,8 @@ import sys
 import pytest
 
 from rapidgen.cli.app import main
-from rapidgen.cli.goals import Units, joints_of, read_figures
 from rapidgen.cli.move import within_limits
+from rapidgen.cli.target_text import Units, joints_of, read_figures
 from rapidgen.client import InvalidTrajectory, Trajectory
 from rapidgen.client.core.group import Group
 from rapidgen.config import load_config

@@ -10,7 +10,7 @@ import pytest
 import typer
 from typer.exceptions import TyperException
 
-from rapidgen.cli.plain_values import PlainCommand, plain
+from rapidgen.cli.option_values import PlainCommand, plain
 
 HELLO = 'MODULE hello\n PROC main()\n TPWrite "hello";\n ENDPROC\nENDMODULE\n'
 SAID = [

@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 from rapidgen._data import data_folder
-from rapidgen.cli import quick_stop
-from rapidgen.cli.quick_stop import STOP, addresses, control_addresses, group_ports, motion_ports
+from rapidgen.cli import send_stop
+from rapidgen.cli.send_stop import STOP, addresses, control_addresses, group_ports, motion_ports
 from rapidgen.client.address import parse_address
 from rapidgen.client.core.robot import STOP_FRAME
 from rapidgen.config import load_config, shipped_names
@@ -161,7 +161,7 @@ def test_stop_goes_to_both_ports_at_once():
         servers = [stack.enter_context(socket.create_server(("127.0.0.1", 0))) for _ in range(2)]
         motion, control = (server.getsockname()[1] for server in servers)
         # Neither answers, and the state port is another's: neither waits for anything else.
-        quick_stop.send([f"127.0.0.1:{motion},1,{control}"])
+        send_stop.send([f"127.0.0.1:{motion},1,{control}"])
         for server in servers:
             server.settimeout(60)
             link = stack.enter_context(server.accept()[0])
@@ -175,7 +175,7 @@ def test_a_port_that_refuses_keeps_the_other_from_nothing(refused):
             free = gone.getsockname()[1]
         ports = [server.getsockname()[1], free]
         motion, control = reversed(ports) if refused == 0 else ports
-        quick_stop.send([f"127.0.0.1:{motion},1,{control}"])
+        send_stop.send([f"127.0.0.1:{motion},1,{control}"])
         server.settimeout(60)
         with server.accept()[0] as link:
             assert link.makefile("rb").read() == STOP
@@ -187,7 +187,7 @@ def test_a_name_with_several_addresses_is_tried_at_all(monkeypatch):
         wrong = (socket.AF_INET, socket.SOCK_STREAM, 0, "", ("127.0.0.3", port))
         right = (socket.AF_INET, socket.SOCK_STREAM, 0, "", ("127.0.0.1", port))
         monkeypatch.setattr(socket, "getaddrinfo", lambda *_, **__: [wrong, right])
-        quick_stop.send([f"robot.lab:{port},1"])
+        send_stop.send([f"robot.lab:{port},1"])
         server.settimeout(60)
         with server.accept()[0] as link:
             assert link.makefile("rb").read() == STOP
@@ -196,9 +196,9 @@ def test_a_name_with_several_addresses_is_tried_at_all(monkeypatch):
 def test_no_group_waits_for_the_answer_of_another(monkeypatch):
     servers = [socket.create_server(("127.0.0.1", 0)) for _ in range(2)]
     places = [("127.0.0.1", server.getsockname()[1]) for server in servers]
-    monkeypatch.setattr(quick_stop, "addresses", lambda _: places)
+    monkeypatch.setattr(send_stop, "addresses", lambda _: places)
     # Nobody answers; what was sent waits in the backlogs.
-    quick_stop.send([])
+    send_stop.send([])
     for server in servers:
         server.settimeout(60)
         with server, server.accept()[0] as link:
@@ -218,5 +218,5 @@ def test_nothing_heavy_is_imported_before_it():
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
     assert done.stdout == (
         "['rapidgen', 'rapidgen._data', 'rapidgen._reading', 'rapidgen.cli', "
-        "'rapidgen.cli.entry', 'rapidgen.cli.quick_stop'] []\n"
+        "'rapidgen.cli.entry', 'rapidgen.cli.send_stop'] []\n"
     ), done.stderr

@@ -8,10 +8,10 @@ from contextlib import ExitStack
 
 import pytest
 
-from rapidgen._running import Simulator, folder, published, running
-from rapidgen.cli import quick_stop
+from rapidgen._simulator_registry import Simulator, folder, published, running
+from rapidgen.cli import send_stop
 from rapidgen.cli.app import main
-from rapidgen.client.simulated import find_simulator
+from rapidgen.client.sim_address import find_simulator
 from tests.refusal import refusal
 
 ARM = Simulator("irb120", 7, {"rob1": "127.0.0.1:11000,11002,11001"})
@@ -38,14 +38,14 @@ def test_groups_are_told_apart():
     with published(YUMI):
         assert find_simulator("irb14000", "rob_r").motion == 11
         assert "--group rob_l or rob_r" in refusal(find_simulator, "irb14000").diagnostics[0].help
-        assert quick_stop.addresses(["irb14000", "--to", "sim"]) == [
+        assert send_stop.addresses(["irb14000", "--to", "sim"]) == [
             ("127.0.0.1", 1),
             ("127.0.0.1", 11),
         ]
-        assert quick_stop.addresses(["irb14000", "--to", "sim", "--group", "rob_r"]) == [
+        assert send_stop.addresses(["irb14000", "--to", "sim", "--group", "rob_r"]) == [
             ("127.0.0.1", 11)
         ]
-        assert len(quick_stop.addresses(["sim"])) == 2
+        assert len(send_stop.addresses(["sim"])) == 2
 
 
 @pytest.mark.parametrize(
@@ -76,7 +76,7 @@ def test_others_are_not_counted_where_it_is_not_clear_which():
 def test_one_that_ended_without_a_word_is_told_of_and_forgotten(caplog):
     script = (
         "import os, signal\n"
-        "from rapidgen._running import Simulator, published\n"
+        "from rapidgen._simulator_registry import Simulator, published\n"
         "with published(Simulator('irb120', os.getpid(), {'rob1': '127.0.0.1:1,3'})):\n"
         "    os.kill(os.getpid(), signal.SIGKILL)\n"
     )

@@ -8,8 +8,8 @@ from types import SimpleNamespace
 import pytest
 
 from rapidgen.cli import sim, view
-from rapidgen.controller.booting import load_target
-from rapidgen.controller.cabinet import Cabinet
+from rapidgen.controller.boot_targets import load_target
+from rapidgen.controller.runner import Cabinet
 
 PROGRAM = "MODULE m\n PROC main()\n  WaitTime 100;\n ENDPROC\nENDMODULE\n"
 
@@ -48,7 +48,7 @@ def viewed(monkeypatch):
 
     def serve(then):
         page = SimpleNamespace(url="", close=lambda: sys.settrace(None))
-        monkeypatch.setattr("rapidgen.view.server.serve_page", lambda *_: page)
+        monkeypatch.setattr("rapidgen.viewer.server.serve_page", lambda *_: page)
         monkeypatch.setattr(view.typer, "echo", lambda _: then())
         return view._serve(None, "127.0.0.1", 0, {})
 

@@ -2,9 +2,9 @@
 
 import pytest
 
-from rapidgen.cli.observed import Outputs, observing
-from rapidgen.controller.booting import load_target
-from rapidgen.controller.cabinet import Cabinet
+from rapidgen.cli.run_outputs import Outputs, observing
+from rapidgen.controller.boot_targets import load_target
+from rapidgen.controller.runner import Cabinet
 from rapidgen.diagnostics import DiagnosticError
 
 TEXT = (

@@ -8,9 +8,9 @@ import pytest
 import typer
 
 from rapidgen.cli.sim import _look, _recording
-from rapidgen.controller.booting import Wishes, load_target
-from rapidgen.controller.cabinet import Cabinet
-from rapidgen.view.recording.reader import RecordingFile
+from rapidgen.controller.boot_targets import Wishes, load_target
+from rapidgen.controller.runner import Cabinet
+from rapidgen.viewer.recording.reader import RecordingFile
 
 
 @pytest.fixture

@@ -12,10 +12,11 @@ from pathlib import Path
 
 import pytest
 
-from rapidgen.cli import loudness
+from rapidgen.cli import verbosity
 from rapidgen.cli.app import VERBS, function, main
 
-ROOMS = ["client", "config", "controller", "deploy", "faces", "generate", "proving", "view"]
+ROOMS = ["client", "config", "controller", "deploy", "generate", "servers", "verification"]
+ROOMS += ["viewer"]
 
 
 def rapidgen(*words, **options):
@@ -118,7 +119,7 @@ def test_what_is_given_up_is_told_in_json(monkeypatch, capsys):
     def given_up(*_, **__):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("rapidgen.client.target.resolve", given_up)
+    monkeypatch.setattr("rapidgen.client.connect_target.resolve", given_up)
     assert main(["pose", "irb120", "--joints", "0,0,0,0,0,0", "--json"]) == 130
     shown = capsys.readouterr()
     assert [found["code"] for found in json.loads(shown.out)["errors"]] == ["RG906"]
@@ -130,7 +131,7 @@ def test_what_is_given_up_is_told_in_json(monkeypatch, capsys):
 @pytest.mark.parametrize("room", ROOMS)
 def test_each_room_that_does_something_has_a_logger(room):
     """One, by the room's name."""
-    files = (Path(loudness.__file__).parents[1] / room).rglob("*.py")
+    files = (Path(verbosity.__file__).parents[1] / room).rglob("*.py")
     named = {
         name
         for file in files

@@ -8,7 +8,7 @@ from types import SimpleNamespace
 
 import pytest
 
-sys.path.insert(0, str(Path(__file__).parents[1] / "faces" / "rws"))
+sys.path.insert(0, str(Path(__file__).parents[1] / "servers" / "rws"))
 
 from served import make_cabinet
 
@@ -16,8 +16,8 @@ from rapidgen.cli.app import main
 from rapidgen.cli.status import show, state
 from rapidgen.client.errors import ConnectionLost
 from rapidgen.client.rws.model import LogEvent, Panel, ProgramState, TaskState
-from rapidgen.faces.rws.server import serve_rws
 from rapidgen.machine.operator import Answer
+from rapidgen.servers.rws.server import serve_rws
 from rapidgen.system import read_backup
 from rapidgen.wire.rws.bodies import Generation
 
@@ -133,7 +133,7 @@ def test_a_followed_log_goes_on_behind_a_lost_connection(back, shown, monkeypatc
         return [LogEvent(0, int(t[0]), "info", 10125, t[2], t[2], "", ()) for t in texts]
 
     found = Followed(entries(["1 a", "2 b"]), entries(back))
-    monkeypatch.setattr("rapidgen.cli.web_services.controller", lambda *_: nullcontext(found))
+    monkeypatch.setattr("rapidgen.cli.rws_session.controller", lambda *_: nullcontext(found))
     monkeypatch.setattr("time.sleep", lambda seconds: None)
     assert main(["log", "rws://nowhere", "--follow", "--json"]) == 130
     *told, _ = [json.loads(line) for line in capsys.readouterr().out.splitlines()]

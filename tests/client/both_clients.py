@@ -6,7 +6,7 @@ import inspect
 import threading
 
 from rapidgen.client import AsyncRobot
-from rapidgen.client.surface import JobSurface
+from rapidgen.client.api import JobSurface
 
 
 class Handle:

@@ -28,7 +28,7 @@ from rapidgen.wire.simple_message import (
     encode_reply,
     messages,
 )
-from rapidgen.wire.simple_message.bulk import decode_batches
+from rapidgen.wire.simple_message.numpy_codec import decode_batches
 from rapidgen.wire.simple_message.spec import Comm, Feature, Port, StreamFlag, TrajectoryState
 
 RING = 40

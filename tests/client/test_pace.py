@@ -1,10 +1,10 @@
-"""The speed of a driver's clock on a machine that is held up; `rapidgen.client.core.pace`."""
+"""The speed of a driver's clock on a machine that is held up; `rapidgen.client.core.clock_rate`."""
 
 import random
 
 import pytest
 
-from rapidgen.client.core.pace import PaceMeter
+from rapidgen.client.core.clock_rate import PaceMeter
 
 
 def told(*reads):

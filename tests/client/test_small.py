@@ -28,10 +28,10 @@ from rapidgen.client import (
     TrajectoryRefused,
 )
 from rapidgen.client.address import Address, parse_address
-from rapidgen.client.target import groups_of, resolve
+from rapidgen.client.connect_target import groups_of, resolve
 from rapidgen.config.model import Ports
 from rapidgen.diagnostics import DiagnosticError
-from rapidgen.view.live import changes, error_text
+from rapidgen.viewer.state_lines import changes, error_text
 from rapidgen.wire.simple_message.spec import Mode, Port, Reason, TriState
 
 PATH = Trajectory.from_points([[0.0] * 6, [0.1] * 6, [0.2] * 6], seconds=0.15)

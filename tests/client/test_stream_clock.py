@@ -199,9 +199,9 @@ def test_indices_wrap(monkeypatch):
     import fake_stream
 
     from rapidgen.client.core import stream as module
-    from rapidgen.wire.simple_message import bulk
+    from rapidgen.wire.simple_message import numpy_codec
 
-    for place in (module, bulk):
+    for place in (module, numpy_codec):
         monkeypatch.setattr(place, "INDEX_WRAP", 512)
     monkeypatch.setattr(fake_stream, "WRAP", 512)
 

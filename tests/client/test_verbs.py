@@ -163,7 +163,7 @@ def test_the_live_table(controller):
     from rich.console import Console
 
     from rapidgen.client import Robot
-    from rapidgen.view.live import Watcher, as_table
+    from rapidgen.viewer.state_lines import Watcher, as_table
 
     with Robot("irb120", address=controller.address, watch=True) as robot:
         watcher = Watcher()
@@ -276,7 +276,7 @@ def test_stream_where_the_driver_cannot(controller, points, capsys):
 def test_the_progress_bar_tells_what_the_robot_is_at(streaming, monkeypatch):
     import rich.console
 
-    from rapidgen.cli import following
+    from rapidgen.cli import motion_progress
     from rapidgen.client import Robot
 
     class Terminal(io.StringIO):
@@ -284,14 +284,14 @@ def test_the_progress_bar_tells_what_the_robot_is_at(streaming, monkeypatch):
             return True
 
     terminal = Terminal()
-    monkeypatch.setattr(following.sys, "stderr", terminal)
+    monkeypatch.setattr(motion_progress.sys, "stderr", terminal)
     made = rich.console.Console
     monkeypatch.setattr(
         rich.console, "Console", lambda **_: made(file=terminal, force_terminal=True, width=80)
     )
     with Robot(streaming.address) as robot:
         path = Trajectory.from_points([[0.0] * 6, [0.2] * 6], seconds=20)
-        result = following.follow(robot.execute(path, way="stream"))
+        result = motion_progress.follow(robot.execute(path, way="stream"))
     assert result.points == 2
     assert "moving" in terminal.getvalue()
     assert "done" in terminal.getvalue()
@@ -320,7 +320,7 @@ def test_monitor_tells_what_a_stream_is_at(streaming, capsys):
 
 def test_words_of_a_monitor():
     from rapidgen.client import Event, Status
-    from rapidgen.view.live import Watcher
+    from rapidgen.viewer.state_lines import Watcher
     from rapidgen.wire.simple_message.spec import EventType, TrajectoryState
 
     watcher = Watcher()
@@ -355,8 +355,8 @@ def test_stop_over_the_control_port_when_the_motion_port_is_dead(streaming, caps
 
 
 def test_in_a_pipe_a_line_tells_how_far_it_is(monkeypatch, capsys):
-    from rapidgen.cli import following
-    from rapidgen.cli.loudness import set_up
+    from rapidgen.cli import motion_progress
+    from rapidgen.cli.verbosity import set_up
     from rapidgen.client import RobotTimeout, TrajectoryState
 
     class Execution:
@@ -375,10 +375,10 @@ def test_in_a_pipe_a_line_tells_how_far_it_is(monkeypatch, capsys):
             return "done"
 
     monkeypatch.setattr("sys.stderr.isatty", lambda: False)
-    assert following.follow(Execution()) == "done"
+    assert motion_progress.follow(Execution()) == "done"
     assert capsys.readouterr().err == "moving: 1 of 9 points\nmoving: 2 of 9 points\n"
     set_up(["-q"])
-    assert following.follow(Execution()) == "done"
+    assert motion_progress.follow(Execution()) == "done"
     assert capsys.readouterr().err == ""
     set_up([])
 
@@ -389,7 +389,7 @@ def test_in_a_pipe_a_line_tells_how_far_it_is(monkeypatch, capsys):
 @pytest.mark.parametrize(("rapidgen", "code"), [(True, "RG920"), (False, "RG923")])
 def test_looking_takes_no_place_that_is_the_only_one(rapidgen, code, capsys, monkeypatch):
     """A driver without a control port (`profile: basic`) is told from a plain one by HELLO."""
-    monkeypatch.setattr("rapidgen.view.server.ASSETS", Path("nowhere"))
+    monkeypatch.setattr("rapidgen.viewer.server.ASSETS", Path("nowhere"))
     with FakeController(rapidgen=rapidgen, control=False) as fake:
         assert main(["view", fake.address]) == 1
     assert code in capsys.readouterr().err

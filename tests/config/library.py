@@ -11,8 +11,8 @@ import sys
 from rapidgen._data import data_folder
 from rapidgen.config import shipped_names
 from rapidgen.config.catalogue import model_description
-from rapidgen.config.library import entry, variants
 from rapidgen.config.load import drafts_of
+from rapidgen.config.variant_library import entry, variants
 from rapidgen.config.variant_model import lacks
 
 PATH = data_folder("robots") / "variants.json"

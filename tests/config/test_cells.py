@@ -9,7 +9,7 @@ from rapidgen.config import load_config
 from rapidgen.config.registry import find_shipped
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.generate import build, make_system
-from rapidgen.proving.bench import Bench
+from rapidgen.verification.testbench import Bench
 from tests.config.drawing import BASE, arm, drawn, joint, links, robot
 
 TABLE = joint("tilt", "base_link", "frame", lower=-2, upper=2) + links("frame")

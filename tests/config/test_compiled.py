@@ -5,14 +5,14 @@ import sys
 
 import pytest
 
-from rapidgen.config import compiled, load_config, shipped_names
-from rapidgen.config.compiled import shipped_groups
+from rapidgen.config import load_config, model_cache, shipped_names
+from rapidgen.config.model_cache import shipped_groups
 
 
 @pytest.fixture
 def folder(tmp_path, monkeypatch):
     """A place of its own for what is kept."""
-    monkeypatch.setattr(compiled, "_FOLDER", tmp_path)
+    monkeypatch.setattr(model_cache, "_FOLDER", tmp_path)
     monkeypatch.setattr(sys, "dont_write_bytecode", False)
     (tmp_path / "code.py").write_text("1")
     return tmp_path / "__pycache__"
@@ -42,8 +42,8 @@ def test_another_file_or_other_code_makes_it_anew(folder, monkeypatch, tmp_path,
         (tmp_path / "code.py").write_text("12")
     else:
         changed = tmp_path / "irb120.yaml"
-        changed.write_bytes(compiled.find_shipped("irb120").read_bytes() + b"\n")
-        monkeypatch.setattr(compiled, "find_shipped", lambda _: changed)
+        changed.write_bytes(model_cache.find_shipped("irb120").read_bytes() + b"\n")
+        monkeypatch.setattr(model_cache, "find_shipped", lambda _: changed)
     assert shipped_groups("irb120")[0].name == "rob1"
 
 

@@ -4,8 +4,8 @@ import json
 
 import pytest
 
-from rapidgen.config.library import family, recognise, variants
 from rapidgen.config.recognition import align
+from rapidgen.config.variant_library import family, recognise, variants
 from tests.config.library import PATH, shipped_entries
 
 

@@ -16,7 +16,7 @@ from rapidgen.axes.kinematics import Kinematics
 from rapidgen.config import load_config
 from rapidgen.diagnostics.pages import codes as known_codes
 from rapidgen.generate import build, make_system
-from rapidgen.proving.bench import Bench
+from rapidgen.verification.testbench import Bench
 from tests.config.drawing import BASE, XACRO, arm, drawn, errors, links, robot
 
 GRIPPER = (

@@ -5,7 +5,7 @@ import math
 
 import pytest
 
-from rapidgen.cli import asking
+from rapidgen.cli import wizard
 from rapidgen.cli.new import new
 from rapidgen.cli.robots import robots
 from rapidgen.cli.schema import schema
@@ -296,8 +296,8 @@ def person(monkeypatch):
             answer = next(left)
             return default if answer is None else answer
 
-        monkeypatch.setattr(asking, "is_terminal", lambda: True)
-        monkeypatch.setattr(asking.typer, "prompt", prompt)
+        monkeypatch.setattr(wizard, "is_terminal", lambda: True)
+        monkeypatch.setattr(wizard.typer, "prompt", prompt)
         return asked
 
     return answers

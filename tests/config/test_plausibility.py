@@ -4,12 +4,12 @@ import pytest
 
 from rapidgen.config import load_config
 from rapidgen.config.cell import load_cell
-from rapidgen.config.compiled import shipped_groups
-from rapidgen.config.library import variants
 from rapidgen.config.manifest import group_from_manifest, group_to_manifest
-from rapidgen.config.of_variant import group_of
+from rapidgen.config.model_cache import shipped_groups
 from rapidgen.config.plausibility import Arm, arm_of, load_doubts
 from rapidgen.config.registry import shipped_names
+from rapidgen.config.variant_group import group_of
+from rapidgen.config.variant_library import variants
 from rapidgen.diagnostics import DiagnosticError, Severity
 from tests.config.drawing import drawn
 

@@ -9,11 +9,11 @@ from pydantic_core import SchemaValidator
 from pydantic_core import ValidationError as CoreError
 
 from rapidgen.config import load_config, shipped_names
-from rapidgen.config.reference import json_schema, reference
 from rapidgen.config.registry import find_shipped
 from rapidgen.config.rules import core
 from rapidgen.config.schema import GROUP_KEYS, TOP_KEYS, ConfigurationKeys
-from rapidgen.config.tree import parse, to_python
+from rapidgen.config.schema_reference import json_schema, reference
+from rapidgen.config.yaml_tree import parse, to_python
 
 ROOT = Path(__file__).resolve().parents[2]
 EXAMPLES = sorted((ROOT / "robots" / "examples").glob("*.yaml"))
@@ -21,7 +21,7 @@ EXAMPLES = sorted((ROOT / "robots" / "examples").glob("*.yaml"))
 
 def test_the_reference_page_is_the_schemas():
     page = (ROOT / "docs" / "start" / "configuration.md").read_text(encoding="utf-8")
-    assert page.endswith(reference()), "append rapidgen.config.reference.reference() again"
+    assert page.endswith(reference()), "append rapidgen.config.schema_reference.reference() again"
 
 
 def test_every_key_has_words_and_is_in_the_json_schema():

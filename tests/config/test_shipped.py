@@ -12,7 +12,7 @@ import pytest
 
 from rapidgen.config import load_config, shipped_names
 from rapidgen.config.registry import find_shipped
-from rapidgen.config.tree import parse, to_python
+from rapidgen.config.yaml_tree import parse, to_python
 from rapidgen.diagnostics import Severity
 
 NAMES = [

@@ -8,7 +8,7 @@ import pytest
 from rapidgen.axes.kinematics import Kinematics
 from rapidgen.cli.app import main
 from rapidgen.config import load_config
-from rapidgen.config.library import variants
+from rapidgen.config.variant_library import variants
 from rapidgen.config.variant_model import lacks, model_name, named
 from rapidgen.diagnostics import DiagnosticError
 

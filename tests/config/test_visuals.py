@@ -3,7 +3,7 @@
 import pytest
 
 from rapidgen.config.urdf.packages import Packages
-from rapidgen.config.urdf.trees import trees
+from rapidgen.config.urdf.visual_trees import trees
 from rapidgen.config.urdf.visuals import NoMesh, mesh_file
 from tests.docs.tree import ROOT
 

@@ -2,15 +2,15 @@
 
 import pytest
 
+from rapidgen.axes.default_postures import usual_start
 from rapidgen.axes.kinematics import Kinematics
-from rapidgen.axes.starts import usual_start
 from rapidgen.config import load_config
 from rapidgen.config.cell import load_cell
 from rapidgen.controller import VirtualController
-from rapidgen.controller.booting import Wishes, load_target
-from rapidgen.controller.likely import Likely
-from rapidgen.controller.starts import shown
-from rapidgen.controller.surroundings import GUESSED
+from rapidgen.controller.boot_targets import Wishes, load_target
+from rapidgen.controller.cell_setup import GUESSED
+from rapidgen.controller.inference.robot_model import Likely
+from rapidgen.controller.inference.start_poses import shown
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.system.releases import UNTOLD
 

@@ -3,7 +3,7 @@
 import pytest
 
 from rapidgen.controller import VirtualController
-from rapidgen.controller.booting import Wishes, load_target
+from rapidgen.controller.boot_targets import Wishes, load_target
 from rapidgen.diagnostics import DiagnosticError
 
 CELL = """cameras:

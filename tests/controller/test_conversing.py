@@ -3,8 +3,8 @@
 import pytest
 
 from rapidgen.controller import VirtualController
-from rapidgen.controller.booting import Wishes, load_target
-from rapidgen.controller.passes import run_through
+from rapidgen.controller.boot_targets import Wishes, load_target
+from rapidgen.controller.inference.restarts import run_through
 
 SERVER = """MODULE server
  VAR socketdev s;

@@ -3,7 +3,7 @@
 import pytest
 
 from rapidgen.controller import VirtualController
-from rapidgen.controller.passes import run_through
+from rapidgen.controller.inference.restarts import run_through
 
 PROGRAM = """MODULE flag
  PERS bool bStart := FALSE;

@@ -4,8 +4,8 @@ import pytest
 
 from rapidgen.axes.kinematics import Kinematics
 from rapidgen.config import load_config
-from rapidgen.config.library import variants
-from rapidgen.config.of_variant import group_of
+from rapidgen.config.variant_group import group_of
+from rapidgen.config.variant_library import variants
 from rapidgen.controller.mechanics import groups_for, mechanics, model_of
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.system.model import MechanicalUnitGroup, System, TaskSpec

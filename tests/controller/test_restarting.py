@@ -1,7 +1,7 @@
 """A controller with a power switch: what was asked of it before a restart is done."""
 
-from rapidgen.controller.booting import load_target
-from rapidgen.controller.cabinet import Cabinet
+from rapidgen.controller.boot_targets import load_target
+from rapidgen.controller.runner import Cabinet
 
 PROGRAM = "MODULE m\n PROC main()\n  WaitTime 100;\n ENDPROC\nENDMODULE\n"
 

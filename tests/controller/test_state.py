@@ -5,8 +5,8 @@ import pytest
 from rapidgen.controller.controller import VirtualController
 from rapidgen.controller.faults import ControllerRule, FaultPlan, NetworkRule
 from rapidgen.diagnostics import DiagnosticError
-from rapidgen.faces.control_commands import commands, subscribe
-from rapidgen.faces.control_socket import CommandError
+from rapidgen.servers.control_commands import commands, subscribe
+from rapidgen.servers.control_socket import CommandError
 from rapidgen.system.model import (
     ModuleFile,
     SignalSpec,

@@ -6,8 +6,8 @@ import os
 import pytest
 
 from rapidgen.deploy import TransportFault, apply, backup_set, make_plan
-from rapidgen.deploy.session import check_names
-from rapidgen.deploy.show import plan_text
+from rapidgen.deploy.command_run import check_names
+from rapidgen.deploy.plan_text import plan_text
 from rapidgen.deploy.transports.folder import FolderTransport
 from tests.refusal import refused
 

@@ -12,7 +12,7 @@ import shutil
 import pytest
 
 from rapidgen.deploy import backup_set, make_plan
-from rapidgen.deploy.session import earlier_set
+from rapidgen.deploy.command_run import earlier_set
 from rapidgen.deploy.transports.folder import FolderTransport
 from rapidgen.diagnostics import DiagnosticError
 from tests.deploy.cutting import EVERY, MODES, Cutting

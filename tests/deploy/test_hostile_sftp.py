@@ -18,7 +18,7 @@ from rapidgen.deploy import make_plan
 from rapidgen.deploy.secrets import Credentials, Secret
 from rapidgen.deploy.transports.registry import Target
 from rapidgen.diagnostics import DiagnosticError, render
-from rapidgen.faces import serve_sftp
+from rapidgen.servers import serve_sftp
 
 SEEDS = 5_000 if os.environ.get("RAPIDGEN_LONG") else 100
 """Of each of the two; `benchmarks/deploy.py --cuts` is the long form."""

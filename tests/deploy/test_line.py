@@ -9,15 +9,15 @@ import threading
 
 import pytest
 
-from rapidgen.cli.hello import hello
+from rapidgen.cli.driver_query import hello
 from rapidgen.client import Robot, RobotError, Trajectory
 from rapidgen.client.address import Address
 from rapidgen.config import load_config
 from rapidgen.controller import VirtualController
 from rapidgen.deploy import Access, TransportFault, apply, connect, make_plan, parse_target
-from rapidgen.deploy.session import wanted_set
+from rapidgen.deploy.command_run import wanted_set
 from rapidgen.deploy.transports.folder import FolderTransport
-from rapidgen.faces import serve_ftp, serve_sftp
+from rapidgen.servers import serve_ftp, serve_sftp
 from rapidgen.wire.simple_message.spec import TriState
 from tests.refusal import refused
 

@@ -10,7 +10,7 @@ from rapidgen.controller import VirtualController
 from rapidgen.deploy import from_files, make_plan
 from rapidgen.deploy.transports.folder import FolderTransport
 from rapidgen.generate import build
-from rapidgen.generate.cell import fit, read_cell
+from rapidgen.generate.existing_controller import fit, read_cell
 from rapidgen.system import read_system, write_cfg
 from rapidgen.system.base import Robot, base_system
 from tests.refusal import refused

@@ -10,12 +10,12 @@ import pytest
 
 from rapidgen.cli.deploy import deploy as deploy_verb
 from rapidgen.deploy import apply, make_plan
+from rapidgen.deploy.command_run import save_neighbours
 from rapidgen.deploy.doctor import examine
-from rapidgen.deploy.session import save_neighbours
 from rapidgen.deploy.syspar import loaded_cfg
 from rapidgen.deploy.target import Access, parse_target
 from rapidgen.deploy.transports.folder import FolderTransport
-from rapidgen.faces import serve_ftp
+from rapidgen.servers import serve_ftp
 from rapidgen.system import parse_cfg
 from tests.refusal import refused
 

@@ -4,9 +4,9 @@ import pytest
 
 from rapidgen.client.rws import RwsError
 from rapidgen.deploy.cfg import shown_key
-from rapidgen.deploy.changed import changed_keys
-from rapidgen.deploy.driverset import DriverSet, SetFile
-from rapidgen.deploy.live.view import build_in
+from rapidgen.deploy.config_diff import changed_keys
+from rapidgen.deploy.driver_set import DriverSet, SetFile
+from rapidgen.deploy.online.snapshot import build_in
 from rapidgen.system import Attribute, Instance
 
 BUILD = "0123456789ab"

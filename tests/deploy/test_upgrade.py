@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 
 from rapidgen.deploy import backup_set, make_plan
-from rapidgen.deploy.session import earlier_set
+from rapidgen.deploy.command_run import earlier_set
 from rapidgen.deploy.syspar import loaded_cfg
 from rapidgen.deploy.transports.folder import FolderTransport
 from rapidgen.diagnostics import DiagnosticError

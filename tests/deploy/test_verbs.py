@@ -16,13 +16,13 @@ from rapidgen.cli.plan import plan
 from rapidgen.cli.rollback import rollback
 from rapidgen.cli.uninstall import uninstall
 from rapidgen.deploy import TransportFault, parse_target
-from rapidgen.deploy.driverset import NEW as STAGED
+from rapidgen.deploy.driver_set import NEW as STAGED
 from rapidgen.deploy.fleet import GivingUp, on_all, parse_targets
 from rapidgen.deploy.secrets import Credentials, Secret, find_password, redact
 from rapidgen.deploy.transports.folder import FolderTransport
 from rapidgen.deploy.transports.transport import FILE_LIMIT
 from rapidgen.diagnostics import DiagnosticError, render
-from rapidgen.faces import serve_ftp, serve_sftp
+from rapidgen.servers import serve_ftp, serve_sftp
 from tests.generate.cell_backup import write_backup
 from tests.ports import free_port
 from tests.refusal import refusal, refused

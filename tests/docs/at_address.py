@@ -11,8 +11,8 @@ from dataclasses import replace
 
 from rapidgen.config import load_config
 from rapidgen.controller import VirtualController
-from rapidgen.controller.cabinet import Cabinet
-from rapidgen.faces.rws.server import KNOWN, serve_rws
+from rapidgen.controller.runner import Cabinet
+from rapidgen.servers.rws.server import KNOWN, serve_rws
 from rapidgen.system import read_files
 from rapidgen.system.base import Robot, base_system
 from rapidgen.wire.rws.bodies import Generation

@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from rapidgen.client import Robot, Timeouts
-from rapidgen.view import plotting
+from rapidgen.viewer import plotting
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 SAYS = {

@@ -6,9 +6,9 @@ from rapidgen.config import from_manifest, load_config
 from rapidgen.controller import VirtualController
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.generate import build, write
-from rapidgen.generate.cell import fit, read_cell
+from rapidgen.generate.existing_controller import fit, read_cell
 from rapidgen.system import parse_cfg, read_folder, read_manifest
-from rapidgen.system.adding import identity
+from rapidgen.system.cfg_loading import identity
 from tests.generate.cell_backup import write_backup
 
 ABB_DRIVER = '  -File "HOME:/ROS/ROS_common.sys" -ModName "ROS_common" -AllTask\n'

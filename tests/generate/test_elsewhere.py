@@ -6,7 +6,7 @@ from rapidgen.config import load_config
 from rapidgen.controller.cell import in_its_cell
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.generate import build, make_system
-from rapidgen.proving.bench import Bench
+from rapidgen.verification.testbench import Bench
 
 ELSEWHERE = {
     "tool.name": "tGripper",

@@ -10,9 +10,9 @@ import pytest
 
 from rapidgen.config import load_config
 from rapidgen.generate import build, write
-from rapidgen.proving.bench import Bench
 from rapidgen.rapid import check
 from rapidgen.system import ModuleFile, read_folder
+from rapidgen.verification.testbench import Bench
 from tests.generate.goldens import EXAMPLES, GOLDENS, WHOLE, kept
 
 OWN_MAIN = b"MODULE Cell\n    PROC main()\n        ROS_run;\n    ENDPROC\nENDMODULE\n"

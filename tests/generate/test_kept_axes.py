@@ -7,9 +7,9 @@ import pytest
 from rapidgen.config import load_config
 from rapidgen.config.registry import find_shipped
 from rapidgen.generate import build, make_system
-from rapidgen.proving.bench import Bench
-from rapidgen.proving.messages import RawReason
-from rapidgen.proving.stream import BEGIN, END, Streamer
+from rapidgen.verification.messages import RawReason
+from rapidgen.verification.stream import BEGIN, END, Streamer
+from rapidgen.verification.testbench import Bench
 
 URDF = find_shipped("irb120").parent / "urdf" / "irb120.urdf"
 JOINTS = "\n".join(f"  joint_{n}: {{axis: rax_{n}}}" for n in (1, 2, 3, 4, 6))

@@ -5,7 +5,7 @@ import pytest
 from rapidgen._data import data_folder
 from rapidgen.config import load_config
 from rapidgen.generate import build
-from rapidgen.generate.origin import origin_of
+from rapidgen.generate.source_map import origin_of
 from rapidgen.system import expand_lines
 
 TEMPLATES = data_folder("templates")

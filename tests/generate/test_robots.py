@@ -6,12 +6,12 @@ import pytest
 
 from rapidgen.config import load_config, shipped_names
 from rapidgen.generate import build, layout, make_system
-from rapidgen.machine.log import EventType
+from rapidgen.machine.event_log import EventType
 from rapidgen.machine.system_parameters import arm_name
-from rapidgen.proving.bench import Bench
-from rapidgen.proving.messages import MAX_JOINTS, RawJointPosition
-from rapidgen.proving.track import distance
 from rapidgen.system import parse_cfg, read_folder
+from rapidgen.verification.messages import MAX_JOINTS, RawJointPosition
+from rapidgen.verification.position_checks import distance
+from rapidgen.verification.testbench import Bench
 
 VERSIONS = {5: "5.15", 6: "6.15", 7: "7.10", 8: "8.0"}
 CASES = [

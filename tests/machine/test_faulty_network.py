@@ -2,10 +2,10 @@
 
 import pytest
 
-from rapidgen.machine.network.faulty import FaultyNetwork
+from rapidgen.machine.network.fault_injection import FaultyNetwork
+from rapidgen.machine.network.fault_rules import NetworkRule
 from rapidgen.machine.network.interface import BUFFER, NetworkFault, NetworkReason
 from rapidgen.machine.network.memory import LATENCY, MemoryNetwork
-from rapidgen.machine.network.rules import NetworkRule
 from rapidgen.machine.scheduler import MS, S, Scheduler
 
 HOST = "127.0.0.1"

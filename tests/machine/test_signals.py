@@ -4,8 +4,8 @@ import math
 
 import pytest
 
+from rapidgen.machine.event_log import EventLog
 from rapidgen.machine.io import Awaited, IOSystem, status_name
-from rapidgen.machine.log import EventLog
 from rapidgen.machine.scheduler import S, Scheduler
 from rapidgen.system.model import (
     CrossConnection,

@@ -2,8 +2,8 @@
 
 import pytest
 
+from rapidgen.machine.event_log import EventLog
 from rapidgen.machine.io import IOSystem
-from rapidgen.machine.log import EventLog
 from rapidgen.machine.scheduler import S, Scheduler
 from rapidgen.machine.smart_gripper import AMBIENT, SUCKED, Command, Hands, HandState
 from rapidgen.system.model import SignalSpec, System

@@ -6,8 +6,8 @@ from types import SimpleNamespace
 import numpy as np
 
 from rapidgen.config import load_config
+from rapidgen.machine.event_log import EventLog
 from rapidgen.machine.io import IOSystem
-from rapidgen.machine.log import EventLog
 from rapidgen.machine.scheduler import S, Scheduler
 from rapidgen.motion import MotionSettings, MotionSystem
 from rapidgen.motion.moves import Zone

@@ -5,7 +5,7 @@ import pytest
 
 from rapidgen.machine.scheduler import S
 from rapidgen.motion import MotionSettings
-from rapidgen.motion.coasting import coast
+from rapidgen.motion.braking import coast
 
 P = "[[364.354,0,594],[0.5,0,0.866025,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]"
 DATA = f"CONST robtarget p := {P};\n"

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from rapidgen.axes import frames
-from rapidgen.axes.shapes import arc_through
+from rapidgen.axes.path_shapes import arc_through
 from rapidgen.machine.scheduler import S
-from rapidgen.motion.faults import MotionFault, Refusal
+from rapidgen.motion.fault_reasons import MotionFault, Refusal
 from rapidgen.motion.moves import Carrier, CartesianMove, MoveSpeed, Singularities
 
 HOME = (0.0, 0.2, 0.1, 0.0, 0.6, 0.0)

@@ -8,7 +8,7 @@ import pytest
 from rapidgen.machine.scheduler import S
 from rapidgen.motion import MotionSettings
 from rapidgen.motion.events import CORNER_PATH_FAILURE, TIME_NOT_MET
-from rapidgen.motion.faults import MotionFault, Refusal
+from rapidgen.motion.fault_reasons import MotionFault, Refusal
 from rapidgen.motion.group import MotionGroup
 
 MS = 1_000_000

@@ -3,8 +3,8 @@
 import pytest
 
 from rapidgen.config import load_config
-from rapidgen.controller.booting import Wishes, load_target
-from rapidgen.controller.cabinet import Cabinet
+from rapidgen.controller.boot_targets import Wishes, load_target
+from rapidgen.controller.runner import Cabinet
 from rapidgen.motion import MotionSettings
 
 PAYLOAD = load_config("irb120").groups[0].max_payload

@@ -6,7 +6,7 @@ from rapidgen.motion.events import TIME_NOT_MET
 from rapidgen.motion.legs import JointWay, Leg
 from rapidgen.motion.moves import Measure
 from rapidgen.motion.pieces import AxisLimits
-from rapidgen.motion.punctuality import Punctuality
+from rapidgen.motion.timing_monitor import Punctuality
 
 
 @pytest.fixture

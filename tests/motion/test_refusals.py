@@ -3,7 +3,7 @@
 import pytest
 
 from rapidgen.motion import MotionSettings
-from rapidgen.motion.faults import MotionFault, Refusal
+from rapidgen.motion.fault_reasons import MotionFault, Refusal
 from rapidgen.runtime.motion_faults import in_rapid
 
 P = "[[364.354,0,594],[0.5,0,0.866025,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]"

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from rapidgen.machine.scheduler import S
 from rapidgen.motion import MotionSettings, smoothing
 from rapidgen.motion.moves import JointMove, MoveSpeed
-from rapidgen.motion.timelaw import brake, plan
+from rapidgen.motion.speed_profile import brake, plan
 from tests.motion.test_timelaw import Stretch, paths
 from tools.motion_campaign import disturb
 

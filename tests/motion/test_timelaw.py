@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from rapidgen.motion.timelaw import TimeLaw, brake, plan
+from rapidgen.motion.speed_profile import TimeLaw, brake, plan
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,7 @@ import pytest
 
 sys.path[:0] = [str(Path(__file__).parent), str(Path(__file__).parents[1] / "client")]
 
-WITH_ROS = ("rapidgen.ros.node", "rapidgen.ros.own_services")
+WITH_ROS = ("rapidgen.ros.node", "rapidgen.ros.user_services")
 """What looks at what is sourced when it is imported."""
 
 

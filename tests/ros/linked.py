@@ -8,8 +8,8 @@ from driven import booted, robot_of
 from ready import goal
 
 from rapidgen.client.address import Address
-from rapidgen.ros.following import Policy, UnderWay
-from rapidgen.ros.keeping import RobotLink
+from rapidgen.ros.goal_execution import Policy, UnderWay
+from rapidgen.ros.robot_link import RobotLink
 from rapidgen.testing.asyncio_clock import VirtualLoop
 
 

@@ -5,7 +5,7 @@ from contextlib import contextmanager
 import numpy as np
 from driven import booted, robot_of
 
-from rapidgen.ros.following import Follower, Policy, UnderWay
+from rapidgen.ros.goal_execution import Follower, Policy, UnderWay
 from rapidgen.ros.goals import Goal, Point
 from rapidgen.testing.asyncio_clock import VirtualLoop
 

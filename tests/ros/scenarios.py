@@ -12,7 +12,7 @@ from itertools import pairwise
 import numpy as np
 from ready import NAMES, station
 
-from rapidgen.ros.following import Policy, UnderWay
+from rapidgen.ros.goal_execution import Policy, UnderWay
 from rapidgen.ros.goals import Code, Defaults, Ending, Goal, Point, Tolerance
 
 PATIENCE = 200.0

@@ -12,7 +12,7 @@ import pytest
 from ready import NAMES, goal, station
 
 from rapidgen.client import Trajectory
-from rapidgen.ros.following import GoalFeedback, Policy, UnderWay, _violation
+from rapidgen.ros.goal_execution import GoalFeedback, Policy, UnderWay, _violation
 from rapidgen.ros.goals import Code, Defaults, Ending, Goal, JudgedGoal, Point, Tolerance
 
 THERE = goal(0.0, 0.1, 0.2)

@@ -8,7 +8,7 @@ from linked import cell
 from ready import goal
 
 from rapidgen.client.errors import NotReady
-from rapidgen.ros.following import UnderWay
+from rapidgen.ros.goal_execution import UnderWay
 from rapidgen.ros.goals import Code, Ending
 
 

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from ruamel.yaml import YAML
 
 from rapidgen.config import load_config
-from rapidgen.config.described import Answers
+from rapidgen.config.from_description import Answers
 from rapidgen.config.scaffold import from_urdf, write_new
 from rapidgen.config.yaml_text import yaml_flow, yaml_text
 from rapidgen.ros.package import CellMember, ros1_package, ros2_cell, ros2_package

@@ -7,7 +7,7 @@ from linked import cell
 
 from rapidgen.client.errors import NotReady, RequestRefused, RobotTimeout
 from rapidgen.ros.goals import Ending
-from rapidgen.ros.keeping import set_speeds
+from rapidgen.ros.robot_link import set_speeds
 
 
 def test_all_that_move_are_slower_and_one_that_stands_is_no_fault():

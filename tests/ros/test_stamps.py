@@ -5,7 +5,7 @@ import random
 import numpy as np
 import pytest
 
-from rapidgen.ros.stamps import Stamps
+from rapidgen.ros.time_stamps import Stamps
 
 
 def test_spacing_is_the_controllers():

@@ -6,7 +6,7 @@ from ready import goal, station
 from rapidgen.client import Trajectory
 from rapidgen.client.core.state import Driver, State, Status
 from rapidgen.ros.goals import Ending
-from rapidgen.ros.telling import Level, health, no_link, robot_status, unknown_status
+from rapidgen.ros.status_messages import Level, health, no_link, robot_status, unknown_status
 from rapidgen.wire.simple_message.spec import Mode, Reason, TrajectoryState, TriState
 
 

@@ -5,7 +5,7 @@ It comes between two statements, where no handler is asked.
 
 import pytest
 
-from rapidgen.motion.faults import MotionFault, Refusal
+from rapidgen.motion.fault_reasons import MotionFault, Refusal
 from tests.runtime.booting import boot
 
 PROGRAM = """

@@ -7,8 +7,8 @@ all backups and ABB's own files show.
 import pytest
 
 from rapidgen.system import parse_cfg
-from rapidgen.system.adding import Addition, add, faults_within
 from rapidgen.system.base import Robot, base_system, header_digits
+from rapidgen.system.cfg_loading import Addition, add, faults_within
 
 ONE = (Robot("T_ROB1", "ROB_1"),)
 TWO = (Robot("T_ROB1", "ROB_1", ("TRACK_1",)), Robot("T_ROB2", "ROB_2"))

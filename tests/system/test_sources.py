@@ -25,7 +25,7 @@ from rapidgen.system import (
     write_cfg,
 )
 from rapidgen.system.cfg import parse_cfg
-from rapidgen.system.interpret import (
+from rapidgen.system.cfg_reader import (
     crosses_of,
     events_of,
     groups_of,

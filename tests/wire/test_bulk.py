@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from rapidgen.wire.simple_message import encode
-from rapidgen.wire.simple_message.bulk import decode_points, encode_trajectory
 from rapidgen.wire.simple_message.messages import TrajectoryPoint
+from rapidgen.wire.simple_message.numpy_codec import decode_points, encode_trajectory
 from rapidgen.wire.simple_message.spec import Comm
 
 

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
 from rapidgen.wire.simple_message import ContentError, FrameSplitter, decode, encode, messages, spec
-from rapidgen.wire.simple_message.bulk import checksums, decode_batches, encode_points
+from rapidgen.wire.simple_message.numpy_codec import checksums, decode_batches, encode_points
 from rapidgen.wire.simple_message.packing import steps_of
 from rapidgen.wire.simple_message.spec import Comm, StreamFlag
 

@@ -3,8 +3,8 @@
 from pathlib import Path
 
 from rapidgen.wire.simple_message import messages, spec
-from rapidgen.wire.simple_message.document import protocol_markdown
 from rapidgen.wire.simple_message.mapping import mapping_hash
+from rapidgen.wire.simple_message.protocol_page import protocol_markdown
 from rapidgen.wire.simple_message.rapid import rapid_constants
 
 PAGE = Path(__file__).parents[2] / "docs" / "develop" / "protocol.md"
@@ -71,7 +71,7 @@ def test_rapid_constants_are_legal_and_unique():
 
 def test_page_is_the_specification():
     assert PAGE.read_text() == protocol_markdown(), (
-        "python -m rapidgen.wire.simple_message.document > docs/develop/protocol.md"
+        "python -m rapidgen.wire.simple_message.protocol_page > docs/develop/protocol.md"
     )
 
 

@@ -19,11 +19,11 @@ from rapidgen.config.model import RobotConfig
 from rapidgen.controller.mechanics import model_of
 from rapidgen.diagnostics import DiagnosticError, Severity
 from rapidgen.generate import build, make_system
-from rapidgen.generate.cell import Cell, fit, read_cell
+from rapidgen.generate.existing_controller import Cell, fit, read_cell
 from rapidgen.rapid import check
 from rapidgen.system import System, is_backup, parse_cfg
-from rapidgen.system.adding import Addition, add
-from rapidgen.system.onto import of_backup
+from rapidgen.system.build_loading import of_backup
+from rapidgen.system.cfg_loading import Addition, add
 
 
 @dataclass(frozen=True)

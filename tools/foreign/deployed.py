@@ -18,7 +18,7 @@ from rapidgen.deploy import apply, from_files, make_plan
 from rapidgen.deploy.transports.folder import FolderTransport
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.generate import build
-from rapidgen.generate.cell import fit, read_cell
+from rapidgen.generate.existing_controller import fit, read_cell
 from rapidgen.system import is_backup, read_system
 from tools.foreign.backups import robot
 

@@ -18,13 +18,13 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from rapidgen.config import load_config
-from rapidgen.config.described import Answers
+from rapidgen.config.from_description import Answers
 from rapidgen.config.model import RobotConfig
 from rapidgen.config.scaffold import from_urdf, write_new
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
 from rapidgen.generate import build, make_system
-from rapidgen.proving.bench import Bench
-from rapidgen.proving.model import Broken
+from rapidgen.verification.model import Broken
+from rapidgen.verification.testbench import Bench
 
 MOST_ANSWERS = 3
 NO_ROBOT = {"RG059": "delta, positioner alone, another maker", "RG031": "macros or parts only"}

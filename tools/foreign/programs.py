@@ -5,8 +5,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from rapidgen.controller.guessing import guess
-from rapidgen.controller.surroundings import furnish
+from rapidgen.controller.cell_setup import furnish
+from rapidgen.controller.inference.cell import guess
 from rapidgen.rapid import parse
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.system import is_backup, read_files, read_system, task_folders

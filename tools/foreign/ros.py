@@ -17,7 +17,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from rapidgen.system.cfg import write_cfg
-from rapidgen.system.compose import eio_cfg, sys_cfg
+from rapidgen.system.cfg_writer import eio_cfg, sys_cfg
 from rapidgen.system.model import System
 
 SYSTEM_PACKAGES = "/usr/lib/python3/dist-packages"

@@ -2,7 +2,7 @@
 
 `Face` has the methods of `abb_robot_client.rws.RWS` that public clients use. A trial that is not
 about HTTP puts a face in that class's place, and everything else of the client stays as it is;
-`tests/faces/rws/test_foreign_clients.py` has the class itself against the served face.
+`tests/servers/rws/test_foreign_clients.py` has the class itself against the served face.
 """
 
 from collections import namedtuple

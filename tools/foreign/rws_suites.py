@@ -20,8 +20,8 @@ from dataclasses import replace
 from pathlib import Path
 
 from rapidgen.config import load_config
-from rapidgen.controller.cabinet import Cabinet
-from rapidgen.faces.rws.server import serve_rws
+from rapidgen.controller.runner import Cabinet
+from rapidgen.servers.rws.server import serve_rws
 from rapidgen.system import read_files
 from rapidgen.system.base import Robot, base_system
 from rapidgen.system.model import SignalSpec

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from rapidgen.controller import VirtualController
-from rapidgen.controller.booting import Wishes, load_target
+from rapidgen.controller.boot_targets import Wishes, load_target
 
 _READY = 10.0
 Talk = Callable[["Line", VirtualController], None]

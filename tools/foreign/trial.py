@@ -20,9 +20,9 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from rapidgen.controller import VirtualController
-from rapidgen.controller.booting import Wishes, load_target
+from rapidgen.controller.boot_targets import Wishes, load_target
 from rapidgen.controller.controller import Cycle
-from rapidgen.controller.passes import run_through
+from rapidgen.controller.inference.restarts import run_through
 from rapidgen.controller.tracing import Coverage
 from rapidgen.diagnostics import DiagnosticError, Severity
 from rapidgen.rapid import check

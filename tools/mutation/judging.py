@@ -19,17 +19,17 @@ from pydantic import TypeAdapter
 
 from rapidgen.config.model import RobotConfig
 from rapidgen.diagnostics import DiagnosticError
-from rapidgen.proving.behaviour import Behaviour
-from rapidgen.proving.bench import FAILURES, Bench, with_module
-from rapidgen.proving.campaign import Workload
-from rapidgen.proving.model import NothingToProve
-from rapidgen.proving.run import Starter
-from rapidgen.proving.settings import Setting
-from rapidgen.proving.suite import CASES
-from rapidgen.proving.workers import Workers, each, in_a_fork
 from rapidgen.rapid import parse
 from rapidgen.runtime.errors import FatalError
 from rapidgen.system.model import System
+from rapidgen.verification.campaign import Workload
+from rapidgen.verification.case import Behaviour
+from rapidgen.verification.model import NothingToProve
+from rapidgen.verification.settings import Setting
+from rapidgen.verification.suite import CASES
+from rapidgen.verification.suite_runner import Starter
+from rapidgen.verification.testbench import FAILURES, Bench, with_module
+from rapidgen.verification.worker_pool import Workers, each, in_a_fork
 from tools.mutation.driver import Mutant
 
 PATIENCE = (2.0, 12.0)

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from rapidgen.axes import frames
 from rapidgen.axes.frames import Pose
 from rapidgen.axes.kinematics import AxisConfiguration, Kinematics, Posture
-from rapidgen.axes.unreached import unreached
+from rapidgen.axes.reach_errors import unreached
 from rapidgen.config.model import GroupConfig, Placement, Tool, WorkObject
 
 

@@ -13,11 +13,11 @@ from rapidgen.axes import frames
 from rapidgen.axes.frames import Pose
 from rapidgen.axes.kinematics import Posture
 from rapidgen.axes.limits import LimitFault, outside
-from rapidgen.axes.shapes import LARGEST_ARC, Arc, Line, arc_through
-from rapidgen.client.core import program_standing as standing
+from rapidgen.axes.path_shapes import LARGEST_ARC, Arc, Line, arc_through
+from rapidgen.client.core import program_stationary as standing
 from rapidgen.client.core.frames import Frames
 from rapidgen.client.core.group import Group
-from rapidgen.client.core.program_walk import Walk, operands, unit, within
+from rapidgen.client.core.program_state import Walk, operands, unit, within
 from rapidgen.client.errors import InvalidProgram
 from rapidgen.client.program import (
     Program,

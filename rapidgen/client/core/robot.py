@@ -41,10 +41,10 @@ from rapidgen.client.errors import (
 from rapidgen.client.program import Program
 from rapidgen.client.trajectory import Trajectory
 from rapidgen.wire.simple_message import ContentError, FramingError, decode, encode, messages
-from rapidgen.wire.simple_message.bulk import pack_points
 from rapidgen.wire.simple_message.codec import number_of
 from rapidgen.wire.simple_message.declaration import Content
 from rapidgen.wire.simple_message.messages import HEARTBEAT, JOINT_TRAJ_PT, batch_points
+from rapidgen.wire.simple_message.numpy_codec import pack_points
 from rapidgen.wire.simple_message.spec import (
     INDEX_WRAP,
     MAX_JOINTS,

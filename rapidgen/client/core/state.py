@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
-from rapidgen.client.tables import table
+from rapidgen.client.html_tables import table
 from rapidgen.wire.simple_message import messages
 from rapidgen.wire.simple_message.spec import (
     EventType,

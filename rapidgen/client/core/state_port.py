@@ -9,8 +9,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Protocol, TypedDict
 
+from rapidgen.client.core.clock_rate import PaceMeter
 from rapidgen.client.core.group import Group
-from rapidgen.client.core.pace import PaceMeter
 from rapidgen.client.core.state import (
     Driver,
     Event,

@@ -24,10 +24,10 @@ from rapidgen.client.errors import (
     TrajectoryRefused,
 )
 from rapidgen.wire.simple_message import messages
-from rapidgen.wire.simple_message.bulk import Words, pack_points, points_frame, program_frame
 from rapidgen.wire.simple_message.declaration import Content
 from rapidgen.wire.simple_message.instructions import WORDS
 from rapidgen.wire.simple_message.messages import POINTS, PROGRAM
+from rapidgen.wire.simple_message.numpy_codec import Words, pack_points, points_frame, program_frame
 from rapidgen.wire.simple_message.spec import INDEX_WRAP, StreamFlag, TrajectoryState, TriState
 
 

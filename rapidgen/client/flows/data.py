@@ -1,6 +1,6 @@
 """PERS of the robot's own program, as far as the configuration lists them."""
 
-from rapidgen.client.core.program_standing import fits
+from rapidgen.client.core.program_stationary import fits
 from rapidgen.client.core.robot import Core
 from rapidgen.client.errors import NotSupported, RequestRefused
 from rapidgen.client.flows.control import ask

@@ -6,8 +6,8 @@ from rapidgen.client.core.robot import Core
 from rapidgen.client.errors import RobotError
 from rapidgen.client.flows.effects import INTERRUPTIONS, Flow, Send, Wait
 from rapidgen.client.flows.stop import PER_POINT, ended, stop
-from rapidgen.wire.simple_message.bulk import FRAME_BYTES, encode_trajectory
 from rapidgen.wire.simple_message.messages import JOINT_TRAJ_PT
+from rapidgen.wire.simple_message.numpy_codec import FRAME_BYTES, encode_trajectory
 from rapidgen.wire.simple_message.spec import Port
 
 

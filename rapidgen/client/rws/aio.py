@@ -13,8 +13,10 @@ from websockets.asyncio.client import ClientConnection
 from websockets.asyncio.client import connect as connect_socket
 from websockets.exceptions import ConnectionClosed, WebSocketException
 
+from rapidgen._compat import Self
 from rapidgen.client import deadline
 from rapidgen.client.errors import ConnectionLost, RobotTimeout
+from rapidgen.client.rws.api import PATIENCE, ControllerSurface
 from rapidgen.client.rws.core import Pace, RwsCore
 from rapidgen.client.rws.effects import (
     Effect,
@@ -29,9 +31,10 @@ from rapidgen.client.rws.effects import (
     resume,
 )
 from rapidgen.client.rws.errors import Busy
-from rapidgen.client.rws.flows import connecting, holding, subscribing
+from rapidgen.client.rws.flows import connect as connecting
+from rapidgen.client.rws.flows import mastership as holding
+from rapidgen.client.rws.flows import subscriptions
 from rapidgen.client.rws.model import ResourceEvent
-from rapidgen.client.rws.surface import PATIENCE, ControllerSurface
 from rapidgen.client.rws.topics import Topic
 from rapidgen.client.rws.transport import (
     auth_of,
@@ -41,7 +44,6 @@ from rapidgen.client.rws.transport import (
     response_of,
     socket_options,
 )
-from rapidgen.python310 import Self
 
 T = TypeVar("T")
 
@@ -177,7 +179,7 @@ class AsyncSubscription:
         self._group = ""
         self._stack = AsyncExitStack()
 
-    async def _open(self, flow: Flow[subscribing.Opened]) -> None:
+    async def _open(self, flow: Flow[subscriptions.Opened]) -> None:
         opened = await self._carrier.run(flow)
         self._group = opened.group
         self._waiting.extend(opened.events)
@@ -203,7 +205,7 @@ class AsyncSubscription:
             return
         data = message.encode() if isinstance(message, str) else message
         self._waiting.extend(
-            await self._carrier.run(subscribing.events_of(self._core, self._topics, data))
+            await self._carrier.run(subscriptions.events_of(self._core, self._topics, data))
         )
 
     async def _again(self) -> None:
@@ -211,16 +213,16 @@ class AsyncSubscription:
         until = time.monotonic() + PATIENCE
         while True:
             try:
-                return await self._open(subscribing.again(self._core, self._topics, PATIENCE))
+                return await self._open(subscriptions.again(self._core, self._topics, PATIENCE))
             except (ConnectionLost, Busy):
                 if time.monotonic() >= until:
                     raise
-                await self._carrier.run(subscribing.unsubscribe(self._core, self._group))
+                await self._carrier.run(subscriptions.unsubscribe(self._core, self._group))
 
     async def close(self) -> None:
         """Be told no more."""
         if self._socket is not None:
-            await self._carrier.run(subscribing.unsubscribe(self._core, self._group))
+            await self._carrier.run(subscriptions.unsubscribe(self._core, self._group))
             await self._stack.aclose()
             self._socket = None
 
@@ -229,7 +231,7 @@ class AsyncSubscription:
             yield await self.next()
 
     async def __aenter__(self) -> Self:
-        await self._open(subscribing.subscribe(self._core, self._topics))
+        await self._open(subscriptions.subscribe(self._core, self._topics))
         return self
 
     async def __aexit__(self, *_: object) -> None:

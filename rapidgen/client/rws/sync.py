@@ -14,7 +14,9 @@ from websockets.exceptions import ConnectionClosed, WebSocketException
 from websockets.sync.client import ClientConnection
 from websockets.sync.client import connect as connect_socket
 
+from rapidgen._compat import Self
 from rapidgen.client.errors import ConnectionLost, RobotTimeout
+from rapidgen.client.rws.api import PATIENCE, ControllerSurface
 from rapidgen.client.rws.core import Pace, RwsCore
 from rapidgen.client.rws.effects import (
     Effect,
@@ -29,9 +31,10 @@ from rapidgen.client.rws.effects import (
     resume,
 )
 from rapidgen.client.rws.errors import Busy
-from rapidgen.client.rws.flows import connecting, holding, subscribing
+from rapidgen.client.rws.flows import connect as connecting
+from rapidgen.client.rws.flows import mastership as holding
+from rapidgen.client.rws.flows import subscriptions
 from rapidgen.client.rws.model import ResourceEvent
-from rapidgen.client.rws.surface import PATIENCE, ControllerSurface
 from rapidgen.client.rws.topics import Topic
 from rapidgen.client.rws.transport import (
     auth_of,
@@ -41,7 +44,6 @@ from rapidgen.client.rws.transport import (
     response_of,
     socket_options,
 )
-from rapidgen.python310 import Self
 
 T = TypeVar("T")
 
@@ -178,9 +180,9 @@ class Subscription:
         self._socket: ClientConnection | None = None
         self._group = ""
         self._stack = ExitStack()
-        self._open(subscribing.subscribe(core, chosen))
+        self._open(subscriptions.subscribe(core, chosen))
 
-    def _open(self, flow: Flow[subscribing.Opened]) -> None:
+    def _open(self, flow: Flow[subscriptions.Opened]) -> None:
         opened = self._carrier.run(flow)
         self._group = opened.group
         self._waiting.extend(opened.events)
@@ -202,7 +204,7 @@ class Subscription:
                 continue
             data = message.encode() if isinstance(message, str) else message
             self._waiting.extend(
-                self._carrier.run(subscribing.events_of(self._core, self._topics, data))
+                self._carrier.run(subscriptions.events_of(self._core, self._topics, data))
             )
         return self._waiting.popleft()
 
@@ -211,16 +213,16 @@ class Subscription:
         until = time.monotonic() + PATIENCE
         while True:
             try:
-                return self._open(subscribing.again(self._core, self._topics, PATIENCE))
+                return self._open(subscriptions.again(self._core, self._topics, PATIENCE))
             except (ConnectionLost, Busy):
                 if time.monotonic() >= until:
                     raise
-                self._carrier.run(subscribing.unsubscribe(self._core, self._group))
+                self._carrier.run(subscriptions.unsubscribe(self._core, self._group))
 
     def close(self) -> None:
         """Be told no more."""
         if self._socket is not None:
-            self._carrier.run(subscribing.unsubscribe(self._core, self._group))
+            self._carrier.run(subscriptions.unsubscribe(self._core, self._group))
             self._stack.close()
             self._socket = None
 

@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterator
 
 from rapidgen.config.draft import JointDraft
-from rapidgen.config.open_lines import OPEN
+from rapidgen.config.placeholders import OPEN
 from rapidgen.config.urdf.robot import UrdfJoint
 from rapidgen.config.yaml_text import yaml_text
 from rapidgen.diagnostics import Diagnostic, Severity, Span, error

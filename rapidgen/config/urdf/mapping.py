@@ -8,7 +8,7 @@ import re
 from collections.abc import Sequence
 
 from rapidgen.config.axis_sets import ROBOT_AXES
-from rapidgen.config.open_lines import OPEN
+from rapidgen.config.placeholders import OPEN
 from rapidgen.config.urdf.arms import read_cell
 from rapidgen.config.urdf.graph import Graph
 from rapidgen.config.urdf.robot import UrdfJoint

@@ -12,7 +12,7 @@ from io import BytesIO
 from types import ModuleType
 from typing import TYPE_CHECKING
 
-from rapidgen.config.few import few
+from rapidgen.config.truncation import few
 from rapidgen.config.urdf.expand import Description
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, Span, error, refusal
 

@@ -19,7 +19,7 @@ from rapidgen.controller.debugger.values import NotNow, Shown
 from rapidgen.machine.scheduler import S, Timer, WaitSet
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.compiler.symbols import LoadedModule, Routine
-from rapidgen.runtime.compiler.watching import WatchedExpression
+from rapidgen.runtime.compiler.watch_expressions import WatchedExpression
 from rapidgen.runtime.errors import FatalError, Location, RapidError
 from rapidgen.runtime.task.task import Task
 

@@ -6,7 +6,7 @@ from types import FrameType
 from typing import Literal, TypeAlias
 
 from rapidgen.rapid.syntax import nodes as n
-from rapidgen.runtime.compiler.compiled import CodeRole
+from rapidgen.runtime.compiler.code_info import CodeRole
 from rapidgen.runtime.compiler.resume import find
 from rapidgen.runtime.compiler.symbols import LoadedModule, Routine
 from rapidgen.runtime.errors import Location

@@ -13,7 +13,7 @@ from rapidgen.runtime.compiler.linking import Linker
 from rapidgen.runtime.compiler.loops import loop_variable
 from rapidgen.runtime.compiler.program import Program
 from rapidgen.runtime.compiler.symbols import CannotCompile, LoadedModule, Routine
-from rapidgen.runtime.compiler.watching import (
+from rapidgen.runtime.compiler.watch_expressions import (
     WatchedExpression,
     parse_assignment,
     parse_expression,

@@ -12,7 +12,7 @@ import paramiko
 
 from rapidgen.deploy.secrets import Credentials, redact
 from rapidgen.deploy.transports.registry import Target
-from rapidgen.deploy.transports.sftp_answers import CheckedClient
+from rapidgen.deploy.transports.sftp_checks import CheckedClient
 from rapidgen.deploy.transports.transport import (
     FILE_LIMIT,
     LISTING_LIMIT,

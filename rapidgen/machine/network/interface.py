@@ -8,8 +8,8 @@ sockets); `faulty.py` puts a fault plan before either.
 
 from abc import ABC, abstractmethod
 
+from rapidgen._compat import StrEnum
 from rapidgen.machine.scheduler import WaitSet
-from rapidgen.python310 import StrEnum
 
 SocketAddress = tuple[str, int]
 

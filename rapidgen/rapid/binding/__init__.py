@@ -23,6 +23,7 @@ from rapidgen.rapid.binding.arguments import (
 )
 from rapidgen.rapid.binding.constants import NotConstant, constant, evaluate, sizes_of, value_of
 from rapidgen.rapid.binding.expressions import declared_type, root, type_of
+from rapidgen.rapid.binding.lookup import Bound
 from rapidgen.rapid.binding.names import (
     ModuleScope,
     RoutineScope,
@@ -31,7 +32,6 @@ from rapidgen.rapid.binding.names import (
     builtin,
     installed_objects,
 )
-from rapidgen.rapid.binding.places import Bound
 from rapidgen.rapid.binding.symbols import (
     DATA,
     ROUTINES,

@@ -16,9 +16,9 @@ from rapidgen.rapid.binding import (
     TaskScope,
     installed_objects,
 )
+from rapidgen.rapid.checks.context import Given, Payload
 from rapidgen.rapid.checks.declarations import check_module
 from rapidgen.rapid.checks.findings import Findings
-from rapidgen.rapid.checks.given import Given, Payload
 from rapidgen.rapid.dialect import Dialect
 from rapidgen.rapid.syntax.nodes import Module
 from rapidgen.rapid.syntax.parser import parse

@@ -21,8 +21,8 @@ from rapidgen.rapid.binding import (
 from rapidgen.rapid.binding.names import called
 from rapidgen.rapid.binding.types import array
 from rapidgen.rapid.builtins.signatures import Version
+from rapidgen.rapid.checks.context import closest
 from rapidgen.rapid.checks.findings import Findings
-from rapidgen.rapid.checks.given import closest
 from rapidgen.rapid.syntax.nodes import (
     Argument,
     FunctionCall,

@@ -18,7 +18,7 @@ from rapidgen.rapid.binding import (
 )
 from rapidgen.rapid.binding.types import AGGREGATE, element, equal
 from rapidgen.rapid.builtins import signatures
-from rapidgen.rapid.checks.given import Given, closest
+from rapidgen.rapid.checks.context import Given, closest
 from rapidgen.rapid.syntax.nodes import Node
 
 _Options = Literal["procedures", "functions", "types", "values", ""]

@@ -12,7 +12,7 @@ from rapidgen.rapid.binding.types import AGGREGATE, degree
 from rapidgen.rapid.builtins import signatures
 from rapidgen.rapid.checks.findings import Findings
 from rapidgen.rapid.checks.typing import TypeChecker
-from rapidgen.rapid.syntax.habits import UNEQUAL, unequal_behind
+from rapidgen.rapid.syntax.foreign_syntax import UNEQUAL, unequal_behind
 from rapidgen.rapid.syntax.nodes import (
     Aggregate,
     Assignment,

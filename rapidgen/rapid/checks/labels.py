@@ -2,8 +2,8 @@
 
 from collections.abc import Iterator, Sequence
 
+from rapidgen.rapid.checks.context import closest
 from rapidgen.rapid.checks.findings import Findings
-from rapidgen.rapid.checks.given import closest
 from rapidgen.rapid.syntax.nodes import (
     CompactIf,
     For,

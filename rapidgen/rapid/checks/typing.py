@@ -35,8 +35,8 @@ from rapidgen.rapid.binding.types import (
 )
 from rapidgen.rapid.builtins.signatures import Value
 from rapidgen.rapid.checks.calls import CallChecker
+from rapidgen.rapid.checks.context import closest
 from rapidgen.rapid.checks.findings import Findings
-from rapidgen.rapid.checks.given import closest
 from rapidgen.rapid.numbers import MAX_STRING, is_exact_single, is_single
 from rapidgen.rapid.syntax.nodes import (
     Aggregate,

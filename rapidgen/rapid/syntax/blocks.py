@@ -8,9 +8,9 @@ lacks its end is closed where an outer one ends.
 from typing import Final
 
 from rapidgen.diagnostics import error
-from rapidgen.rapid.syntax import faults
+from rapidgen.rapid.syntax import errors
+from rapidgen.rapid.syntax.errors import CLOSER, GivenUp, SyntaxFault
 from rapidgen.rapid.syntax.expressions import MAX_BLOCK_DEPTH, ExpressionParser
-from rapidgen.rapid.syntax.faults import CLOSER, GivenUp, SyntaxFault
 from rapidgen.rapid.syntax.lexer import EOF, NAME, UNTERMINATED
 
 ROUTINE_END_WORDS: Final = frozenset(("ENDPROC", "ENDFUNC", "ENDTRAP"))
@@ -132,7 +132,7 @@ class Blocks:
         if suspect < 0 or wrong_word or not self.expressions.starts_line(statement):
             suspect = -1
         self.expressions.report(
-            faults.stray(self.expressions.source, self.kinds, i, expected, self.open, suspect)
+            errors.stray(self.expressions.source, self.kinds, i, expected, self.open, suspect)
         )
 
     def _behind(self, i: int) -> int:
@@ -175,7 +175,7 @@ class Blocks:
             raise GivenUp(
                 error(
                     "RG210",
-                    faults.place(self.expressions.source, i),
+                    errors.place(self.expressions.source, i),
                     f"blocks are nested more than {MAX_BLOCK_DEPTH} deep",
                     "move inner blocks into a procedure of their own",
                 )

@@ -2,8 +2,8 @@
 
 from typing import Final, cast
 
+from rapidgen.rapid.syntax.errors import SyntaxFault
 from rapidgen.rapid.syntax.expressions import ExpressionParser
-from rapidgen.rapid.syntax.faults import SyntaxFault
 from rapidgen.rapid.syntax.lexer import EOF, HOLDER, NAME
 from rapidgen.rapid.syntax.nodes import (
     DataDeclaration,

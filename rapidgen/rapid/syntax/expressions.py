@@ -11,8 +11,8 @@ The functions take the index of the first token and give the node; the next toke
 from typing import Final
 
 from rapidgen.diagnostics import Diagnostic, Severity, error
-from rapidgen.rapid.syntax import faults, lexer
-from rapidgen.rapid.syntax.faults import Block, GivenUp, SyntaxFault
+from rapidgen.rapid.syntax import errors, lexer
+from rapidgen.rapid.syntax.errors import Block, GivenUp, SyntaxFault
 from rapidgen.rapid.syntax.lexer import HOLDER, NAME, NUMBER, STRING, Tokens
 from rapidgen.rapid.syntax.nodes import (
     Aggregate,
@@ -93,7 +93,7 @@ class ExpressionParser:
         """Keep a finding; a text with too many is given up."""
         self.diagnostics.append(diagnostic)
         if len(self.diagnostics) >= MAX_ERRORS:
-            raise GivenUp(faults.too_many(diagnostic, MAX_ERRORS))
+            raise GivenUp(errors.too_many(diagnostic, MAX_ERRORS))
 
     def fault(self, found: SyntaxFault) -> None:
         """Report what a statement or declaration raised, once. No expression goes on behind it."""
@@ -105,7 +105,7 @@ class ExpressionParser:
         last = found.at if self.kinds[found.at] is not lexer.UNTERMINATED else found.at + 1
         self.end_reported = self.kinds[last] is lexer.EOF
         self.report(
-            faults.unexpected(
+            errors.unexpected(
                 self.source, self.kinds, found.at, found.expected, self.open, found.help
             )
         )
@@ -116,14 +116,14 @@ class ExpressionParser:
             if self.end_reported:
                 return
             self.end_reported = True
-        self.report(faults.unclosed(self.source, self.kinds, i, self.open, missing))
+        self.report(errors.unclosed(self.source, self.kinds, i, self.open, missing))
 
     def too_deep(self, at: int) -> GivenUp:
         """The one diagnostic of an expression beyond the limit."""
         return GivenUp(
             error(
                 "RG211",
-                faults.place(self.source, at),
+                errors.place(self.source, at),
                 f"the expression is nested more than {MAX_EXPRESSION_DEPTH} deep",
                 "split the expression over several statements",
             )
@@ -273,7 +273,7 @@ class ExpressionParser:
         self.report(
             error(
                 "RG212",
-                faults.place(self.source, i),
+                errors.place(self.source, i),
                 rule,
                 "put it and its operand in parentheses",
                 label="bound to the next operand",

@@ -7,11 +7,11 @@ from typing import Final
 
 from rapidgen.diagnostics import Diagnostic, Severity, error
 from rapidgen.rapid.dialect import Dialect
-from rapidgen.rapid.syntax import faults, lexer, text
+from rapidgen.rapid.syntax import errors, lexer, text
 from rapidgen.rapid.syntax.blocks import Blocks
 from rapidgen.rapid.syntax.data import DATA, MODULE_STOPS, DataParser
+from rapidgen.rapid.syntax.errors import GivenUp, SyntaxFault
 from rapidgen.rapid.syntax.expressions import ExpressionParser
-from rapidgen.rapid.syntax.faults import GivenUp, SyntaxFault
 from rapidgen.rapid.syntax.lexer import EOF, HOLDER, NAME, Tokens
 from rapidgen.rapid.syntax.nodes import (
     AliasDeclaration,
@@ -93,7 +93,7 @@ class ModuleParser:
         self.report(
             error(
                 "RG217",
-                faults.place(self.source, i),
+                errors.place(self.source, i),
                 "a second module in one file: it is not read"
                 if again
                 else "there is text behind ENDMODULE: it is not read",
@@ -136,7 +136,7 @@ class ModuleParser:
         self.report(
             error(
                 "RG215",
-                faults.place(self.source, i),
+                errors.place(self.source, i),
                 fault,
                 "the order is SYSMODULE, NOVIEW, NOSTEPIN, VIEWONLY, READONLY",
                 notes=("module attributes [K §9.1]",),

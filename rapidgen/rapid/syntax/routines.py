@@ -3,11 +3,11 @@
 from typing import Final, cast
 
 from rapidgen.diagnostics import error
-from rapidgen.rapid.syntax import faults
+from rapidgen.rapid.syntax import errors
 from rapidgen.rapid.syntax.blocks import ROUTINE_END_WORDS, Blocks
 from rapidgen.rapid.syntax.data import DATA, MODULE_STOPS, DataParser
+from rapidgen.rapid.syntax.errors import CLOSER, SyntaxFault
 from rapidgen.rapid.syntax.expressions import ExpressionParser
-from rapidgen.rapid.syntax.faults import CLOSER, SyntaxFault
 from rapidgen.rapid.syntax.lexer import HOLDER, NAME, NUMBER
 from rapidgen.rapid.syntax.nodes import (
     DataDeclaration,
@@ -163,7 +163,7 @@ class RoutineParser:
         self.expressions.report(
             error(
                 "RG216",
-                faults.place(self.expressions.source, at),
+                errors.place(self.expressions.source, at),
                 message,
                 "the order is BACKWARD (PROC only), ERROR, UNDO, at most one of each",
                 notes=("handlers of a routine [K §5.3-5.5]",),

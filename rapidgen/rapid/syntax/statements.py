@@ -5,8 +5,8 @@ from collections.abc import Callable
 from rapidgen.diagnostics import error
 from rapidgen.rapid.syntax.blocks import BLOCK_ENDS, ENDS, STARTERS, Blocks
 from rapidgen.rapid.syntax.data import DATA, DataParser
+from rapidgen.rapid.syntax.errors import SyntaxFault
 from rapidgen.rapid.syntax.expressions import ExpressionParser
-from rapidgen.rapid.syntax.faults import SyntaxFault
 from rapidgen.rapid.syntax.lexer import HOLDER, NAME
 from rapidgen.rapid.syntax.nodes import (
     Argument,

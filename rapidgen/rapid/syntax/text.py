@@ -7,7 +7,7 @@ from math import isinf
 from typing import Final
 
 from rapidgen.diagnostics import Diagnostic, Severity, Span, error
-from rapidgen.rapid.syntax import faults
+from rapidgen.rapid.syntax import errors
 from rapidgen.rapid.syntax.lexer import (
     BAD_RADIX,
     MAX_NAME,
@@ -75,14 +75,14 @@ def no_module(source: Source, kinds: Sequence[str]) -> Diagnostic:
     if not source.tokens:
         return error(
             "RG208",
-            faults.place(source, 0),
+            errors.place(source, 0),
             "the file has no module, only comments",
             "a module is MODULE name ... ENDMODULE",
         )
     return error(
         "RG208",
-        faults.place(source, 0),
-        f"met {faults.met(source, kinds, 0)}, expected MODULE",
+        errors.place(source, 0),
+        f"met {errors.met(source, kinds, 0)}, expected MODULE",
         "a module is MODULE name ... ENDMODULE",
         label="expected MODULE",
     )
@@ -139,7 +139,7 @@ def spellings(tokens: Tokens) -> list[Diagnostic]:
                 error(
                     "RG205",
                     tokens.source.span(at, at),
-                    f"no type holds {faults.met(tokens.source, tokens.kinds, at)}",
+                    f"no type holds {errors.met(tokens.source, tokens.kinds, at)}",
                     "num ends at 3.4E38, dnum at 1.79E308",
                     notes=("an exponent out of range is an error of the text [K §1.4, 2.5]",),
                 )
@@ -163,7 +163,7 @@ def spellings(tokens: Tokens) -> list[Diagnostic]:
                 error(
                     "RG220",
                     tokens.source.span(at, at),
-                    f"the name {faults.met(tokens.source, tokens.kinds, at)} has {len(text)} "
+                    f"the name {errors.met(tokens.source, tokens.kinds, at)} has {len(text)} "
                     f"characters; {MAX_NAME} is the limit",
                     "shorten it",
                     notes=("all characters of a name count [K §2.3]",),

@@ -10,8 +10,8 @@ from pathlib import Path
 
 import jinja2
 
+from rapidgen._atomic_write import write_whole
 from rapidgen._data import data_folder
-from rapidgen._writing import write_whole
 from rapidgen.config.model import GroupConfig, RobotConfig
 from rapidgen.config.yaml_text import yaml_flow, yaml_text
 from rapidgen.diagnostics import DiagnosticError, error

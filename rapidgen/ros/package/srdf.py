@@ -8,8 +8,8 @@ robot's real shape, and a check too many harms nobody.
 from collections.abc import Sequence
 from xml.etree import ElementTree as ET
 
+from rapidgen.axes.default_postures import usual_start
 from rapidgen.axes.mapping import JointMap
-from rapidgen.axes.starts import usual_start
 from rapidgen.config.model import GroupConfig
 from rapidgen.ros.package.shapes import overlapping
 from rapidgen.ros.package.urdf import Drawn, PlacedRobot, urdf_range

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 
-from rapidgen.machine.log import Event
+from rapidgen.machine.event_log import Event
 from rapidgen.rapid.numbers import single as as_num
 from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.registry import builtin

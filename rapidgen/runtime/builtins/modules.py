@@ -2,7 +2,7 @@
 
 from rapidgen.rapid.numbers import single
 from rapidgen.runtime import loading
-from rapidgen.runtime.compiler.missing import missing_routines
+from rapidgen.runtime.compiler.undefined_calls import missing_routines
 from rapidgen.runtime.disks import file_path
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.host import RapidTask

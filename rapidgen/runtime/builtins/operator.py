@@ -9,7 +9,7 @@ import math
 from collections.abc import Callable, Iterable, Mapping
 from types import MappingProxyType
 
-from rapidgen.machine.log import EventType
+from rapidgen.machine.event_log import EventType
 from rapidgen.machine.scheduler import WaitSet
 from rapidgen.rapid.number_text import DNUM_DIGITS, number_text
 from rapidgen.rapid.numbers import MAX_STRING

@@ -12,9 +12,9 @@ from rapidgen.rapid.builtins import signatures
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.anytype import target_of
 from rapidgen.runtime.builtins.modules import task_named
-from rapidgen.runtime.builtins.motion.access import data_of
 from rapidgen.runtime.builtins.motion.arguments import frame
 from rapidgen.runtime.builtins.motion.loads import carry, payload_of
+from rapidgen.runtime.builtins.motion.task_group import data_of
 from rapidgen.runtime.compiler.symbols import Data, LoadedModule
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.host import RapidTask

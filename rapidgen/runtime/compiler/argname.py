@@ -11,7 +11,7 @@ from typing import TypeAlias
 from rapidgen.rapid.binding.arguments import match
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.rapid.syntax.walk import walk
-from rapidgen.runtime.compiler.compiled import CodeRole, Codes
+from rapidgen.runtime.compiler.code_info import CodeRole, Codes
 from rapidgen.runtime.compiler.resume import find
 from rapidgen.runtime.compiler.symbols import Data, LoadedModule, Routine
 from rapidgen.runtime.errors import RapidError

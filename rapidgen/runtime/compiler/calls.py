@@ -8,8 +8,8 @@ from rapidgen.rapid.syntax import nodes as n
 from rapidgen.rapid.syntax.walk import walk
 from rapidgen.runtime.compiler.context import CALLS, E, Unit, calling, same_type
 from rapidgen.runtime.compiler.references import place_of, reference
-from rapidgen.runtime.compiler.storing import by_value
 from rapidgen.runtime.compiler.symbols import CannotCompile, FormalParameter, Routine
+from rapidgen.runtime.compiler.value_copies import by_value
 from rapidgen.runtime.registry import COSTS
 from rapidgen.runtime.values import BOOL, NUM, STRING
 

@@ -6,7 +6,7 @@ from typing import TypeAlias
 
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.rapid.syntax.walk import walk
-from rapidgen.runtime.compiler.compiled import CodeRole
+from rapidgen.runtime.compiler.code_info import CodeRole
 from rapidgen.runtime.compiler.context import CALLS, SILENT, E, Unit, calling, failing
 from rapidgen.runtime.compiler.references import undeclared, unknown_type
 from rapidgen.runtime.compiler.symbols import CannotCompile, NoWay

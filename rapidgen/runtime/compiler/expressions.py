@@ -6,8 +6,8 @@ from rapidgen.runtime.compiler.context import E, Unit, failing
 from rapidgen.runtime.compiler.inline import function_call
 from rapidgen.runtime.compiler.operators import binary, unary
 from rapidgen.runtime.compiler.references import read
-from rapidgen.runtime.compiler.storing import by_value
 from rapidgen.runtime.compiler.symbols import CannotCompile
+from rapidgen.runtime.compiler.value_copies import by_value
 from rapidgen.runtime.values import BOOL, DNUM, NUM, STRING, Type, attribute
 
 

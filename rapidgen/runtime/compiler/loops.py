@@ -10,8 +10,8 @@ from contextlib import contextmanager
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.compiler.context import CALLS, SILENT, E, Unit
 from rapidgen.runtime.compiler.emitter import Emitter
-from rapidgen.runtime.compiler.storing import rounded
 from rapidgen.runtime.compiler.symbols import Data
+from rapidgen.runtime.compiler.value_copies import rounded
 from rapidgen.runtime.values import BOOL, NUM
 
 

@@ -11,7 +11,7 @@ from rapidgen.rapid.numbers import dnum
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.compiler import runtime
 from rapidgen.runtime.compiler.argname import arg_name
-from rapidgen.runtime.compiler.compiled import Compiled
+from rapidgen.runtime.compiler.code_info import Compiled
 from rapidgen.runtime.compiler.context import Options
 from rapidgen.runtime.compiler.linking import Linker, Shared
 from rapidgen.runtime.compiler.resume import Standing, after, compile_backward, compile_rest

@@ -6,8 +6,8 @@ from rapidgen.rapid.binding.symbols import TypeSymbol
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.rapid.syntax.walk import walk_own
 from rapidgen.runtime.compiler.context import CALLS, SHARED, E, Unit, failing, same_type
-from rapidgen.runtime.compiler.storing import by_value
 from rapidgen.runtime.compiler.symbols import CannotCompile, Data, FormalParameter
+from rapidgen.runtime.compiler.value_copies import by_value
 from rapidgen.runtime.values import NUM, attribute
 
 

@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 
 from rapidgen.rapid.syntax import nodes as n
-from rapidgen.runtime.compiler.compiled import Compiled
+from rapidgen.runtime.compiler.code_info import Compiled
 from rapidgen.runtime.compiler.context import Options
 from rapidgen.runtime.compiler.linking import Linker
 from rapidgen.runtime.compiler.loops import loop_bound, loop_variable

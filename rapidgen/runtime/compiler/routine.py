@@ -6,7 +6,7 @@ from types import CodeType
 
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.compiler.analysis import Facts
-from rapidgen.runtime.compiler.compiled import HANDLER, LISTED, UNDO, CodeRole, Compiled
+from rapidgen.runtime.compiler.code_info import HANDLER, LISTED, UNDO, CodeRole, Compiled
 from rapidgen.runtime.compiler.context import Options, Unit
 from rapidgen.runtime.compiler.emitter import Emitter
 from rapidgen.runtime.compiler.expressions import compile_expression

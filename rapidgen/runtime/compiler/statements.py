@@ -3,15 +3,15 @@
 from rapidgen.rapid.builtins.signatures import marked
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime import unsupported
+from rapidgen.runtime.compiler.assignments import assignment, connect, step
 from rapidgen.runtime.compiler.calls import call
-from rapidgen.runtime.compiler.compiled import CodeRole
+from rapidgen.runtime.compiler.code_info import CodeRole
 from rapidgen.runtime.compiler.context import CALLS, E, calling, failing
 from rapidgen.runtime.compiler.emitter import Emitter
-from rapidgen.runtime.compiler.late import late_call
+from rapidgen.runtime.compiler.late_binding import late_call
 from rapidgen.runtime.compiler.loops import for_loop, if_statement, test_statement, while_loop
-from rapidgen.runtime.compiler.stores import assignment, connect, step
-from rapidgen.runtime.compiler.storing import by_value
 from rapidgen.runtime.compiler.symbols import CannotCompile
+from rapidgen.runtime.compiler.value_copies import by_value
 from rapidgen.runtime.values import NUM
 
 

@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Sequence
 from types import CodeType, FrameType, TracebackType
 
-from rapidgen.runtime.compiler.compiled import CodeRole, Codes
+from rapidgen.runtime.compiler.code_info import CodeRole, Codes
 from rapidgen.runtime.errors import Location
 
 

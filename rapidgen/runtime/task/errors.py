@@ -7,7 +7,7 @@ from typing import NoReturn
 
 from greenlet import GreenletExit
 
-from rapidgen.runtime.compiler.compiled import CodeRole
+from rapidgen.runtime.compiler.code_info import CodeRole
 from rapidgen.runtime.errors import (
     LARGEST_USER_ERROR,
     RECOVERABLE,

@@ -8,7 +8,7 @@ from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
-from rapidgen.machine.log import Event
+from rapidgen.machine.event_log import Event
 from rapidgen.runtime.compiler.symbols import Routine
 from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.host import RapidTask

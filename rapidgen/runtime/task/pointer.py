@@ -12,7 +12,7 @@ from types import FrameType
 from typing import ParamSpec, TypeVar
 
 from rapidgen.rapid.syntax.walk import walk
-from rapidgen.runtime.compiler.compiled import CodeRole
+from rapidgen.runtime.compiler.code_info import CodeRole
 from rapidgen.runtime.compiler.program import Program
 from rapidgen.runtime.compiler.resume import Standing, find
 from rapidgen.runtime.compiler.symbols import CannotCompile, Routine

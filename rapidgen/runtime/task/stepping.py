@@ -15,8 +15,8 @@ from rapidgen.runtime.compiler.resume import Standing
 from rapidgen.runtime.compiler.symbols import CannotCompile, LoadedModule
 from rapidgen.runtime.errors import Location
 from rapidgen.runtime.host import RapidTask
+from rapidgen.runtime.task.backward_motion import StepHistory
 from rapidgen.runtime.task.call_stack import outwards
-from rapidgen.runtime.task.driving_back import StepHistory
 from rapidgen.runtime.task.errors import Errors
 from rapidgen.runtime.task.event_routines import EventRoutines
 from rapidgen.runtime.task.pointer import CannotStep, Pointer

@@ -12,7 +12,7 @@ from types import FrameType
 from rapidgen.diagnostics import Span
 from rapidgen.machine.process import Process
 from rapidgen.machine.scheduler import Scheduler, Timer, WaitSet
-from rapidgen.motion.faults import MotionFault
+from rapidgen.motion.fault_reasons import MotionFault
 from rapidgen.runtime import unsupported
 from rapidgen.runtime.compiler.linking import Shared
 from rapidgen.runtime.compiler.program import Program

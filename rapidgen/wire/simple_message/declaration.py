@@ -7,7 +7,7 @@ wire alike. What else knows a message (codec, RAPID constants, docs/develop/prot
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from rapidgen.python310 import StrEnum
+from rapidgen._compat import StrEnum
 from rapidgen.wire.simple_message.spec import HEADER_BYTES, Port, ReplyCode
 
 Value = int | float | str | tuple[int, ...] | tuple[float, ...]

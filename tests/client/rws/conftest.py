@@ -5,11 +5,11 @@ from pathlib import Path
 
 import pytest
 
-sys.path.insert(0, str(Path(__file__).parents[2] / "faces" / "rws"))
+sys.path.insert(0, str(Path(__file__).parents[2] / "servers" / "rws"))
 
 from served import make_cabinet
 
-from rapidgen.faces.rws.server import serve_rws
+from rapidgen.servers.rws.server import serve_rws
 from rapidgen.wire.rws.bodies import Generation
 
 SPEED = 60

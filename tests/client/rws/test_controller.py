@@ -14,8 +14,8 @@ from rapidgen.client.rws import AsyncController, Controller, RwsError
 from rapidgen.client.rws.address import parse_address
 from rapidgen.client.rws.core import RATE, Pace
 from rapidgen.client.rws.errors import Held, LoginFailed, NotObeyed, NotRws
-from rapidgen.client.rws.pins import known
-from rapidgen.faces.rws.handlers import motion
+from rapidgen.client.rws.known_certificates import known
+from rapidgen.servers.rws.handlers import motion
 from rapidgen.wire.rws.bodies import Generation
 
 BACK = b"""MODULE Back

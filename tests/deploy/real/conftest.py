@@ -23,7 +23,7 @@ import pytest
 
 from rapidgen.deploy import Access, connect, parse_target
 from rapidgen.deploy.transports.registry import Target
-from rapidgen.faces import serve_ftp, serve_sftp
+from rapidgen.servers import serve_ftp, serve_sftp
 from tests.ports import free_port, own_address
 
 ROOT = Path(__file__).parents[3]

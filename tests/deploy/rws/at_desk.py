@@ -17,9 +17,9 @@ from rapidgen.client.rws.effects import (
     resume,
 )
 from rapidgen.deploy.transports.rws import RwsTransport
-from rapidgen.faces.rws.asking import HttpReply, Received
-from rapidgen.faces.rws.desk import SESSION, Desk
-from rapidgen.faces.rws.office import Accounts
+from rapidgen.servers.rws.application import SESSION, Desk
+from rapidgen.servers.rws.context import Accounts
+from rapidgen.servers.rws.messages import HttpReply, Received
 from rapidgen.wire.rws.bodies import Generation
 
 PASSWORD = "a-word-of-its-own"

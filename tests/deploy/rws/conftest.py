@@ -10,11 +10,11 @@ sys.path.insert(0, str(Path(__file__).parent))
 from at_desk import PASSWORD, Line, connect, pass_time
 
 from rapidgen.config import load_config
-from rapidgen.controller.cabinet import Cabinet
+from rapidgen.controller.runner import Cabinet
 from rapidgen.deploy import apply, make_plan
-from rapidgen.deploy.live.carry import LiveOptions
-from rapidgen.deploy.session import wanted_set
-from rapidgen.faces.rws.asking import HttpReply
+from rapidgen.deploy.command_run import wanted_set
+from rapidgen.deploy.online.apply import LiveOptions
+from rapidgen.servers.rws.messages import HttpReply
 from rapidgen.system import read_files, write_cfg
 from rapidgen.system.base import Robot, base_system
 from rapidgen.wire.rws.bodies import Generation

@@ -13,7 +13,7 @@ import traceback
 
 import pytest
 
-from rapidgen.deploy.session import earlier_set
+from rapidgen.deploy.command_run import earlier_set
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.wire.rws.bodies import Generation
 

@@ -2,11 +2,11 @@
 
 import pytest
 
-from rapidgen.cli.hello import hello
+from rapidgen.cli.driver_query import hello
 from rapidgen.client import Robot, Trajectory
 from rapidgen.client.address import Address
 from rapidgen.config import load_config
-from rapidgen.deploy.live.proof import ReadBack
+from rapidgen.deploy.online.verify import ReadBack
 from rapidgen.wire.simple_message.spec import TriState
 
 SPEED = 10

@@ -9,11 +9,11 @@ import typer
 from rapidgen.cli.doctor import doctor
 from rapidgen.cli.plan import plan
 from rapidgen.deploy import Access, connect, parse_target
+from rapidgen.deploy.command_run import FleetJob, apply_all, plan_all
 from rapidgen.deploy.fleet import parse_targets
-from rapidgen.deploy.session import FleetJob, apply_all, plan_all
 from rapidgen.diagnostics import DiagnosticError, render
-from rapidgen.faces.rws.office import Accounts
-from rapidgen.faces.rws.server import serve_rws
+from rapidgen.servers.rws.context import Accounts
+from rapidgen.servers.rws.server import serve_rws
 from rapidgen.wire.rws.bodies import Generation
 from tests.refusal import refusal
 

@@ -7,10 +7,10 @@ from dataclasses import replace
 import pytest
 
 from rapidgen.deploy import backup_set, make_plan, plan_json
+from rapidgen.deploy.command_run import check_plans, earlier_set, write_plans
 from rapidgen.deploy.doctor import _contents
-from rapidgen.deploy.live.proof import ReadBack
-from rapidgen.deploy.session import check_plans, earlier_set, write_plans
-from rapidgen.deploy.show import plan_text
+from rapidgen.deploy.online.verify import ReadBack
+from rapidgen.deploy.plan_text import plan_text
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.wire.rws.bodies import Generation
 from tests.refusal import refusal, refused

@@ -6,9 +6,9 @@ from typing import Any
 
 import pytest
 
+from rapidgen.machine.event_log import EventLog
 from rapidgen.machine.files import FileSystem
 from rapidgen.machine.io import IOSystem
-from rapidgen.machine.log import EventLog
 from rapidgen.machine.network.memory import MemoryNetwork
 from rapidgen.machine.network.sockets import SocketTable
 from rapidgen.machine.operator import Operator

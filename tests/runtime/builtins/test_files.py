@@ -9,8 +9,8 @@ import pytest
 
 from rapidgen.controller.controller import VirtualController
 from rapidgen.machine.files import Directory, FileSystem, IODevice
-from rapidgen.proving.workers import in_a_fork
 from rapidgen.runtime.errors import RapidError
+from rapidgen.verification.worker_pool import in_a_fork
 
 
 @pytest.fixture

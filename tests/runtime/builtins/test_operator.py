@@ -3,7 +3,7 @@
 import pytest
 
 from rapidgen.diagnostics import DiagnosticError
-from rapidgen.machine.log import Domain, EventLog, EventType
+from rapidgen.machine.event_log import Domain, EventLog, EventType
 from rapidgen.machine.operator import Answer, read_answers
 from rapidgen.machine.scheduler import Scheduler
 from rapidgen.rapid.numbers import single

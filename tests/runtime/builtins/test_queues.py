@@ -2,7 +2,7 @@
 
 from rapidgen.controller.controller import VirtualController
 from rapidgen.system import parse_cfg, sys_cfg
-from rapidgen.system.interpret import tasks_of
+from rapidgen.system.cfg_reader import tasks_of
 from rapidgen.system.model import ModuleFile, QueueSpec, System
 
 CFG = """SYS:CFG_1.0:6:0::

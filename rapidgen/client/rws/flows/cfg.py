@@ -6,10 +6,10 @@ from urllib.parse import parse_qs
 
 from rapidgen.client.rws.core import RwsCore
 from rapidgen.client.rws.effects import Flow
-from rapidgen.client.rws.flows.asking import ask
 from rapidgen.client.rws.flows.files import volume
-from rapidgen.client.rws.flows.holding import held
 from rapidgen.client.rws.flows.jobs import finish
+from rapidgen.client.rws.flows.mastership import held
+from rapidgen.client.rws.flows.request import ask
 from rapidgen.client.rws.model import CfgInstance
 from rapidgen.wire.rws import operations as ops
 from rapidgen.wire.rws.bodies import Generation, Item

@@ -3,7 +3,7 @@
 from rapidgen.client.rws.core import RwsCore
 from rapidgen.client.rws.effects import Flow, Pause
 from rapidgen.client.rws.errors import NotObeyed, RwsError
-from rapidgen.client.rws.flows.asking import ask
+from rapidgen.client.rws.flows.request import ask
 from rapidgen.client.rws.model import Dialog
 from rapidgen.client.rws.values import RapidValue, write
 from rapidgen.wire.rws import operations as ops

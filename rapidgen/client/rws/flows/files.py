@@ -2,7 +2,7 @@
 
 from rapidgen.client.rws.core import RwsCore
 from rapidgen.client.rws.effects import Flow
-from rapidgen.client.rws.flows.asking import ask
+from rapidgen.client.rws.flows.request import ask
 from rapidgen.client.rws.model import FileInfo
 from rapidgen.wire.rws import operations as ops
 from rapidgen.wire.rws.bodies import Generation

@@ -6,11 +6,11 @@ from rapidgen.client.errors import ConnectionFailed, ConnectionLost, RobotTimeou
 from rapidgen.client.rws.core import RwsCore
 from rapidgen.client.rws.effects import Flow, Pause
 from rapidgen.client.rws.errors import Busy, LoginFailed, NotObeyed, RwsError
-from rapidgen.client.rws.flows.asking import ask
-from rapidgen.client.rws.flows.connecting import close, connect
+from rapidgen.client.rws.flows.connect import close, connect
 from rapidgen.client.rws.flows.files import volume
-from rapidgen.client.rws.flows.holding import give, holder, take
+from rapidgen.client.rws.flows.mastership import give, holder, take
 from rapidgen.client.rws.flows.rapid import tasks
+from rapidgen.client.rws.flows.request import ask
 from rapidgen.wire.rws import operations as ops
 from rapidgen.wire.rws.bodies import Fault
 from rapidgen.wire.rws.forms import Fields

@@ -3,8 +3,8 @@
 from rapidgen.client.rws.core import RwsCore
 from rapidgen.client.rws.effects import Flow
 from rapidgen.client.rws.errors import NotObeyed
-from rapidgen.client.rws.flows.asking import ask
 from rapidgen.client.rws.flows.panel import one
+from rapidgen.client.rws.flows.request import ask
 from rapidgen.client.rws.model import JointTarget, RobTarget
 from rapidgen.wire.rws import operations as ops
 from rapidgen.wire.rws.bodies import Item

@@ -4,8 +4,8 @@ from rapidgen.client.errors import NotReady
 from rapidgen.client.rws.core import RwsCore
 from rapidgen.client.rws.effects import Flow, Pause
 from rapidgen.client.rws.errors import NotObeyed
-from rapidgen.client.rws.flows.asking import ask
-from rapidgen.client.rws.flows.holding import held
+from rapidgen.client.rws.flows.mastership import held
+from rapidgen.client.rws.flows.request import ask
 from rapidgen.client.rws.model import Identity, Panel, ProgramState
 from rapidgen.wire.rws import operations as ops
 from rapidgen.wire.rws.bodies import Generation, Item

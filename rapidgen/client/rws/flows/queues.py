@@ -3,7 +3,7 @@
 from rapidgen.client.errors import RobotTimeout
 from rapidgen.client.rws.core import RwsCore
 from rapidgen.client.rws.effects import Flow, Pause
-from rapidgen.client.rws.flows.asking import ask
+from rapidgen.client.rws.flows.request import ask
 from rapidgen.client.rws.model import QueueMessage
 from rapidgen.wire.rws import operations as ops
 

@@ -3,9 +3,9 @@
 from rapidgen.client.rws.core import RwsCore
 from rapidgen.client.rws.effects import Flow
 from rapidgen.client.rws.errors import NotObeyed
-from rapidgen.client.rws.flows.asking import ask
-from rapidgen.client.rws.flows.holding import held
+from rapidgen.client.rws.flows.mastership import held
 from rapidgen.client.rws.flows.panel import one
+from rapidgen.client.rws.flows.request import ask
 from rapidgen.client.rws.model import BuildError, ProgramPointer, SymbolInfo, TaskModule, TaskState
 from rapidgen.client.rws.values import RapidValue, read, same, write
 from rapidgen.wire.rws import operations as ops

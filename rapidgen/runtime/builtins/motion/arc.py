@@ -10,10 +10,10 @@ from rapidgen.machine.arc_equipment import REFERENCES, ArcEquipment
 from rapidgen.machine.scheduler import S
 from rapidgen.motion.moves import From, PathEvent
 from rapidgen.runtime.builtins.io import fitting
-from rapidgen.runtime.builtins.motion.access import data_of, group_of, moving_group
+from rapidgen.runtime.builtins.motion.cartesian_request import cartesian_move, joint_move
+from rapidgen.runtime.builtins.motion.enqueue import bind, order
 from rapidgen.runtime.builtins.motion.moves import move_abs_j, move_ext_j
-from rapidgen.runtime.builtins.motion.ordering import bind, order
-from rapidgen.runtime.builtins.motion.request import cartesian_move, joint_move
+from rapidgen.runtime.builtins.motion.task_group import data_of, group_of, moving_group
 from rapidgen.runtime.builtins.motion.triggers import prepared
 from rapidgen.runtime.motion_faults import NOT_SIMULATED, planned
 from rapidgen.runtime.registry import Arguments, by_name

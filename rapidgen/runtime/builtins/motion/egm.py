@@ -11,8 +11,8 @@ from typing import Final, cast, get_args
 
 from rapidgen.machine.egm import MAX_IDENTITIES, EgmSession, Guidance
 from rapidgen.machine.scheduler import S
-from rapidgen.runtime.builtins.motion.access import moving_group
 from rapidgen.runtime.builtins.motion.loads import require_defined
+from rapidgen.runtime.builtins.motion.task_group import moving_group
 from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.motion_faults import GUIDED
 from rapidgen.runtime.registry import Arguments, builtin, by_name

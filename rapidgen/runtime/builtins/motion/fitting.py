@@ -8,8 +8,8 @@ from rapidgen.axes import fitting, frames
 from rapidgen.axes.fitting import NoFit
 from rapidgen.axes.frames import Vector
 from rapidgen.rapid.numbers import single
-from rapidgen.runtime.builtins.motion.access import data_of, geometry_of, group_of
 from rapidgen.runtime.builtins.motion.arguments import target_of
+from rapidgen.runtime.builtins.motion.task_group import data_of, geometry_of, group_of
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.task.task import Task

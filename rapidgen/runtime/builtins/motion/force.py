@@ -10,9 +10,9 @@ Searching by force (FCRefStart) stops the program.
 from typing import Final
 
 from rapidgen.machine.force import ForceSensor
-from rapidgen.runtime.builtins.motion.access import group_of
-from rapidgen.runtime.builtins.motion.ordering import order
-from rapidgen.runtime.builtins.motion.request import cartesian_move
+from rapidgen.runtime.builtins.motion.cartesian_request import cartesian_move
+from rapidgen.runtime.builtins.motion.enqueue import order
+from rapidgen.runtime.builtins.motion.task_group import group_of
 from rapidgen.runtime.compiler.predefined import find_type
 from rapidgen.runtime.errors import FatalError
 from rapidgen.runtime.motion_faults import NOT_SIMULATED, planned

@@ -13,8 +13,8 @@ from rapidgen.axes.frames import Pose as Frame
 from rapidgen.axes.frames import Vector
 from rapidgen.axes.mapping import ABSENT
 from rapidgen.rapid.numbers import single
-from rapidgen.runtime.builtins.motion.access import data_of, group_of
 from rapidgen.runtime.builtins.motion.arguments import quaternion
+from rapidgen.runtime.builtins.motion.task_group import data_of, group_of
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.registry import builtin, builtins
 from rapidgen.runtime.task.task import Task

@@ -11,8 +11,8 @@ from typing import Final
 from rapidgen.config.plausibility import arm_of, mass_doubts
 from rapidgen.motion.events import overload
 from rapidgen.motion.group import MotionGroup
-from rapidgen.runtime.builtins.motion.access import data_of, here
 from rapidgen.runtime.builtins.motion.positions import load0
+from rapidgen.runtime.builtins.motion.task_group import data_of, here
 from rapidgen.runtime.errors import FatalError
 from rapidgen.runtime.host import RapidTask
 from rapidgen.runtime.registry import Arguments

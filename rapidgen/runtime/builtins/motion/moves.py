@@ -14,7 +14,6 @@ from rapidgen.axes.kinematics import Posture
 from rapidgen.motion.group import MotionGroup
 from rapidgen.motion.moves import FINE, Carrier, From, JointMove, Move, MoveSpeed, PathEvent
 from rapidgen.runtime.builtins.io import fitting
-from rapidgen.runtime.builtins.motion.access import data_of, here, moving_group
 from rapidgen.runtime.builtins.motion.arguments import (
     Offsets,
     dwell_of,
@@ -23,11 +22,12 @@ from rapidgen.runtime.builtins.motion.arguments import (
     time_of,
     zone_of,
 )
+from rapidgen.runtime.builtins.motion.cartesian_request import cartesian_move, joint_move
+from rapidgen.runtime.builtins.motion.enqueue import bind, order
 from rapidgen.runtime.builtins.motion.loads import check_loads
-from rapidgen.runtime.builtins.motion.ordering import bind, order
-from rapidgen.runtime.builtins.motion.request import cartesian_move, joint_move
+from rapidgen.runtime.builtins.motion.synchronised_moves import together
 from rapidgen.runtime.builtins.motion.targets import carrier_of
-from rapidgen.runtime.builtins.motion.together import together
+from rapidgen.runtime.builtins.motion.task_group import data_of, here, moving_group
 from rapidgen.runtime.compiler.symbols import Routine
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.motion_faults import planned

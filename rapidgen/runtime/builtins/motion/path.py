@@ -7,7 +7,7 @@ Sources: 3HAC050917 for arguments and IsStopMoveAct's two kinds, S4 datasys 2-St
 from collections.abc import Callable, Iterable
 
 from rapidgen.motion.group import MotionGroup
-from rapidgen.runtime.builtins.motion.access import group_of
+from rapidgen.runtime.builtins.motion.task_group import group_of
 from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.motion_faults import NOT_ALLOWED, planned
 from rapidgen.runtime.registry import builtin, builtins

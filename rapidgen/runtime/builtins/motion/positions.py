@@ -6,7 +6,6 @@ Sources: S4 datasys 3-CJointT, 3-CRobT, 3-CTool; 3HAC050917 for CalcJointT and C
 from rapidgen.motion.group import MotionGroup
 from rapidgen.motion.moves import Carrier
 from rapidgen.rapid.numbers import single
-from rapidgen.runtime.builtins.motion.access import data_of, geometry_of, group_of, named_group
 from rapidgen.runtime.builtins.motion.arguments import (
     external_values,
     frame,
@@ -20,6 +19,7 @@ from rapidgen.runtime.builtins.motion.targets import (
     joints_for,
     rob_target,
 )
+from rapidgen.runtime.builtins.motion.task_group import data_of, geometry_of, group_of, named_group
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.task.task import Task

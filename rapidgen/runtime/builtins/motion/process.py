@@ -6,8 +6,8 @@ TestSignDefine, its twelve channels and the numbers of a force sensor's signals.
 """
 
 from rapidgen.motion.group import MotionGroup
-from rapidgen.runtime.builtins.motion.access import data_of, group_of, moving_group
 from rapidgen.runtime.builtins.motion.loads import require_defined
+from rapidgen.runtime.builtins.motion.task_group import data_of, group_of, moving_group
 from rapidgen.runtime.builtins.motion.units import unit_axis
 from rapidgen.runtime.errors import FatalError, Location, RapidError, errnum
 from rapidgen.runtime.motion_faults import NOT_ALLOWED, NOT_SIMULATED

@@ -13,12 +13,12 @@ from rapidgen.axes.kinematics import Posture
 from rapidgen.machine.scheduler import WaitSet
 from rapidgen.motion.group import MotionGroup
 from rapidgen.motion.moves import Move
-from rapidgen.runtime.builtins.motion.access import data_of
 from rapidgen.runtime.builtins.motion.arguments import joint_target
+from rapidgen.runtime.builtins.motion.cartesian_request import cartesian_move
 from rapidgen.runtime.builtins.motion.moves import external_move
-from rapidgen.runtime.builtins.motion.request import cartesian_move
+from rapidgen.runtime.builtins.motion.synchronised_moves import together
 from rapidgen.runtime.builtins.motion.targets import rob_target
-from rapidgen.runtime.builtins.motion.together import together
+from rapidgen.runtime.builtins.motion.task_group import data_of
 from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.motion_faults import planned
 from rapidgen.runtime.registry import Arguments, by_name

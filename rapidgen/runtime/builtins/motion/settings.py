@@ -10,14 +10,14 @@ from math import inf
 from rapidgen.axes import frames
 from rapidgen.axes.frames import IDENTITY
 from rapidgen.axes.mapping import ABSENT
-from rapidgen.axes.shapes import CircleMode
+from rapidgen.axes.path_shapes import CircleMode
 from rapidgen.motion.group import MotionGroup
 from rapidgen.motion.moves import Singularities
 from rapidgen.rapid.numbers import single
-from rapidgen.runtime.builtins.motion.access import data_of, geometry_of, group_of, named_group
 from rapidgen.runtime.builtins.motion.arguments import RAD, Offsets, frame
 from rapidgen.runtime.builtins.motion.loads import carry, payload_of
 from rapidgen.runtime.builtins.motion.positions import here_of, load0
+from rapidgen.runtime.builtins.motion.task_group import data_of, geometry_of, group_of, named_group
 from rapidgen.runtime.builtins.motion.units import unit_axis
 from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.motion_faults import NOT_SIMULATED

@@ -6,7 +6,7 @@ Sources: 3HAC050917 for the names; the speeds are those of the predefined vmax [
 from collections.abc import Callable
 
 from rapidgen.rapid.builtins.signatures import constant
-from rapidgen.runtime.builtins.motion.access import group_of
+from rapidgen.runtime.builtins.motion.task_group import group_of
 from rapidgen.runtime.registry import builtins
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.values import Value

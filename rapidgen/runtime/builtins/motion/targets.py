@@ -9,17 +9,17 @@ from rapidgen.axes.kinematics import (
     MovingFrame,
     Posture,
 )
-from rapidgen.axes.unreached import unreached
+from rapidgen.axes.reach_errors import unreached
 from rapidgen.motion.group import MotionGroup
 from rapidgen.motion.moves import Carrier
 from rapidgen.rapid.numbers import single
-from rapidgen.runtime.builtins.motion.access import geometry_of
 from rapidgen.runtime.builtins.motion.arguments import (
     Offsets,
     external_target,
     external_values,
     frame,
 )
+from rapidgen.runtime.builtins.motion.task_group import geometry_of
 from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.motion_faults import FRAMES_CONTRADICT, NO_GEOMETRY, NOT_COMPATIBLE
 from rapidgen.runtime.values import ConfData, Orient, Pos, RobTarget, Value

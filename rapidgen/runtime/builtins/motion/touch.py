@@ -8,10 +8,10 @@ There are no dynamics: torques are 0, and a robot touches something when a test 
 
 from rapidgen.machine.scheduler import MS, S
 from rapidgen.motion.group import MotionGroup
-from rapidgen.runtime.builtins.motion.access import data_of, group_of
+from rapidgen.runtime.builtins.motion.cartesian_request import cartesian_move
 from rapidgen.runtime.builtins.motion.path import reason_of
-from rapidgen.runtime.builtins.motion.request import cartesian_move
-from rapidgen.runtime.builtins.motion.together import together
+from rapidgen.runtime.builtins.motion.synchronised_moves import together
+from rapidgen.runtime.builtins.motion.task_group import data_of, group_of
 from rapidgen.runtime.builtins.motion.units import unit_axis, unit_group
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.motion_faults import planned

@@ -10,10 +10,10 @@ from operator import eq, ge, gt, le, lt, ne
 
 from rapidgen.motion.moves import From, PathEvent
 from rapidgen.runtime.builtins.io import fitting
-from rapidgen.runtime.builtins.motion.access import group_of
-from rapidgen.runtime.builtins.motion.ordering import bind
+from rapidgen.runtime.builtins.motion.cartesian_request import cartesian_move, joint_move
+from rapidgen.runtime.builtins.motion.enqueue import bind
 from rapidgen.runtime.builtins.motion.path import MOVE_TASK
-from rapidgen.runtime.builtins.motion.request import cartesian_move, joint_move
+from rapidgen.runtime.builtins.motion.task_group import group_of
 from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.motion_faults import NOT_ALLOWED, NOT_SIMULATED
 from rapidgen.runtime.registry import Arguments, builtins, by_name

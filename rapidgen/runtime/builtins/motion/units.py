@@ -5,7 +5,7 @@ Sources: S4 datasys 2-ActUnit, 2-DeactUnit; 3HAC050917 for IsMechUnitActive and 
 
 from rapidgen.config.model import Joint
 from rapidgen.motion.group import MotionGroup
-from rapidgen.runtime.builtins.motion.access import group_of
+from rapidgen.runtime.builtins.motion.task_group import group_of
 from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.motion_faults import NOT_ALLOWED
 from rapidgen.runtime.registry import builtin

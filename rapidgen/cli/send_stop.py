@@ -1,0 +1,249 @@
+"""STOP on the wire before anything else is imported.
+
+`rapidgen stop` sends it from here first, to the motion and the control port at once, and then goes
+its whole way: checks what was said, sends STOP again, waits until the robot stands, and reports.
+What is not understood here at a glance is left to that way: nothing is guessed.
+"""
+
+import os
+import re
+import select
+import socket
+import time
+from collections.abc import Sequence
+from contextlib import suppress
+from struct import pack
+
+from rapidgen._reading import read_foreign
+
+STOP = pack("<5i12f", 64, 11, 2, 0, -4, *[0.0] * 12)
+"""JOINT_TRAJ_PT as a request, sequence -4; a test compares it with the codec's."""
+_CONNECT = 2.0
+_OTHERS = 0.25
+_ANSWER = 1.0
+"""s for the first connection, for others behind it (one host, several ports), and for the answer:
+hung up on at once, a STOP may be lost unread."""
+_PORTS = (11000, 11002, 11001)
+"""Motion, state, control."""
+_STEP = 10
+_ONE = "rob1"
+"""A group that nobody named."""
+_OURS = ("groups", "ports", "model")
+_ADDRESS = re.compile(
+    r"(\[[0-9A-Fa-f:.]+\]|[\w.-]+)(?::(\d{1,5})(?:,(\d{1,5})(?:,(\d{1,5}))?)?)?", re.ASCII
+)
+_LINE = re.compile(r"( *)(\w+):(?: +(.*?))?(?: +#.*)? *")
+_FLOW = re.compile(r"\{ *(?:\w+: *\d{1,5} *(?:, *\w+: *\d{1,5} *)*)?\}")
+_PAIR = re.compile(r"(\w+): *(\d{1,5})")
+
+Keys = dict[tuple[str, ...], str]
+Ports = tuple[int, int, int]
+"""Motion, state and control port of a group; control 0: none, or nobody knows which."""
+Place = tuple[str, Ports]
+
+
+def send(words: Sequence[str]) -> None:
+    """Send STOP to all ports that the words behind `stop` name, at once; says nothing.
+
+    A port that refuses or does not answer keeps no other waiting. The whole way tells what was
+    wrong.
+    """
+    opening = [
+        link
+        for host, port in (*addresses(words), *control_addresses(words))
+        for link in _opening(host, port)
+    ]
+    links, asked = [*opening], list[socket.socket]()
+    until = time.monotonic() + _CONNECT
+    hung_up = until + _ANSWER
+    while opening or asked:
+        now = time.monotonic()
+        if now >= until:
+            opening = []
+        if now >= hung_up or not (opening or asked):
+            break
+        end = until if opening else hung_up
+        answered, open_now, _ = select.select(asked, opening, [], max(0.0, end - now))
+        for link in open_now:
+            opening.remove(link)
+            with suppress(OSError):
+                link.send(STOP)
+                asked.append(link)
+                until = min(until, time.monotonic() + _OTHERS)
+                hung_up = time.monotonic() + _ANSWER
+        asked = [link for link in asked if link not in answered]
+    for link in links:
+        link.close()
+
+
+def _opening(host: str, port: int) -> list[socket.socket]:
+    """A connection that is being opened to each address of a host."""
+    found = []
+    with suppress(OSError, UnicodeError):
+        for family, kind, protocol, _, address in socket.getaddrinfo(
+            host, port, type=socket.SOCK_STREAM
+        ):
+            link = socket.socket(family, kind, protocol)
+            found.append(link)
+            link.setblocking(False)
+            link.connect_ex(address)
+    return found
+
+
+def addresses(words: Sequence[str]) -> list[tuple[str, int]]:
+    """Host and motion port of every group meant; none where that takes more than a glance."""
+    return [(host, ports[0]) for host, ports in _places(words)]
+
+
+def control_addresses(words: Sequence[str]) -> list[tuple[str, int]]:
+    """Host and control port of every group meant that is known to have one."""
+    return [(host, ports[2]) for host, ports in _places(words) if ports[2]]
+
+
+def _places(words: Sequence[str]) -> list[Place]:
+    told: dict[str, str] = {}
+    rest = list(words)
+    while rest:
+        word = rest.pop(0)
+        name, equals, value = word.partition("=")
+        if name in ("--to", "--group"):
+            value = value if equals else rest.pop(0) if rest else ""
+        elif word.startswith("-") and word not in ("--json", "--rad"):
+            return []
+        elif not word.startswith("-"):
+            name, value = "target", word
+        if name in told:
+            return []
+        told[name] = value
+    return _groups(told.get("target", ""), told.get("--to", ""), told.get("--group", ""))
+
+
+def _groups(target: str, to: str, group: str) -> list[Place]:
+    if target == "sim":
+        return [] if to or group else _simulated([])
+    is_file = target.endswith((".yaml", ".yml"))
+    if not is_file and not os.path.isfile(_shipped(target)):
+        return [] if to or group else _at(target, [_PORTS])
+    ports = group_ports(target if is_file else _shipped(target))
+    if group:
+        ports = {name: three for name, three in ports.items() if name == group}
+    if to == "sim":
+        return _simulated(list(ports)) if ports else []
+    return _at(to or "127.0.0.1", list(ports.values()))
+
+
+def _at(address: str, ports: list[Ports]) -> list[Place]:
+    hit = _ADDRESS.fullmatch(address)
+    if hit is None:
+        return []
+    wanted = [_addressed(ports[0] if len(ports) == 1 else _PORTS, hit)] if hit[2] else ports
+    return [(hit[1].strip("[]"), three) for three in wanted if 0 < three[0] < 65_536]
+
+
+def _addressed(own: Ports, hit: re.Match[str]) -> Ports:
+    """The ports of an address; what it does not say as `parse_address` has it."""
+    motion = int(hit[2])
+    state = int(hit[3]) if hit[3] else motion + 2
+    moved = motion - own[0]
+    if hit[4]:
+        control = int(hit[4])
+    else:
+        control = own[2] + moved if own[2] and state - own[1] == moved else 0
+    return motion, state, control if 0 < control < 65_536 else 0
+
+
+def _simulated(groups: list[str]) -> list[Place]:
+    from rapidgen._simulator_registry import running
+
+    found, _ = running()
+    if len(found) != 1:
+        return []
+    told = found[0].addresses
+    return [place for name in groups or told if name in told for place in _at(told[name], [_PORTS])]
+
+
+def _shipped(name: str) -> str:
+    from rapidgen._data import data_folder
+
+    return f"{data_folder('robots')}/{name}.yaml" if re.fullmatch(r"\w+", name) else ""
+
+
+def motion_ports(path: str) -> dict[str, int]:
+    """The motion port of every group of a configuration; none where that takes a closer look."""
+    return {name: ports[0] for name, ports in group_ports(path).items()}
+
+
+def group_ports(path: str) -> dict[str, Ports]:
+    """The ports of every group of a configuration; none where that takes a closer look."""
+    keys = _keys(path) or {}
+    groups = list(dict.fromkeys(names[1] for names in keys if names[0] == "groups"))
+    found: dict[str, Ports] = {}
+    for index, group in enumerate(groups):
+        texts = [
+            keys.get(("groups", group, "ports", name), str(default + _STEP * index))
+            for name, default in zip(("motion", "state", "control"), _PORTS, strict=True)
+        ]
+        if not all(re.fullmatch(r"\d{1,5}", text) for text in texts):
+            return {}
+        motion, state, control = map(int, texts)
+        found[group] = motion, state, control
+    return found
+
+
+def _keys(path: str) -> Keys | None:
+    """The keys of a configuration over those of its model, all below `groups`."""
+    try:
+        keys = read_keys(read_foreign(path, 1_000_000).decode())
+    except (OSError, ValueError):
+        return None
+    if keys is None:
+        return None
+    below: Keys | None = {}
+    model = _shipped(keys.pop(("model",), ""))
+    if model:
+        # A model without a file of its own is one arm.
+        below = _keys(model) if os.path.isfile(model) else {("groups", _ONE): ""}
+    if below is None:
+        return None
+    groups = list(dict.fromkeys(n[1] for n in (*below, *keys) if n[0] == "groups"))
+    if len(groups) > 1 and any(names[0] == "ports" for names in keys):
+        return None
+    above: Keys = {("groups", name): "" for name in groups or (_ONE,)}
+    only = next(names[1] for names in above)
+    for names, value in keys.items():
+        above[names if names[0] == "groups" else ("groups", only, *names)] = value
+    return {**below, **above}
+
+
+def read_keys(text: str) -> Keys | None:
+    """Groups, ports and model by their path, of YAML that is written line by line."""
+    found: Keys = {}
+    path: list[tuple[int, str]] = []
+    for line in text.splitlines():
+        bare = line.lstrip(" ")
+        if not bare or bare.startswith("#"):
+            continue
+        hit = _LINE.fullmatch(line)
+        if hit is None:
+            # Texts and lists are somebody else's, below a key; a group has none of that.
+            if line == bare or (path[0][1] in _OURS and not bare.startswith("- ")):
+                return None
+            continue
+        depth, key, value = len(hit[1]), hit[2], hit[3] or ""
+        path = [(d, k) for d, k in path if d < depth] + [(depth, key)]
+        names = tuple(k for _, k in path)
+        if names[0] not in _OURS or names == ("groups",) or len(names) > 4:
+            if names == ("groups",) and value:
+                return None
+            continue
+        is_group = names[0] == "groups"
+        if names in found or (is_group and len(names) == 2 and value):
+            return None
+        if names[-1] == "ports" and value:
+            if _FLOW.fullmatch(value) is None:
+                return None
+            found |= {(*names, name): number for name, number in _PAIR.findall(value)}
+            value = ""
+        if not is_group or len(names) == 2 or names[2] == "ports":
+            found[names] = value
+    return found

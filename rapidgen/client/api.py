@@ -1,0 +1,435 @@
+"""The methods of both clients, once: each is a flow, with its signature and its docstring.
+
+`Robot` waits for a method's outcome (`threads`), `AsyncRobot` gives it to be awaited (`aio`); so
+do their `Execution` and `Stream`. Beside it they have only what is said otherwise: `with` and
+`async with`, and iterators.
+"""
+
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import AbstractContextManager, contextmanager
+from functools import partial
+from html import escape
+from operator import attrgetter
+from os import PathLike
+from typing import Concatenate, Generic, ParamSpec, Protocol, TypeVar
+
+from rapidgen.axes.frames import Pose
+from rapidgen.axes.kinematics import AxisConfiguration
+from rapidgen.client import display, flows
+from rapidgen.client.address import Address
+from rapidgen.client.connect_target import resolve
+from rapidgen.client.core.checks import Way
+from rapidgen.client.core.group import Group
+from rapidgen.client.core.job import Job
+from rapidgen.client.core.robot import Core, Timeouts
+from rapidgen.client.core.state import Driver, Event, Feedback, Progress, State
+from rapidgen.client.errors import InvalidProgram, InvalidTarget
+from rapidgen.client.flow_methods import Method, method
+from rapidgen.client.flows.effects import Flow
+from rapidgen.client.program import Program, joints_of, pose_of
+from rapidgen.client.recording import JointRecording
+from rapidgen.client.trajectory import Trajectory
+from rapidgen.config.model import RobotConfig
+from rapidgen.diagnostics import Diagnostic
+
+P = ParamSpec("P")
+T = TypeVar("T")
+Owner = TypeVar("Owner")
+MakeCore = Callable[[Callable[[], float]], Core]
+"""A core on a clock, which gives s."""
+
+
+class FlowCarrier(Protocol):
+    """Carries out flows for a core: by the caller's thread, or on the caller's loop."""
+
+    core: Core
+    guard: AbstractContextManager[object]
+    """Held while something is looked at that another thread may change."""
+
+    def __init__(self, address: Address, make_core: MakeCore) -> None: ...
+
+
+def _on_axes(group: Group, joints: Sequence[float]) -> tuple[float, ...]:
+    """Axis values of joints. Raises InvalidProgram for what are no joints of the robot."""
+    values = joints_of(joints)
+    if len(values) != len(group.names):
+        raise InvalidProgram.because(
+            "RG670",
+            f"{len(values)} joints, the robot has {len(group.names)}",
+            f"numbers, rad and m, of {', '.join(group.names)}",
+        )
+    return group.map.to_controller(values)
+
+
+def _of_core(flow: Callable[Concatenate[Core, P], Flow[T]]) -> Method[P, T]:
+    return method(flow, attrgetter("_core"))
+
+
+def _of_job(flow: Callable[Concatenate[Job, P], Flow[T]]) -> Method[P, T]:
+    return method(flow, attrgetter("_job"))
+
+
+def _own(flow: Callable[Concatenate[Owner, P], Flow[T]]) -> Method[P, T]:
+    return method(flow, lambda owner: owner)
+
+
+C_co = TypeVar("C_co", bound=FlowCarrier, covariant=True)
+
+
+class JobSurface(Generic[C_co]):
+    """What is common to a trajectory under way and to a stream."""
+
+    def __init__(self, carrier: C_co, job: Job) -> None:
+        self._carrier = carrier
+        self._job = job
+
+    def __repr__(self) -> str:
+        with self._carrier.guard:
+            return f"<{type(self).__name__} {self._job}>"
+
+    def _repr_html_(self) -> str:
+        with self._carrier.guard:
+            text, progress = str(self._job), self._job.progress
+        bar = f'<progress value="{progress.fraction:.3f}"></progress>'
+        return f"<p>{escape(type(self).__name__)} {escape(text)} {bar}</p>"
+
+    result = _of_job(flows.job.result)
+    cancel = _of_job(flows.job.cancel)
+
+    @property
+    def progress(self) -> Progress:
+        """How far it is, now; the `total` of a stream are the points so far."""
+        with self._carrier.guard:
+            return self._job.progress
+
+    @property
+    def is_over(self) -> bool:
+        """Whether the result is there, good or bad."""
+        return self._job.is_over
+
+    @property
+    def stopped_position(self) -> tuple[float, ...] | None:
+        """Joints where the robot stood at the end; None while it moves or when nobody saw it."""
+        return self._job.stopped_position
+
+
+class ExecutionSurface(JobSurface[C_co]):
+    """A trajectory that the controller has taken."""
+
+    @property
+    def trajectory(self) -> Trajectory:
+        """What was asked for, in the robot's order of joints."""
+        assert self._job.motion is not None
+        assert self._job.motion.trajectory is not None
+        return self._job.motion.trajectory
+
+    @property
+    def warnings(self) -> Sequence[Diagnostic]:
+        """What the checks noted."""
+        assert self._job.motion is not None
+        return self._job.motion.warnings
+
+    @property
+    def planned_seconds(self) -> float:
+        """Seconds that the controller was asked to take."""
+        assert self._job.motion is not None
+        return self._job.motion.planned_seconds
+
+    @property
+    def way(self) -> Way:
+        """`stream`: sent while the robot moves; `download`: sent whole before it moved."""
+        assert self._job.motion is not None
+        return self._job.motion.way
+
+
+class RunSurface(JobSurface[C_co]):
+    """A program that the controller has taken: whole, or its first instructions."""
+
+    @property
+    def program(self) -> Program:
+        """What was asked for."""
+        assert self._job.program is not None
+        return self._job.program
+
+    @property
+    def warnings(self) -> Sequence[Diagnostic]:
+        """What the checks noted."""
+        assert self._job.motion is not None
+        return self._job.motion.warnings
+
+    @property
+    def way(self) -> Way:
+        """`download`: sent whole before the robot moved; `stream`: sent while it moves."""
+        assert self._job.motion is not None
+        return self._job.motion.way
+
+
+class StreamSurface(JobSurface[C_co]):
+    """Points that the robot executes while more of them come."""
+
+    append = _of_job(flows.job.append)
+    flush = _of_job(flows.job.flush)
+    end = _of_job(flows.job.end)
+
+    @property
+    def total(self) -> int:
+        """Points that were appended."""
+        return self._job.total
+
+    @property
+    def time(self) -> float:
+        """Time of the last point, s from the beginning of the stream; 0 before the first."""
+        return self._job.last.time if self._job.last is not None else 0.0
+
+    @property
+    def way(self) -> Way | None:
+        """`stream`, or `download` where the driver does not stream; None before the first."""
+        return self._job.way
+
+    @property
+    def starved(self) -> int:
+        """How often the robot stood because the points ran out."""
+        return self._job.motion.starved if self._job.motion is not None else 0
+
+
+Execution = TypeVar("Execution", bound=ExecutionSurface[FlowCarrier], covariant=True)
+Stream = TypeVar("Stream", bound=StreamSurface[FlowCarrier], covariant=True)
+Run = TypeVar("Run", bound=RunSurface[FlowCarrier], covariant=True)
+
+
+class RobotSurface(Generic[C_co, Execution, Stream, Run]):
+    """One motion group of a robot; see `Robot`."""
+
+    _carrier_type: type[C_co]
+    _execution_type: type[Execution]
+    _stream_type: type[Stream]
+    _run_type: type[Run]
+
+    def __init__(
+        self,
+        target: "str | PathLike[str] | RobotConfig",
+        *,
+        address: str | Address | None = None,
+        group: str = "",
+        timeouts: Timeouts | None = None,
+        watch: bool = False,
+        plain: bool = False,
+        reconnect: float = 0.0,
+        feedback: bool = False,
+    ) -> None:
+        self.address, known = resolve(target, address, group)
+        if not isinstance(timeouts, Timeouts | None):
+            raise InvalidTarget.because(
+                "RG607",
+                f"time-outs are a Timeouts, not {type(timeouts).__name__}",
+                "Timeouts(reply=5) and the like, in s: each kind of waiting has its own",
+                exit_code=2,
+            )
+        make_core = partial(
+            Core,
+            known,
+            timeouts or Timeouts(),
+            watch=watch,
+            plain=plain,
+            reconnect=reconnect,
+            feedback=feedback,
+            # No robot is at this machine's own address.
+            simulated=self.address.is_loopback,
+            where=str(self.address),
+        )
+        self._carrier = self._carrier_type(self.address, make_core)
+        self._core = self._carrier.core
+
+    def __repr__(self) -> str:
+        with self._carrier.guard:
+            return f"<{type(self).__name__} {display.robot_text(self._core, self.address)}>"
+
+    def _repr_html_(self) -> str:
+        with self._carrier.guard:
+            caption, group = display.robot_text(self._core, self.address), self._core.group
+            state = self._core.state_port.state
+        if group is None or state is None:
+            return f"<p>{escape(caption)}</p>"
+        return display.state_table(caption, group, state.joints)
+
+    # Connection
+
+    close = _of_core(flows.stop.close)
+
+    @property
+    def is_connected(self) -> bool:
+        """Whether all connections stand."""
+        return self._core.is_connected
+
+    @property
+    def driver(self) -> Driver:
+        """Who answered, and what it cannot do."""
+        return self._core.state_port.driver
+
+    @property
+    def group(self) -> Group:
+        """Joints, limits and policy. Raises ConnectionLost before they are known."""
+        if self._core.group is None:
+            raise self._core.disconnected()
+        return self._core.group
+
+    @property
+    def messages(self) -> tuple[tuple[float, str], ...]:
+        """The last messages received, as (time, text)."""
+        with self._carrier.guard:
+            return self._core.state_port.messages
+
+    def _unfinished(self) -> str:
+        """What is under way, for who leaves a block without having waited for it; else nothing."""
+        with self._carrier.guard:
+            motion = self._core.motion
+            if motion is None or motion.is_over:
+                return ""
+            done = f"{motion.progress.reached or 0} of {motion.total} {motion.noun}s"
+        return (
+            f"the robot was stopped at the end of the block, behind {done} of a motion that was "
+            "under way: wait for it with `execution.result()`, or end it with `cancel()`"
+        )
+
+    # State
+
+    next_state = _of_core(flows.state.next_state)
+    wait_until = _of_core(flows.state.wait_until)
+    next_event = _of_core(flows.state.next_event)
+    next_feedback = _of_core(flows.state.next_feedback)
+
+    @property
+    def state(self) -> State:
+        """The newest state. Raises ConnectionLost before the first."""
+        with self._carrier.guard:
+            state = self._core.state_port.state
+        if state is None:
+            raise self._core.disconnected()
+        return state
+
+    @property
+    def feedback(self) -> Feedback | None:
+        """The newest feedback, None before the first and where nobody sends them."""
+        with self._carrier.guard:
+            return self._core.state_port.feedback
+
+    @property
+    def events(self) -> tuple[Event, ...]:
+        """The last entries of the controller's event log, where the driver tells them."""
+        with self._carrier.guard:
+            return tuple(self._core.state_port.events)
+
+    @contextmanager
+    def recording(self) -> Iterator[JointRecording]:
+        """Keep every joint message while the block runs; with `feedback`, by the controller's own
+        time."""
+        recording = JointRecording(self.group)
+        with self._carrier.guard:
+            self._core.state_port.listeners.append(recording)
+        try:
+            yield recording
+        finally:
+            with self._carrier.guard:
+                self._core.state_port.listeners.remove(recording)
+
+    # Motion
+
+    pause = _of_core(flows.control.pause)
+    resume = _of_core(flows.control.resume)
+    set_speed = _of_core(flows.control.set_speed)
+    read_signal = _of_core(flows.control.read_signal)
+    write_signal = _of_core(flows.control.write_signal)
+    read_data = _of_core(flows.data.read)
+    write_data = _of_core(flows.data.write)
+    stop = _of_core(flows.stop.stop)
+
+    move_to = _of_core(flows.program.move_to)
+    move_linear = _of_core(flows.program.move_linear)
+    jog = _of_core(flows.program.jog)
+    call = _of_core(flows.program.call)
+
+    @property
+    def pose(self) -> Pose:
+        """The tool in the work object, m, where the robot was seen last. Raises as `pose_of`."""
+        return self.pose_of(self.state.joints)
+
+    def pose_of(self, joints: Sequence[float]) -> Pose:
+        """The pose that joints (rad, m) reach: ((x, y, z), (w, x, y, z)), m.
+
+        Raises NotSupported where the robot's geometry is not known, InvalidProgram for what are no
+        joints of it.
+        """
+        return self.group.poses.pose(_on_axes(self.group, joints))
+
+    def joints_for(
+        self,
+        pose: Pose,
+        *,
+        near: Sequence[float] | None = None,
+        configuration: AxisConfiguration | None = None,
+    ) -> tuple[tuple[float, ...], ...]:
+        """All joints (rad, m) within the limits that reach a pose, nearest first to `near`, by
+        default to where the robot stands; those of a configuration (cf1, cf4, cf6, cfx).
+
+        Raises NotSupported where the robot's geometry is not known, InvalidProgram for what is no
+        pose and no joints of it.
+        """
+        group = self.group
+        here = _on_axes(group, self.state.joints if near is None else near)
+        found = group.poses.postures(pose_of(pose), here, configuration)
+        return tuple(group.map.to_urdf(posture) for posture in found)
+
+    @property
+    def override(self) -> float:
+        """Share of the programmed speed (0.01 to 1) that this client last asked for."""
+        return self._core.override
+
+    def check(self, trajectory: Trajectory) -> tuple[Diagnostic, ...]:
+        """Warnings about a trajectory. Raises InvalidTrajectory with every fault; sends nothing."""
+        with self._carrier.guard:
+            return self._core.check(trajectory).warnings
+
+    def way_for(self, trajectory: Trajectory) -> Way:
+        """The way that `execute` takes by default. Raises InvalidTrajectory, NotReady."""
+        with self._carrier.guard:
+            return self._core.check(trajectory).way
+
+    @_own
+    def execute(self, trajectory: Trajectory, *, way: Way | None = None) -> Flow[Execution]:
+        """Send a trajectory; returns when the controller has taken it and begins to move.
+
+        `way` is `download` (whole, before anything moves) or `stream` (the rest is sent while
+        the robot moves); by default a trajectory that the driver's ring does not hold is
+        streamed. Raises InvalidTrajectory and NotReady before a byte is sent, TrajectoryRefused
+        when nothing will move, NotSupported, RobotTimeout, ConnectionLost. Ctrl-C here, or
+        cancelling this, stops the robot.
+        """
+        job = yield from flows.job.execute(self._core, trajectory, way)
+        return self._execution_type(self._carrier, job)
+
+    def stream(self, names: Sequence[str] = (), *, fallback: bool = True) -> Stream:
+        """A trajectory without an end that is known: see `Stream`. Nothing is sent yet.
+
+        `names` are those of the columns, by default the robot's own. With `fallback` a driver
+        that does not stream gets the points as a whole, at the end.
+        """
+        return self._stream_type(self._carrier, Job(self._core, names, may_download=fallback))
+
+    def check_program(self, program: Program) -> tuple[Diagnostic, ...]:
+        """Notes about a program. Raises InvalidProgram with every fault; sends nothing."""
+        with self._carrier.guard:
+            checked, _ = self._core.check_program(program)
+        return checked.notes
+
+    @_own
+    def run(self, program: Program, *, way: Way | None = None) -> Flow[Run]:
+        """Send a program; returns when the controller has taken it and begins to move.
+
+        `way` is `download` (whole, and checked whole by the controller before anything moves) or
+        `stream` (the rest is sent while the robot moves); by default a program that the driver's
+        ring holds goes whole. Raises InvalidProgram, NotReady and NotSupported before a byte is
+        sent, TrajectoryRefused when nothing will move, RobotTimeout, ConnectionLost. Ctrl-C here,
+        or cancelling this, stops the robot.
+        """
+        job = yield from flows.program.run(self._core, program, way)
+        return self._run_type(self._carrier, job)

@@ -1,0 +1,65 @@
+"""Flows as methods: one function with its signature and docstring for both kinds of client.
+
+A client whose carrier waits for a flow's outcome gets that; one whose carrier gives it to be
+awaited gets a coroutine.
+"""
+
+import inspect
+from collections.abc import Callable, Coroutine, Generator
+from functools import update_wrapper
+from typing import ParamSpec, Protocol, TypeVar, cast, get_args, overload
+
+from rapidgen._compat import Never
+
+P = ParamSpec("P")
+T = TypeVar("T")
+T_co = TypeVar("T_co", covariant=True)
+
+
+class _Blocking(Protocol):
+    # Whatever a carrier's flows ask of it: this one asks for nothing, and takes any answer.
+    def run(self, flow: Generator[Never, object, T], /) -> T: ...
+
+
+class _Awaited(Protocol):
+    def run(self, flow: Generator[Never, object, T], /) -> Coroutine[None, None, T]: ...
+
+
+class _OfBlocking(Protocol):
+    @property
+    def _carrier(self) -> _Blocking: ...
+
+
+class _OfAwaited(Protocol):
+    @property
+    def _carrier(self) -> _Awaited: ...
+
+
+class Method(Protocol[P, T_co]):
+    """A flow as a method, as type checkers see it: its outcome, or what is awaited for it."""
+
+    @overload
+    def __get__(self, owner: _OfBlocking, kind: type) -> Callable[P, T_co]: ...
+    @overload
+    def __get__(
+        self, owner: _OfAwaited, kind: type
+    ) -> Callable[P, Coroutine[None, None, T_co]]: ...
+
+
+def method(
+    flow: Callable[..., Generator[object, Never, T]], subject: Callable[[_OfBlocking], object]
+) -> Method[P, T]:
+    """A method that carries out `flow` for its client's `subject`."""
+
+    def run(self: _OfBlocking, *args: P.args, **options: P.kwargs) -> T:
+        steps = cast("Generator[Never, object, T]", flow(subject(self), *args, **options))
+        return self._carrier.run(steps)
+
+    told = inspect.signature(flow)
+    first, *others = told.parameters.values()
+    signature = told.replace(
+        parameters=[first.replace(name="self", annotation=first.empty), *others],
+        return_annotation=get_args(told.return_annotation)[-1],
+    )
+    update_wrapper(run, flow).__dict__["__signature__"] = signature
+    return cast("Method[P, T]", run)

@@ -1,0 +1,160 @@
+"""Who is there, whether it may be trusted, and the login; and the end."""
+
+import hashlib
+import socket
+
+from rapidgen.client.errors import ConnectionFailed, RobotError
+from rapidgen.client.rws import known_certificates
+from rapidgen.client.rws.core import APPLICATION, RwsCore
+from rapidgen.client.rws.effects import (
+    Exchange,
+    Flow,
+    Forget,
+    LogIn,
+    LookAtCertificate,
+    Response,
+    Settle,
+)
+from rapidgen.client.rws.errors import Busy, LoginFailed, NotRws
+from rapidgen.client.rws.flows.request import ask
+from rapidgen.wire.rws import media
+from rapidgen.wire.rws import operations as ops
+from rapidgen.wire.rws.bodies import Generation, whole
+
+_FIRST = "/rw/system"
+
+
+def connect(core: RwsCore) -> Flow[None]:
+    """Find out who is there and log in. A second call does nothing.
+
+    Raises ConnectionFailed (RG601), LoginFailed (RG651, RG652), NotRws (RG653), Busy (RG656).
+    """
+    if core.connected:
+        return
+    core.check_login()
+    challenge = yield from _reach(core)
+    if challenge.startswith("digest"):
+        core.generation = Generation.ONE
+        yield LogIn("digest")
+    elif challenge.startswith("basic"):
+        if not core.certificate:
+            raise LoginFailed.because(
+                "RG651",
+                f"{core.where} wants the password in clear over plain HTTP",
+                "Robot Web Services 2.0 use TLS: say rwss://, and look who answers there",
+            )
+        core.generation = Generation.TWO
+        yield LogIn("basic")
+    else:
+        raise _no_rws(core)
+    body, _ = yield from ask(core, ops.SYSTEM)
+    told = body.first("sys-system") or body.first("sys-system-li")
+    if told is None:
+        raise _no_rws(core)
+    core.robotware, core.system = told.text("rwversion"), told.text("name")
+    if core.generation is Generation.TWO and whole(core.robotware.partition(".")[0]) >= 8:
+        core.generation = Generation.EIGHT
+    core.connected = True
+    core.tell(f"logged in as {core.user}: '{core.system}', RobotWare {core.robotware}")
+    yield from ask(
+        core,
+        ops.REGISTER_USER,
+        form={
+            "username": core.user,
+            "application": APPLICATION,
+            "location": socket.gethostname(),
+            "ulocale": "remote",
+        },
+        accepted=(400, 403, 404, 405, 409),
+    )
+
+
+def _reach(core: RwsCore) -> Flow[str]:
+    """Settle on TLS or, where nobody speaks it, on plain HTTP; how it asks for a login."""
+    address = core.address
+    core.port = address.port or 443
+    plain: ConnectionFailed | None = None
+    try:
+        seen = yield LookAtCertificate(core.port)
+    except ConnectionFailed as failed:
+        if address.tls_only or address.port:
+            raise
+        seen, plain = Response(0), failed
+    if seen.status:
+        yield from _trust(core, seen.body)
+        yield Settle(core.port, seen.body)
+    else:
+        trusted = core.fingerprint or known_certificates.known(core.pins, core.where)
+        if address.tls_only or trusted:
+            raise LoginFailed.because(
+                "RG652",
+                f"{core.where} does not speak TLS",
+                "this controller was met with a certificate before: who answers there now?"
+                if trusted
+                else "say rws:// for a controller with RobotWare 6",
+            )
+        core.port = address.port or 80
+        yield Settle(core.port)
+    headers = {"Accept": media.HAL} if seen.status else {}
+    try:
+        answer = yield Exchange("GET", _FIRST, headers, repeat=True)
+    except ConnectionFailed as failed:
+        raise (plain or failed) from failed
+    if answer.status == 503:  # it restarts, or has no session left
+        raise Busy.because("RG656", f"{core.where} is busy: it answers 503", "try again soon")
+    if answer.status != 401:
+        raise _no_rws(core)
+    return answer.headers.get("www-authenticate", "").lower()
+
+
+def _trust(core: RwsCore, certificate: bytes) -> Flow[None]:
+    """Whether this certificate is the right one, before a password is sent."""
+    fingerprint = hashlib.sha256(certificate).hexdigest()
+    wanted = known_certificates.plain(core.fingerprint) or known_certificates.known(
+        core.pins, core.where
+    )
+    core.certificate = certificate
+    if wanted == fingerprint:
+        if core.fingerprint:
+            known_certificates.remember(core.pins, core.where, fingerprint)
+        return
+    if wanted:
+        raise LoginFailed.because(
+            "RG652",
+            f"the certificate of {core.where} is another one than before",
+            "was the controller installed anew, or does another machine answer? If it is right, "
+            f"say --fingerprint {fingerprint}",
+            f"known: {known_certificates.shown(wanted)}",
+            f"there: {known_certificates.shown(fingerprint)}",
+        )
+    if core.confirm is None or not core.confirm(core.where, known_certificates.shown(fingerprint)):
+        raise LoginFailed.because(
+            "RG652",
+            f"nobody has said that the certificate of {core.where} is right; no password was sent",
+            "compare it with the controller's and say `--fingerprint ...` (`fingerprint=`)",
+            f"there: {known_certificates.shown(fingerprint)}",
+        )
+    known_certificates.remember(core.pins, core.where, fingerprint)
+    yield from ()
+
+
+def _no_rws(core: RwsCore) -> NotRws:
+    return NotRws.because(
+        "RG653",
+        f"{core.where} answers, and does not speak Robot Web Services",
+        "is this the controller's own port, and are web services on in its firewall settings?",
+    )
+
+
+def close(core: RwsCore) -> Flow[None]:
+    """Give back what is held, log out, and close; harmless when nothing is open."""
+    if core.connected:
+        try:
+            if core.generation is Generation.EIGHT and core.held:
+                yield from ask(core, ops.WRITE_RELEASE, accepted=(403,))
+            yield from ask(core, ops.LOGOUT)
+        except RobotError:
+            pass  # it is gone already, and with it what it held
+    core.held.clear()
+    core.connected = False
+    yield Forget()

@@ -1,0 +1,121 @@
+"""Mastership of RobotWare 6 and 7, write access of 8: taken, given back, held by others."""
+
+from rapidgen.client.rws.core import APPLICATION, RwsCore
+from rapidgen.client.rws.effects import Flow, Pause, T
+from rapidgen.client.rws.errors import Held, RwsError
+from rapidgen.client.rws.flows.request import ask
+from rapidgen.client.rws.model import Holder
+from rapidgen.wire.rws import operations as ops
+from rapidgen.wire.rws.bodies import Generation
+
+_LOOK = 1.0
+"""s between two tries while somebody else holds it."""
+_TAKEN = ("E_RESOURCE_HELD", "E_WRITE_ACCESS_TAKEN")
+
+
+def domain_of(core: RwsCore, domain: str) -> str:
+    """What this controller calls a domain: cfg, motion and rapid are one `edit` on RobotWare 7,
+    and all is one write access on 8."""
+    if core.generation is Generation.EIGHT:
+        return "write"
+    if core.generation is Generation.TWO:
+        return "motion" if domain == "motion" else "edit"
+    return domain if domain != "edit" else "rapid"
+
+
+def held(core: RwsCore, domain: str, steps: Flow[T]) -> Flow[T]:
+    """Carry out steps with mastership of a domain, which is given back where it was not held."""
+    yield from take(core, domain)
+    try:
+        return (yield from steps)
+    finally:
+        yield from give(core, domain)
+
+
+def take(core: RwsCore, domain: str = "rapid", *, wait: float = 0.0) -> Flow[None]:
+    """Take mastership of `rapid`, `cfg` or `motion`; wait s for it while somebody else has it.
+
+    What was taken several times is given back as often. It is never taken by force. Raises Held
+    (RG654) with who has it.
+    """
+    name = domain_of(core, domain)
+    if name in core.held:
+        core.held[name] += 1
+        return
+    until = core.clock() + wait
+    while True:
+        try:
+            yield from _request(core, name)
+        except RwsError as error:
+            if error.symbol not in _TAKEN:
+                raise
+            if core.clock() >= until:
+                raise (yield from _held_by(core, name)) from error
+        else:
+            core.held[name] = 1
+            return
+        yield Pause(min(_LOOK, max(0.0, until - core.clock())))
+
+
+def _request(core: RwsCore, name: str) -> Flow[None]:
+    if core.generation is not Generation.EIGHT:
+        yield from ask(core, ops.REQUEST, {"domain": name})
+        return
+    station = {
+        "control-station-name": APPLICATION,
+        "control-station-id": core.station,
+        "pincode": "",
+        "release-write-access-when-lost": "true",
+    }
+    yield from ask(core, ops.STATION_REGISTER, form=station)
+    yield from ask(core, ops.WRITE_REQUEST)
+
+
+def give(core: RwsCore, domain: str = "rapid") -> Flow[None]:
+    """Give mastership back; harmless when it is not held."""
+    name = domain_of(core, domain)
+    left = core.held.pop(name, 0) - 1
+    if left > 0:
+        core.held[name] = left
+    if left != 0:
+        return
+    if core.generation is Generation.EIGHT:
+        # A write may have cleared it already [VC 8.1.1].
+        yield from ask(core, ops.WRITE_RELEASE, accepted=(403,))
+    else:
+        yield from ask(core, ops.RELEASE, {"domain": name})
+
+
+def holder(core: RwsCore, domain: str = "rapid") -> Flow[Holder | None]:
+    """Who has mastership of a domain; None: nobody."""
+    name = domain_of(core, domain)
+    if core.generation is Generation.EIGHT:
+        body, _ = yield from ask(core, ops.WRITE_ACCESS)
+        told = body.items[0] if body.items else None
+        if told is None or told.text("control-station-write-access-held").lower() != "true":
+            return None
+        mine = told.text("held-by-control-station-Id").upper() == core.station.upper()
+        return Holder(name, "", told.text("held-by-control-station-name"), "", mine)
+    body, _ = yield from ask(core, ops.MASTERSHIP, {"domain": name})
+    item = body.first("msh-resource")
+    if item is None or item.text("mastership") == "nomaster":
+        return None
+    return Holder(
+        name,
+        item.text("alias"),
+        item.text("application"),
+        item.text("location"),
+        item.text("mastershipheldbyme").upper() == "TRUE",
+    )
+
+
+def _held_by(core: RwsCore, name: str) -> Flow[Held]:
+    who = yield from holder(core, name)
+    own = who is not None and who.application == APPLICATION
+    mend = "let them give it back or end their session, then try again (`wait=` in Python waits)"
+    if own:
+        mend = (
+            "that is another run of rapidgen: if it was killed, the controller ends its session "
+            "after five idle minutes; try again then (`deploy` and `wait=310` in Python wait)"
+        )
+    return Held.because("RG654", f"mastership of {name} at {core.where} is held by {who}", mend)

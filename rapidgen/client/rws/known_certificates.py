@@ -1,0 +1,52 @@
+"""Certificates of controllers that were met: one line a controller, `HOST:PORT SHA256`.
+
+Controllers sign their certificates themselves, so that nobody vouches for them: the first one
+that a person has agreed to is the only one that is accepted afterwards.
+"""
+
+import os
+from pathlib import Path
+
+from rapidgen._atomic_write import write_whole
+from rapidgen._reading import read_foreign
+
+_LARGEST = 1_000_000
+"""Bytes of the list."""
+
+
+def default_file() -> Path:
+    """Where the user's list lies."""
+    base = os.environ.get("XDG_STATE_HOME") or str(Path.home() / ".local" / "state")
+    return Path(base) / "rapidgen" / "known_controllers"
+
+
+def known(file: Path, where: str) -> str:
+    """The fingerprint of a controller, or an empty text."""
+    try:
+        text = read_foreign(file, _LARGEST).decode()
+    except FileNotFoundError:
+        return ""
+    for line in text.splitlines():
+        name, _, fingerprint = line.partition(" ")
+        if name == where:
+            return fingerprint.strip()
+    return ""
+
+
+def remember(file: Path, where: str, fingerprint: str) -> None:
+    """Keep a fingerprint, in place of an older one."""
+    lines = read_foreign(file, _LARGEST).decode().splitlines() if file.exists() else []
+    lines = [line for line in lines if line.partition(" ")[0] != where]
+    file.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
+    write_whole(file, "".join(f"{x}\n" for x in [*lines, f"{where} {fingerprint}"]).encode())
+
+
+def shown(fingerprint: str) -> str:
+    """As people compare it: pairs of capital digits."""
+    upper = fingerprint.upper()
+    return ":".join(upper[i : i + 2] for i in range(0, len(upper), 2))
+
+
+def plain(fingerprint: str) -> str:
+    """As it is kept, from what people write."""
+    return fingerprint.lower().removeprefix("sha256:").replace(":", "").strip()

@@ -1,0 +1,292 @@
+"""`Robot`: the synchronous client. Callers' threads write, one thread a robot reads."""
+
+import threading
+import time
+import warnings
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from functools import partial
+from inspect import GEN_CLOSED, getgeneratorstate
+from typing import TypeVar
+
+from rapidgen._compat import Self
+from rapidgen.client import flows
+from rapidgen.client.address import Address
+from rapidgen.client.api import ExecutionSurface, MakeCore, RobotSurface, RunSurface, StreamSurface
+from rapidgen.client.channels import Channel, Reader
+from rapidgen.client.core.job import batches
+from rapidgen.client.core.motion import CommandedMotion
+from rapidgen.client.core.robot import STOP_FRAME
+from rapidgen.client.core.state import State
+from rapidgen.client.errors import ConnectionLost, MotionStopped, RobotError, RobotTimeout
+from rapidgen.client.flows.effects import Close, Effect, Flow, HangUp, Open, SendAtOnce, Wait
+from rapidgen.client.user_data import CellData
+from rapidgen.wire.simple_message.spec import Port
+
+T = TypeVar("T")
+_SLICE = 0.1
+"""s: time itself is looked at this often while nothing comes."""
+
+
+class Threads:
+    """Carries out flows: the caller's thread decides and writes, one thread reads."""
+
+    def __init__(self, address: Address, make_core: MakeCore) -> None:
+        self.address = address
+        self.core = make_core(time.monotonic)
+        self.guard = threading.Condition()
+        self._channels: dict[Port, Channel] = {}
+        self._reader: Reader | None = None
+
+    def run(self, flow: Flow[T]) -> T:
+        """Carry out a flow: effects without the lock, its own steps with it.
+
+        Ctrl-C may come anywhere here, and the flow has to hear of it: it stops the robot.
+        """
+        outcome: bool | None = None
+        failure: BaseException | None = None
+        before = self.core.motion
+        while True:
+            error, failure = failure, None
+            try:
+                try:
+                    with self.guard:
+                        try:
+                            effect = flow.send(outcome) if error is None else flow.throw(error)
+                        finally:
+                            self._pump()
+                except StopIteration as end:
+                    value: T = end.value
+                    return value
+                outcome = self._perform(effect)
+            except (RobotError, KeyboardInterrupt) as raised:
+                if getgeneratorstate(flow) == GEN_CLOSED:
+                    self._stop_unnoticed(raised, before)
+                    raise
+                failure = raised
+
+    def _stop_unnoticed(
+        self, raised: RobotError | KeyboardInterrupt, before: CommandedMotion | None
+    ) -> None:
+        """Ctrl-C between the last step of a flow that began a motion and its caller, who never
+        learns of the motion: stop it."""
+        motion = self.core.motion
+        if isinstance(raised, KeyboardInterrupt) and motion not in (None, before):
+            assert motion is not None
+            if not motion.is_over or motion.needs_stop:
+                self.run(flows.stop.stop(self.core))
+
+    def _pump(self) -> None:
+        """Send what is due, as far as it goes without waiting. The lock is held."""
+        core = self.core
+        stops = core.blind_stops()
+        for port, channel in self._channels.items():
+            try:
+                if port in stops:
+                    channel.offer_behind(STOP_FRAME)
+                channel.offer(partial(core.due, port))
+            except RobotError as error:
+                # The reader hears of it too.
+                core.state_port.note(str(error))
+
+    def _tick(self) -> None:
+        with self.guard:
+            self.core.poll()
+            self._pump()
+            self.guard.notify_all()
+
+    def _perform(self, effect: Effect) -> bool:
+        if isinstance(effect, Wait):
+            return self._wait(effect)
+        if isinstance(effect, Close):
+            self._close(effect.port)
+            return True
+        if isinstance(effect, Open):
+            self._open(effect)
+            return True
+        if isinstance(effect, HangUp):
+            self._hang_up()
+            return True
+        if isinstance(effect, SendAtOnce):
+            self._send_at_once(effect)
+            return True
+        channel = self._channels.get(effect.port)
+        if channel is None:
+            raise self.core.disconnected()
+        try:
+            if not channel.send(effect.data, effect.timeout, lambda: effect.is_stopped):
+                raise MotionStopped.because("RG631", "stopped before the trajectory was sent")
+        except ConnectionLost as error:
+            with self.guard:
+                # The reader was first, and knows better why.
+                if self._channels.get(effect.port) is not channel:
+                    raise self.core.disconnected() from error
+            raise
+        return True
+
+    def _send_at_once(self, effect: SendAtOnce) -> None:
+        channels = {port: self._channels.get(port) for port in effect.ports}
+        # All are written to before one that takes nothing is waited for.
+        steps: tuple[Callable[[Channel], None], ...] = (
+            lambda channel: channel.offer_behind(effect.data),
+            lambda channel: channel.finish(effect.timeout),
+        )
+        for step in steps:
+            for port, channel in channels.items():
+                if port in effect.failures:
+                    continue
+                if channel is None:
+                    effect.failures[port] = self.core.disconnected()
+                    continue
+                try:
+                    step(channel)
+                except (ConnectionLost, RobotTimeout) as error:
+                    effect.failures[port] = error
+
+    def _wait(self, effect: Wait) -> bool:
+        deadline = time.monotonic() + effect.timeout
+        with self.guard:
+            while not effect.until():
+                left = deadline - time.monotonic()
+                if left <= 0:
+                    return False
+                self.guard.wait(min(left, _SLICE))
+                self.core.poll()
+                self._pump()
+            return True
+
+    def _close(self, port: Port) -> None:
+        with self.guard:
+            channel = self._channels.pop(port, None)
+            self.core.dropped(port)
+            if channel is not None and self._reader is not None:
+                self._reader.remove(channel)
+
+    def _open(self, effect: Open) -> None:
+        channel = Channel(self.address, effect.port, effect.timeout)
+        with self.guard:
+            if self._reader is None:
+                self._reader = Reader(
+                    self._received,
+                    self._lost,
+                    self._tick,
+                    lambda: self.core.is_busy,
+                    str(self.address),
+                )
+            old = self._channels.get(effect.port)
+            if old is not None:
+                self._reader.remove(old)
+            self._channels[effect.port] = channel
+            self.core.opened(effect.port)
+            self._reader.add(channel)
+
+    def _received(self, channel: Channel, data: bytes) -> None:
+        with self.guard:
+            if self._channels.get(channel.port) is channel:
+                if not self.core.received(channel.port, data):
+                    del self._channels[channel.port]
+                    assert self._reader is not None
+                    self._reader.remove(channel)
+                self._pump()
+                self.guard.notify_all()
+
+    def _lost(self, channel: Channel, why: str) -> None:
+        with self.guard:
+            if self._channels.get(channel.port) is channel:
+                del self._channels[channel.port]
+                self.core.lost(channel.port, why)
+                self._pump()
+                self.guard.notify_all()
+
+    def _hang_up(self) -> None:
+        with self.guard:
+            self.core.closed()
+            channels, self._channels = list(self._channels.values()), {}
+            reader, self._reader = self._reader, None
+        if reader is not None:
+            for channel in channels:
+                reader.remove(channel)
+            reader.close()
+
+
+class Execution(ExecutionSurface[Threads]):
+    """A trajectory that the controller has taken."""
+
+
+class ProgramRun(RunSurface[Threads]):
+    """A program that the controller has taken."""
+
+
+class Stream(StreamSurface[Threads]):
+    """Points that the robot executes while more of them come.
+
+    `with robot.stream() as stream:` ends it and waits for the robot at the end of the block;
+    when the block is left by an exception, the robot is stopped. Each point has the time s from
+    the stream's beginning and joints in rad or m; the first is where the robot stands. Motion
+    begins when the driver has enough of them, or at `flush`, `end` and `result`.
+
+    What is wrong with points is told before they are sent (InvalidTrajectory, the stream goes
+    on), by the controller at the first ones (TrajectoryRefused, nothing moved) or at later ones:
+    then the robot executes those before, and MotionFailed tells reason, point and joint.
+    """
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
+        if kind is not None:
+            self.cancel()
+        elif self.total:
+            self.result()
+
+    def extend(self, points: Iterable[tuple[float, Sequence[float]]]) -> None:
+        """Add points (time, joints) from an iterable, also one without end, batch by batch."""
+        for times, positions in batches(points, self._carrier.core.batch):
+            self.append(times, positions)
+
+
+class Robot(RobotSurface[Threads, Execution, Stream, ProgramRun]):
+    """One motion group of a robot, driven over its rapidgen driver or a plain abb_driver.
+
+    `target` is a configuration file, a shipped name, a RobotConfig, or an address
+    `HOST[:MOTION[,STATE]]`; a configuration is looked for at `address`, else on this machine.
+    `group` names the motion group where there are several. `watch` never opens the motion port.
+    `plain` does not ask for a rapidgen driver. `reconnect` is for how many s a lost connection
+    is tried again by the next call; nothing is ever sent again. `feedback` asks for joints with
+    the controller's own time and velocities.
+
+    All methods may be called from any thread. Joints are rad and m in URDF order.
+    """
+
+    _carrier_type = Threads
+    _execution_type = Execution
+    _stream_type = Stream
+    _run_type = ProgramRun
+
+    def connect(self) -> Self:
+        """Connect and find out who is there.
+
+        Raises ConnectionFailed, RobotTimeout, ProtocolError, IncompatibleDriver.
+        """
+        self._carrier.run(flows.connect.connect(self._core))
+        return self
+
+    @property
+    def data(self) -> CellData:
+        """PERS of the robot's own program: `robot.data["cell:count"] = 3`."""
+        names = tuple(datum.name for datum in self.group.data)
+        return CellData(names, self.read_data, self.write_data)
+
+    def __enter__(self) -> Self:
+        return self if self.is_connected else self.connect()
+
+    def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
+        unfinished = "" if kind is not None else self._unfinished()
+        self.close()
+        if unfinished:
+            # Not ResourceWarning, which Python hides: somebody wonders why nothing moved.
+            warnings.warn(unfinished, RuntimeWarning, stacklevel=2)
+
+    def states(self, timeout: float | None = None) -> Iterator[State]:
+        """Each new state as it comes; `timeout` s for each."""
+        while True:
+            yield self.next_state(timeout)

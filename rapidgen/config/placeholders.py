@@ -1,0 +1,41 @@
+"""Lines that a person still has to fill in: a value "???" is refused by its place (RG022)."""
+
+from rapidgen.config.validate import shown
+from rapidgen.config.yaml_tree import MappingNode, Node, ScalarNode, SequenceNode
+from rapidgen.diagnostics import Diagnostic, error
+
+OPEN = '"???"'
+"""As it is written: without quotes it would begin a key between braces."""
+
+
+def take_open(root: MappingNode) -> tuple[MappingNode, list[Diagnostic]]:
+    """The tree without its open values, and a finding for each."""
+    found: list[Diagnostic] = []
+
+    def walk(node: Node, path: tuple[str, ...]) -> Node | None:
+        if isinstance(node, MappingNode):
+            entries = {}
+            for key, (place, value) in node.entries.items():
+                kept = walk(value, (*path, key))
+                if kept is not None:
+                    entries[key] = (place, kept)
+            return MappingNode(entries, node.span)
+        if isinstance(node, SequenceNode):
+            items = [walk(item, (*path, str(n))) for n, item in enumerate(node.items, 1)]
+            return SequenceNode(tuple(item for item in items if item is not None), node.span)
+        if isinstance(node, ScalarNode) and node.value == OPEN[1:-1]:
+            found.append(
+                error(
+                    "RG022",
+                    node.span,
+                    f"'{shown(root, path)}' is open",
+                    "put the figure of your robot's data sheet or controller there",
+                    label="to be filled in",
+                )
+            )
+            return None
+        return node
+
+    made = walk(root, ())
+    assert isinstance(made, MappingNode)
+    return made, found

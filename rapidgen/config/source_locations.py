@@ -1,0 +1,33 @@
+"""Where a value stands in the file that a checked configuration was read from."""
+
+from rapidgen.config.assemble import keys_of, shown_path
+from rapidgen.config.model import RobotConfig
+from rapidgen.config.yaml_tree import MappingNode, Node, ScalarNode, SequenceNode
+from rapidgen.diagnostics import Span
+
+KeyPath = tuple[str | int, ...]
+
+
+def place_of_value(config: RobotConfig, group: str, path: KeyPath, value: str) -> Span | None:
+    """Place of a group's `value`; None where the file does not have it, as with `--set`."""
+    data = next((data for name, data in config.inputs if name == config.path.name), None)
+    if data is None:
+        return None
+    root, _ = keys_of(data, shown_path(config.path))
+    for whole in (("groups", group, *path), path):
+        node = _at(root, whole)
+        if isinstance(node, ScalarNode) and node.value == value:
+            return node.span
+    return None
+
+
+def _at(root: Node, path: KeyPath) -> Node | None:
+    node = root
+    for part in path:
+        if isinstance(node, MappingNode) and part in node.entries:
+            node = node.entries[str(part)][1]
+        elif isinstance(node, SequenceNode) and isinstance(part, int) and part < len(node.items):
+            node = node.items[part]
+        else:
+            return None
+    return node

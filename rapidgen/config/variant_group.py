@@ -1,0 +1,98 @@
+"""An arm that is no shipped model, as a motion group: from what the library knows of its variant.
+
+Good enough to run programs on, where a backup names the type; a driver is built from a file of the
+robot's own, which says every figure with its source (`rapidgen new`).
+"""
+
+import math
+import re
+
+from rapidgen.config.model import ChainLink, GroupConfig, Joint, Ports
+from rapidgen.config.variant_library import Variant, variants
+
+_TYPE = re.compile(
+    r"ROB_?[A-Z0-9]+?_(\d{2,5}[A-Z]{0,3})(?:_[A-Z]+)?(?:_(\d+)[._](\d+)_(\d+))?", re.I
+)
+"""-use_robot_type of MOC.cfg: ROB1_4600_2.55_40, ROB1_910SC_0.55_3, ROB1_15000_0_95_5."""
+_NAME = re.compile(r"[IC]RB (\w+)-([\d.]+)/([\d.]+)")
+_SETTLE = 0.25
+"""s from standstill to full speed; no source tells accelerations."""
+ASSUMED_SPEED = 100.0
+"""deg/s of an axis whose speed no source tells: as large arms have it. Times are a guess then."""
+
+
+def variants_of(robot_type: str) -> tuple[Variant | None, tuple[Variant, ...]]:
+    """The very variant of a type in MOC.cfg, and all variants of its number."""
+    asked = _TYPE.match(robot_type)
+    if asked is None:
+        return None, ()
+    very, kin = None, []
+    for variant in variants():
+        own = _NAME.match(variant.name)
+        if own is None or own[1].lower() != asked[1].lower():
+            continue
+        kin.append(variant)
+        if asked[2] and (float(own[3]), float(own[2])) == (
+            float(f"{asked[2]}.{asked[3]}"),
+            float(asked[4]),
+        ):
+            very = variant
+    return very, tuple(kin)
+
+
+def variant_named(name: str) -> Variant | None:
+    """The variant of that name, such as `IRB 1300-11/0.9`."""
+    return next((v for v in variants() if v.name.casefold() == name.casefold()), None)
+
+
+def group_of(variant: Variant, name: str = "rob1") -> GroupConfig | None:
+    """A group with the axes of a variant; None where its geometry needs more than a chain.
+
+    Six axes in a row, whose flange looks along x at zero, as ABB's arms with a wrist have it.
+    """
+    lines = variant.skeleton.lines
+    last = lines[-1].direction
+    if len(lines) != 6 or abs(last[0] - 1) > 1e-6:
+        return None
+    joints, links = [], []
+    before = (0.0, 0.0, 0.0)
+    for number, line in enumerate(lines, 1):
+        known = variant.axis(line.axis)
+        if known is None or known.lower is None or known.upper is None:
+            return None
+        speed = math.radians(known.speed or ASSUMED_SPEED)
+        joint = f"joint_{number}"
+        joints.append(
+            Joint(
+                joint,
+                line.axis,
+                "revolute",
+                math.radians(known.lower),
+                math.radians(known.upper),
+                speed,
+                speed / _SETTLE,
+                source=dict(variant.sources).get("limits", ""),
+            )
+        )
+        links.append(
+            ChainLink(joint, _between(before, line.point), (0.0, 0.0, 0.0), line.direction)
+        )
+        before = line.point
+    links.append(ChainLink("", _between(before, variant.skeleton.end), (0.0, math.pi / 2, 0.0)))
+    return GroupConfig(
+        name,
+        "T_ROB1",
+        "ROB_1",
+        tuple(joints),
+        Ports(),
+        variant.name,
+        tuple(links),
+        variant.coupling or 0.0,
+        max_payload=variant.max_payload,
+    )
+
+
+def _between(
+    a: tuple[float, float, float], b: tuple[float, float, float]
+) -> tuple[float, float, float]:
+    return (b[0] - a[0], b[1] - a[1], b[2] - a[2])

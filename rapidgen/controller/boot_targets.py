@@ -1,0 +1,319 @@
+"""What can be booted, whatever it is: a configuration, a shipped name, a generated folder, a
+backup, or RAPID files with a cell around them. `run`, `sim`, tests and Python load it here."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import rapidgen.system as files
+from rapidgen.axes.default_postures import usual_start
+from rapidgen.config import from_manifest, load_config
+from rapidgen.config.model import ChainLink, GroupConfig, Positioner, RobotConfig
+from rapidgen.config.registry import is_path
+from rapidgen.controller.cell_setup import Surroundings, cameras_of, force_of, furnish
+from rapidgen.controller.inference.start_poses import in_front, stands, start_of
+from rapidgen.controller.mechanics import DEFAULT_ROBOT, mechanics, of_unknown_payload
+from rapidgen.diagnostics import Diagnostic, refusal, suggest
+from rapidgen.system.model import System
+from rapidgen.system.releases import UNTOLD
+
+if TYPE_CHECKING:
+    from rapidgen.config.cell import CellDescription, CellRobotKeys
+    from rapidgen.controller.inference.cell import Guess
+    from rapidgen.controller.inference.robot_model import Likely
+    from rapidgen.system.controller_cfg import ControllerCfg
+
+# Descriptions, guesses, generated drivers and backups are imported where there is one: the run of a
+# small program takes hardly longer than its imports.
+GUESS = "guess"
+"""Instead of a cell's file: whatever the programs name is there."""
+Source = Path | str
+
+
+@dataclass(frozen=True, slots=True)
+class Wishes:
+    """What a user says beside the files."""
+
+    tasks: Mapping[str, Sequence[Source]] = field(default_factory=dict)
+    """Files of tasks of their own; what is given beside them goes to T_ROB1."""
+    robot: str = ""
+    robotware: tuple[int, int] | None = None
+    """The release of loose files; None: nobody says."""
+    entry: str = ""
+    """Procedure that tasks start in; empty: as SYS.cfg says, or main."""
+    cell: Source = ""
+    start: Sequence[float] = ()
+    """Where the first robot stands, deg and mm."""
+    backup: Source | None = None
+    """Of the controller that a generated folder is loaded onto."""
+    overrides: Sequence[str] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Bootable:
+    """A controller that can be booted. `driver` tells whether it runs a generated driver."""
+
+    name: str
+    system: System
+    groups: tuple[GroupConfig, ...]
+    driver: bool
+    notes: tuple[Diagnostic, ...] = ()
+    surroundings: Surroundings = field(default_factory=Surroundings)
+    guessed: "Guess | None" = None
+    likely: "Likely | None" = None
+    """The robot that was guessed."""
+    cfg: "ControllerCfg | None" = None
+    """All domains of a backup."""
+    described: Mapping[str, Path] = field(default_factory=dict)
+    """Configurations that say what groups look like."""
+    overrides: Sequence[str] = ()
+    """Of those configurations."""
+    cell: "CellDescription | None" = None
+    """What stands around it."""
+
+
+def load_target(targets: Sequence[Source], wishes: Wishes | None = None) -> Bootable:
+    """Read what is to be booted. Raises DiagnosticError with what is wrong."""
+    wishes = wishes or Wishes()
+    first = Path(targets[0]) if len(targets) == 1 and not wishes.tasks else None
+    if first is not None and is_configuration(first):
+        _only_of_folders(str(first), wishes)
+        _only_of_files(str(first), wishes, "--set controller.robotware=7.6 changes it")
+        from rapidgen.generate import build, make_system
+
+        config = load_config(str(targets[0]), overrides=wishes.overrides)
+        system = make_system(config, build(config))
+        made = _driver(config, system, tuple(config.diagnostics), wishes)
+        named = [group.name for group in config.groups if is_path(str(first))]
+        described = dict.fromkeys(named, first)
+        return replace(made, described=described, overrides=wishes.overrides)
+    notes: list[Diagnostic] = []
+    folder = first if first is not None and first.is_dir() else None
+    if folder is not None and files.is_generated(folder):
+        _only_of_files(str(first), wishes, "build it for another one")
+        config = from_manifest(files.read_manifest(folder)["configuration"])
+        system = files.read_folder(folder, wishes.backup, notes=notes)
+        return _driver(config, system, tuple(notes), wishes)
+    _only_of_folders(" ".join(map(str, targets)), wishes)
+    if folder is not None and files.is_backup(folder):
+        from rapidgen.system.backup import backup_cfg
+
+        _only_of_files(str(first), wishes, "leave it out")
+        system = _entered(files.read_backup(folder, notes=notes), wishes.entry)
+        found = _foreign(system, notes, wishes)
+        return replace(found, cfg=backup_cfg(folder, system.robotware, []))
+    # Loose files have no mechanics that could be told.
+    found = _foreign(_loose(targets, wishes), None, wishes)
+    return replace(found, cfg=_delivered(found))
+
+
+def is_configuration(target: Path) -> bool:
+    """Whether `target` is a configuration's file or the name of a shipped one."""
+    if target.suffix.lower() in (".yaml", ".yml"):
+        return True
+    return not target.exists() and not target.suffix and len(target.parts) == 1
+
+
+def _loose(targets: Sequence[Source], wishes: Wishes) -> System:
+    if not targets and not any(wishes.tasks.values()):
+        raise refusal(
+            "RG901",
+            None,
+            "nothing to run",
+            "name a module, a folder with modules, a generated folder or a backup",
+        )
+    by_task = {task: list(names) for task, names in wishes.tasks.items()}
+    only = Path(targets[0]) if len(targets) == 1 and not by_task else None
+    if only is not None and only.is_dir() and (folders := files.task_folders(only)):
+        return _read(folders, only.resolve().name, wishes)
+    if targets:
+        own = by_task.pop("T_ROB1", [])
+        by_task = {"T_ROB1": [*own, *targets], **by_task}
+    name = Path(next(names[0] for names in by_task.values() if names)).resolve().stem
+    return _read(by_task, name, wishes)
+
+
+def _read(tasks: Mapping[str, Sequence[Source]], name: str, wishes: Wishes) -> System:
+    entry, robotware = wishes.entry or "main", wishes.robotware or UNTOLD
+    return files.read_files(tasks, entry=entry, name=name, robotware=robotware)
+
+
+def _delivered(found: Bootable) -> "ControllerCfg":
+    """The cfg of a delivered controller with these robots, tasks and signals."""
+    from rapidgen.system.base import Robot, base_system
+    from rapidgen.system.cfg_writer import eio_cfg, sys_cfg
+
+    robots = [Robot(g.task, g.mechanical_unit, tuple(g.external_units)) for g in found.groups]
+    base = base_system(found.system.robotware, robots)
+    own = (sys_cfg(found.system), eio_cfg(found.system))
+    domains = {text.domain: text for text in (*base.domains, *own)}
+    return replace(base, domains=tuple(domains.values()))
+
+
+def _entered(system: System, entry: str) -> System:
+    """A system whose tasks start in `entry`, where a module of theirs has it."""
+    if not entry:
+        return system
+    proc = f"proc {entry}(".casefold().encode("latin-1", "replace")
+    tasks = tuple(
+        replace(task, entry=entry)
+        if any(proc in module.data.lower() for module in task.modules)
+        else task
+        for task in system.tasks
+    )
+    return replace(system, tasks=tasks)
+
+
+def _driver(
+    config: RobotConfig, system: System, notes: tuple[Diagnostic, ...], wishes: Wishes
+) -> Bootable:
+    """A generated driver's robots are those of its configuration; they start at 0."""
+    from rapidgen.controller.cell import in_its_cell
+
+    if wishes.robot:
+        raise refusal(
+            "RG901",
+            None,
+            f"{config.name} has its own robot, and --robot is for programs that name none",
+            "leave it out",
+        )
+    system = _entered(in_its_cell(system, config), wishes.entry)
+    cell = _described(wishes)
+    found = Bootable(config.name, system, config.groups, True, (*notes, *_warned(cell)))
+    return _surrounded(found, cell, wishes)
+
+
+def _foreign(system: System, notes: list[Diagnostic] | None, wishes: Wishes) -> Bootable:
+    cell = _described(wishes)
+    robots = cell.robots if cell is not None else {}
+    system = _moving(system, robots)
+    robot, model = wishes.robot, None
+    if str(wishes.cell) == GUESS and not robot and not system.robot_types:
+        from rapidgen.controller.inference.robot_model import likely
+
+        model = likely(system, DEFAULT_ROBOT)
+        robot = model.model if model is not None else ""
+    groups, which = mechanics(system, robot, robots)
+    if model is not None:
+        groups = of_unknown_payload(groups)
+    told = _warned(cell) if notes is None else (*notes, *which, *_warned(cell))
+    models = {task.casefold(): keys.model for task, keys in robots.items()}
+    chosen = {group.name: models.get(group.task.casefold()) or robot for group in groups}
+    described = {name: Path(model) for name, model in chosen.items() if is_path(model)}
+    found = Bootable(system.name, system, groups, False, told, likely=model, described=described)
+    return _surrounded(found, cell, wishes)
+
+
+def _described(wishes: Wishes) -> "CellDescription | None":
+    if str(wishes.cell) in ("", GUESS):
+        return None
+    from rapidgen.config.cell import load_cell
+
+    return load_cell(Path(wishes.cell))
+
+
+def _warned(cell: "CellDescription | None") -> tuple[Diagnostic, ...]:
+    return () if cell is None else cell.diagnostics
+
+
+def _surrounded(found: Bootable, cell: "CellDescription | None", wishes: Wishes) -> Bootable:
+    guessed = None
+    if str(wishes.cell) == GUESS:
+        from rapidgen.controller.inference.cell import guess
+
+        units = [u for g in found.groups for u in (g.mechanical_unit, *g.external_units)]
+        first, *others = found.groups
+        table = in_front(first)
+        guessed = guess(found.system, units, table, stands(first))
+        cell = guessed.cell
+        stands_still = (ChainLink("", table, (0.0, 0.0, 0.0)),)
+        carriers = [Positioner(unit, stands_still) for unit in guessed.units]
+        first = replace(
+            first,
+            external_units=(*first.external_units, *guessed.units),
+            positioners=(*first.positioners, *carriers),
+        )
+        found = replace(found, groups=(first, *others))
+    usual = not found.driver
+    if cell is None:
+        starts = dict(_starts(found.groups, {}, wishes.start, usual=usual))
+        return replace(found, surroundings=Surroundings(starts))
+    return replace(
+        found,
+        cell=cell,
+        system=furnish(found.system, cell)
+        if guessed is None
+        else furnish(found.system, cell, guessed.data, guessed.routines),
+        surroundings=Surroundings(
+            dict(_starts(found.groups, cell.robots, wishes.start, usual=usual)),
+            tuple(reaction for rows in cell.devices.values() for reaction in rows),
+            guessed.driven if guessed is not None else frozenset(),
+            guessed.polled if guessed is not None else (),
+            guessed.flags if guessed is not None else (),
+            guessed.heard if guessed is not None else None,
+            cameras_of(cell, is_guess=guessed is not None),
+            force_of(cell),
+            frozenset(guessed.divisors if guessed is not None else ()),
+            guessed.blank if guessed is not None else (),
+            is_guess=guessed is not None,
+            is_any_robot=guessed is not None and not wishes.robot and not found.system.robot_types,
+        ),
+        guessed=guessed,
+    )
+
+
+def _moving(system: System, robots: "Mapping[str, CellRobotKeys]") -> System:
+    """The tasks that a cell has a robot for are motion tasks."""
+    names = {task.name.casefold(): task.name for task in system.tasks}
+    for task in robots:
+        if task.casefold() not in names:
+            raise refusal(
+                "RG434",
+                None,
+                f"the cell has a robot for {task}, and there is no such task",
+                suggest(task, list(names.values())) or f"there are {', '.join(names.values())}",
+            )
+    moved = {task.casefold() for task in robots}
+    tasks = (
+        replace(t, motion=t.motion or t.name.casefold() in moved) if moved else t
+        for t in system.tasks
+    )
+    return replace(system, tasks=tuple(tasks))
+
+
+def _starts(
+    groups: Sequence[GroupConfig],
+    robots: "Mapping[str, CellRobotKeys]",
+    first: Sequence[float],
+    *,
+    usual: bool,
+) -> Iterator[tuple[str, tuple[float, ...]]]:
+    described = {task.casefold(): robot.start for task, robot in robots.items()}
+    for i, group in enumerate(groups):
+        values = described.get(group.task.casefold())
+        if first and i == 0:
+            yield group.name, start_of(group, first, "--start")
+        elif values:
+            yield group.name, start_of(group, values, f"`start` of {group.task}")
+        elif usual:
+            yield group.name, usual_start(group)
+
+
+def _only_of_files(target: str, wishes: Wishes, mend: str) -> None:
+    """What tells its release is not given another one."""
+    if wishes.robotware is not None:
+        raise refusal(
+            "RG901", None, f"'{target}' tells its RobotWare, and --robotware says another one", mend
+        )
+
+
+def _only_of_folders(target: str, wishes: Wishes) -> None:
+    """What is no generated folder is loaded onto no backup."""
+    if wishes.backup is not None:
+        raise refusal(
+            "RG433",
+            None,
+            f"'{target}' is no generated folder, and --backup is what one is loaded onto",
+            "build it first: `rapidgen build CONFIG --backup FOLDER`",
+        )

@@ -1,0 +1,281 @@
+"""What the description of a cell does to a controller: signals and data that its programs find,
+where its robots stand at first, and devices that answer signals."""
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Protocol
+
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, error, suggest
+from rapidgen.machine.cameras import Camera, Seen
+from rapidgen.machine.event_log import EventLog
+from rapidgen.machine.force import Measured
+from rapidgen.machine.io import Awaited, IOSystem
+from rapidgen.machine.network.interface import Network
+from rapidgen.machine.network.memory import MemoryNetwork
+from rapidgen.machine.network.sockets import SocketTable
+from rapidgen.machine.operator import Operator
+from rapidgen.machine.scheduler import S, Scheduler
+from rapidgen.machine.sync_points import Meetings
+from rapidgen.motion.system import MotionSystem
+from rapidgen.runtime.compiler import predefined
+from rapidgen.runtime.task.task import Task
+from rapidgen.system.model import ModuleFile, SignalSpec, System
+
+if TYPE_CHECKING:
+    from rapidgen.config.cell import CellDescription, ReactionKeys
+    from rapidgen.controller.inference.default_tools import Blank
+    from rapidgen.controller.inference.dialog_answers import Said
+    from rapidgen.controller.inference.polled_data import Flag
+    from rapidgen.controller.inference.polled_signals import Polled
+    from rapidgen.controller.inference.socket_peers import Heard
+    from rapidgen.controller.views import TaskView
+
+GUESSED = 49_910
+"""Event: an input that nobody drives became what a program waits for. The number is ours."""
+_PATIENCE = 0.5
+"""Seconds that a program waits for a guessed input."""
+Posture = tuple[float, ...]
+"""Controller axes, rad and m, wire order."""
+
+
+@dataclass(frozen=True, slots=True)
+class Surroundings:
+    """What a controller is booted into, beside its system and robots."""
+
+    starts: Mapping[str, Posture] = field(default_factory=dict)
+    """Where the robots stand, by motion group; others stand at 0."""
+    reactions: "Sequence[ReactionKeys]" = ()
+    guessed: frozenset[str] = frozenset()
+    """Signals that nobody drives, lower case: they become what somebody waits for."""
+    polled: "tuple[Polled, ...]" = ()
+    """Where programs look for them in loops."""
+    flags: "tuple[Flag, ...]" = ()
+    """Data that programs look at and do not set."""
+    heard: "Heard | None" = None
+    """What programs listen for at sockets that nobody else is at."""
+    cameras: Mapping[str, Camera] = field(default_factory=dict)
+    """What cameras see, by lower-case name."""
+    force: Measured = field(default_factory=Measured)
+    """What force sensors measure."""
+    divisors: frozenset[str] = frozenset()
+    """What programs divide by, lower case."""
+    blank: "tuple[Blank, ...]" = ()
+    """Data that a predefined one stands in for."""
+    is_guess: bool = False
+    """Whether dialogs are answered that nobody else is there for, and I/O units are as named."""
+    is_any_robot: bool = False
+    """Whether the robots are a guess: places that they do not reach do not stop the program."""
+
+
+@dataclass(frozen=True, slots=True)
+class Guessed:
+    """What happened because a cell is a guess; all grow while programs run."""
+
+    is_guess: bool = False
+    answered: "list[Said]" = field(default_factory=list)
+    """Signals and dialogs, and what they became because a program waited for it."""
+    missed: "list[Said]" = field(default_factory=list)
+    """Places of moves to where the robot does not come as programmed, and how it went there."""
+    stopped: "list[Said]" = field(default_factory=list)
+    """Where a program stopped behind an answer and was started from main again, and why."""
+
+
+class Booted(Protocol):
+    """A controller that is put into its surroundings."""
+
+    @property
+    def log(self) -> EventLog:
+        """Its event log."""
+
+    io: IOSystem
+    operator: Operator
+    motion: MotionSystem
+    network: Network
+    sockets: SocketTable
+    meetings: Meetings
+    scheduler: Scheduler
+    rapid_tasks: dict[str, Task]
+
+    def task(self, name: str) -> "TaskView":
+        """One task."""
+
+
+def furnish(
+    system: System,
+    cell: "CellDescription",
+    data: Iterable[tuple[str, str, str]] = (),
+    routines: str = "",
+) -> System:
+    """`system` with the signals and the data of `cell` that it does not have itself, with further
+    `data` (kind and type, name, initial value or nothing) and the declarations of `routines`.
+
+    They are those of an installed module: a program's own hide them. Raises DiagnosticError
+    RG434 for a device that names a signal which nobody has.
+    """
+    known = {signal.name.casefold() for signal in system.signals}
+    signals = tuple(
+        SignalSpec(
+            name,
+            keys.kind,
+            default=keys.value,
+            size=keys.size if keys.kind[0] == "G" else 1,
+        )
+        for name, keys in cell.signals.items()
+        if name.casefold() not in known
+    )
+    seen = {name.casefold() for name in system.cameras}
+    cameras = (*system.cameras, *(name for name in cell.cameras if name.casefold() not in seen))
+    system = replace(system, signals=(*system.signals, *signals), cameras=cameras)
+    faults = list(_nameless(system, cell))
+    if faults:
+        raise DiagnosticError(faults)
+    text = "".join(
+        f"    TASK PERS {kind} {name} := {value};\n" for kind, name, value in _data(cell)
+    )
+    text += "".join(
+        f"    {kind} {name}{' := ' if value else ''}{value};\n" for kind, name, value in data
+    )
+    text += routines
+    if not text:
+        return system
+    module = ModuleFile(
+        "cell_data",
+        "cell_data.sys",
+        f"MODULE cell_data(SYSMODULE)\n{text}ENDMODULE\n".encode("ascii"),
+        installed=True,
+    )
+    tasks = (replace(task, modules=(module, *task.modules)) for task in system.tasks)
+    return replace(system, tasks=tuple(tasks))
+
+
+def cameras_of(cell: "CellDescription", *, is_guess: bool) -> dict[str, Camera]:
+    """The cameras of a cell, by lower-case name; a new set for each controller."""
+    return {
+        name.casefold(): Camera(
+            name,
+            [
+                [
+                    Seen(
+                        one.name,
+                        (one.position[0], one.position[1], one.position[2]),
+                        one.angle,
+                        one.type,
+                        tuple(one.values),
+                        tuple(one.texts),
+                    )
+                    for one in image
+                ]
+                for image in keys.images
+            ],
+            {parameter.casefold(): value for parameter, value in keys.parameters.items()},
+            is_guess,
+        )
+        for name, keys in cell.cameras.items()
+    }
+
+
+def force_of(cell: "CellDescription") -> Measured:
+    """What the force sensors of a cell measure."""
+    keys = cell.force
+    if keys is None:
+        return Measured()
+    return Measured([tuple(row) for row in keys.readings], keys.mass, tuple(keys.center))
+
+
+def _data(cell: "CellDescription") -> Iterator[tuple[str, str, str]]:
+    from rapidgen.generate.context import load_literal, tool_literal, work_object_literal
+
+    for tool in cell.tools:
+        yield "tooldata", tool.name, tool_literal(tool)
+    for wobj in cell.work_objects:
+        yield "wobjdata", wobj.name, work_object_literal(wobj)
+    for name, load in cell.loads.items():
+        yield "loaddata", name, load_literal(load)
+
+
+def _nameless(system: System, cell: "CellDescription") -> Iterator[Diagnostic]:
+    names = {signal.name.casefold(): signal.name for signal in system.signals}
+    for device, reactions in cell.devices.items():
+        for reaction in reactions:
+            for name in (*reaction.when, *reaction.then):
+                if name.casefold() not in names:
+                    yield error(
+                        "RG434",
+                        None,
+                        f"device '{device}' of the cell names '{name}', which is no signal",
+                        suggest(name, list(names.values())) or "declare it under `signals:`",
+                    )
+
+
+def settle(controller: Booted, around: Surroundings) -> Guessed:
+    """Put the robots where they start, let devices watch their signals, and guessed inputs become
+    what a program waits for."""
+    guessed = Guessed(around.is_guess)
+    answered = guessed.answered
+    for name, posture in around.starts.items():
+        controller.motion.group(name).jump(posture)
+    for reaction in around.reactions:
+        _watch(controller, reaction)
+
+    def answer(awaited: Awaited) -> None:
+        signal, value = awaited.signal, awaited.fulfilling()
+
+        def give() -> None:
+            if value is not None and not awaited.holds():
+                answered.append((signal.name, value))
+                controller.log.info(GUESSED, "Guessed input", f"{signal.name} becomes {value:g}")
+                controller.io.set(signal, value)
+
+        if signal.name.casefold() in around.guessed:
+            controller.scheduler.after(round(_PATIENCE * S), give)
+
+    for row in around.blank:
+        controller.task(row.task)[f"{row.module}:{row.name}"] = predefined.value(row.stands)
+    if around.guessed:
+        controller.io.on_awaited = answer
+    if around.polled:
+        from rapidgen.controller.inference.polled_signals import Buttons
+
+        Buttons(controller, around.polled, answered)
+    if around.flags and controller.scheduler.clock == "virtual":
+        from rapidgen.controller.inference.polled_data import Flags
+
+        Flags(controller, around.flags, answered)
+    controller.io.divisors = around.divisors
+    controller.io.any_unit = controller.meetings.any_task = around.is_guess
+    if around.is_any_robot:
+        controller.motion.on_missed = lambda place, how: guessed.missed.append((place, how))
+    # Beside a real clock a person sits, who answers by the control port.
+    if (
+        around.is_guess
+        and not controller.operator.present
+        and controller.scheduler.clock == "virtual"
+    ):
+        from rapidgen.controller.inference.dialog_answers import Chooser
+
+        Chooser(controller.operator, controller.scheduler, answered)
+    if around.heard is not None and isinstance(controller.network, MemoryNetwork):
+        from rapidgen.controller.inference.socket_peers import Partner
+
+        Partner(controller, around.heard, answered)
+    return guessed
+
+
+def _watch(controller: Booted, reaction: "ReactionKeys") -> None:
+    io = controller.io
+    held = False
+
+    def follow() -> None:
+        for name, value in reaction.then.items():
+            io.set(io[name], value)
+
+    def look() -> None:
+        nonlocal held
+        holds = all(io[name].value == value for name, value in reaction.when.items())
+        if holds and not held:
+            controller.scheduler.after(round(reaction.after * S), follow)
+        held = holds
+
+    for name in reaction.when:
+        io[name].changed.add(look)
+    look()

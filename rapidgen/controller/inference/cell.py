@@ -1,0 +1,376 @@
+"""What programs name and nobody declares, as the description of a cell: a guess.
+
+A public program seldom has its controller's configuration beside it. The type of a name is that of
+the parameter that it is an argument of; where it is only read, its first letters tell as ABB's
+examples name signals (di, do, gi, go, ai, ao), and what is compared with 0 or 1 is a digital input.
+Tools have the load of tool0 and are the flange; a work object is a table in front of the robot; a
+mechanical unit stands there and has no axes, a camera sees one thing in its middle. Data of other
+types are what RAPID makes of a declaration without a value: 0, FALSE, an empty text; but what a
+program divides by is 1, a target is where the robot stands at first, `v25` is a speed of 25 mm/s
+and `z5` a zone of 5 mm. What has no type that could be told stays unknown.
+"""
+
+import re
+from collections.abc import Collection, Iterable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from types import MappingProxyType
+from typing import Literal, cast
+
+from rapidgen.config.cell import CameraKeys, CellDescription, CellSignalKeys, ForceKeys, SeenKeys
+from rapidgen.config.model import Load, Placement, Tool, WorkObject
+from rapidgen.controller.inference.default_tools import Blank, blanks
+from rapidgen.controller.inference.missing_routines import absent
+from rapidgen.controller.inference.name_usage import passed, read, scoped
+from rapidgen.controller.inference.polled_data import Flag, flags
+from rapidgen.controller.inference.polled_signals import Polled, handed_on, polled
+from rapidgen.controller.inference.socket_peers import Heard, heard
+from rapidgen.controller.inference.wait_conditions import looked_at
+from rapidgen.diagnostics import Span
+from rapidgen.rapid import Dialect, parse
+from rapidgen.rapid.binding import (
+    ModuleScope,
+    RoutineSymbol,
+    Scope,
+    TaskScope,
+    TypeSymbol,
+    constant,
+    installed_objects,
+)
+from rapidgen.rapid.binding.expressions import declared_type
+from rapidgen.rapid.binding.names import called
+from rapidgen.rapid.binding.types import NUMBER
+from rapidgen.rapid.builtins.signatures import type_class
+from rapidgen.rapid.syntax import nodes as n
+from rapidgen.rapid.syntax.walk import walk
+from rapidgen.system.model import System
+
+Kind = Literal["DI", "DO", "GI", "GO", "AI", "AO"]
+_PREFIX = re.compile(r"(?i:[dga][io])(?![a-z]{3})")
+"""diStart, DO1, gi_part; not `difference`."""
+_LOAD = Load(0.001, (0.0, 0.0, 0.000001))
+"""That of tool0 [3HAC16581-1 tooldata]: a tool without any is refused by moves."""
+_DIONUM = frozenset(("high", "low", "edge"))
+_DATA = frozenset({"tooldata", "wobjdata", "loaddata"})
+_MADE = frozenset(("mecunit", "cameradev"))
+_NUM = re.compile(r"n[A-Z_\d]|num[A-Z_\d]|reg\d")
+"""Names that programmers give to numbers: nCount."""
+_NUMBERED = re.compile(r"[vz](\d{1,4})", re.I)
+_ELEMENTS = 20
+"""Of an array whose size nobody says."""
+_NOTHING: Mapping[str, str] = {"num": "0", "dnum": "0", "bool": "FALSE", "string": '""'}
+_ORDER = frozenset(("<", ">", "<=", ">="))
+_ALIASIO = 2
+_Use = tuple[n.Name, str, int]
+
+
+@dataclass(frozen=True, slots=True)
+class Named:
+    """A name that nobody declares: its type (empty: not to be told), and where it is used first."""
+
+    name: str
+    type: str
+    span: Span
+    sure: int = 0
+    """0: nothing tells; 1: it is read as a number; 2: it is the argument of a parameter."""
+
+
+@dataclass(frozen=True, slots=True)
+class Guess:
+    """A made-up cell, what is in it, and what could not be made up."""
+
+    cell: CellDescription
+    named: tuple[Named, ...]
+    unknown: tuple[Named, ...]
+    polled: tuple[Polled, ...] = ()
+    """Comparisons of guessed inputs in loops."""
+    data: tuple[tuple[str, str, str], ...] = ()
+    """Kind and type (`VAR num`), name and initial value (empty: none is given) of data that no
+    description has."""
+    units: tuple[str, ...] = ()
+    """Mechanical units."""
+    routines: str = ""
+    """Declarations of routines that are in no file and do nothing."""
+    flags: tuple[Flag, ...] = ()
+    """Data that programs look at and do not set."""
+    heard: Heard = field(default_factory=Heard)
+    """What programs listen for at their sockets."""
+    blank: tuple[Blank, ...] = ()
+    """Tools and work objects whose values another task would have."""
+    driven: frozenset[str] = frozenset()
+    """Signals that nobody else sets, lower case: inputs, and outputs that are only read."""
+    divisors: frozenset[str] = frozenset()
+    """Names of what is divided by, lower case."""
+
+
+def guess(
+    system: System,
+    units: Iterable[str] = (),
+    table: tuple[float, float, float] = (0.0, 0.0, 0.0),
+    stands: Mapping[str, str] = MappingProxyType({}),
+) -> Guess:
+    """The cell that the programs of `system` seem to stand in.
+
+    `units` are its mechanical units, `table` is where work objects are, m, `stands` the robtarget
+    and the jointtarget of the robot at first, as RAPID has them.
+    """
+    found: dict[str, Named] = {}
+    assigned: set[str] = set()
+    tasks: list[list[ModuleScope]] = []
+    known = [(signal.name, f"signal{signal.type.lower()}") for signal in system.signals]
+    known += [(camera, "cameradev") for camera in system.cameras]
+    known += [(f"{task.name}Id", "taskid") for task in system.tasks]
+    known += [(unit, "mecunit") for unit in (*units, "ROB_ID")]
+    for spec in system.tasks:
+        task = TaskScope(installed_objects(known))
+        dialect = Dialect(system.robotware, some=not system.robotware_told)
+        scopes = [
+            task.add(parse(f.data, path=f.path, dialect=dialect), installed=f.installed or f.shared)
+            for f in spec.modules
+        ]
+        tasks.append(scopes)
+        for scope in scopes:
+            assigned |= _assigned(scope)
+            for one in _undeclared(scope):
+                before = found.setdefault(one.name.casefold(), one)
+                if one.sure > before.sure:
+                    surer = replace(before, type=one.type, sure=one.sure)
+                    found[one.name.casefold()] = surer
+    for key in assigned & found.keys():
+        # No signal is assigned: it is a number.
+        if found[key].type.startswith("signal"):
+            found[key] = replace(found[key], type="num")
+    made = {one.name: one.type for one in found.values()}
+    divisors = {name for scopes in tasks for scope in scopes for name in _divisors(scope)}
+    cell = CellDescription(
+        signals={
+            name: CellSignalKeys(
+                cast(Kind, kind[6:].upper()), value=float(name.casefold() in divisors)
+            )
+            for name, kind in made.items()
+            if kind.startswith("signal")
+        },
+        tools=tuple(Tool(name, load=_LOAD) for name, kind in made.items() if kind == "tooldata"),
+        work_objects=tuple(
+            WorkObject(name, user_frame=Placement(table))
+            for name, kind in made.items()
+            if kind == "wobjdata"
+        ),
+        loads={name: _LOAD for name, kind in made.items() if kind == "loaddata"},
+        force=ForceKeys(),
+        cameras={
+            name: CameraKeys([[SeenKeys(name)]])
+            for name in (*system.cameras, *(n for n, kind in made.items() if kind == "cameradev"))
+        },
+    )
+    named = [one for one in found.values() if _can_be_made(one.type)]
+    unknown = [one for one in found.values() if not _can_be_made(one.type)]
+    handed = {name for scopes in tasks for scope in scopes for name in handed_on(scope)}
+    given = {
+        name.casefold()
+        for name, keys in cell.signals.items()
+        if keys.kind[1] == "I" or name.casefold() not in handed
+    }
+    # Nobody stands at the inputs that a backup declares, either; a cross connection makes its own.
+    made_here = {connection.result.casefold() for connection in system.cross}
+    given |= {s.name.casefold() for s in system.signals if s.type[1] == "I"} - made_here
+    looks = {
+        spec.name: tuple(looked_at(scopes, spec.entry))
+        for spec, scopes in zip(system.tasks, tasks, strict=True)
+    }
+    rows = dict.fromkeys(row for spec in system.tasks for row in polled(looks[spec.name], given))
+    kept = {name for scopes in tasks for scope in scopes for name in _persistent(scope)}
+    initial = {word for scopes in tasks for scope in scopes for word in _in_initial_values(scope)}
+    sizes = {name: size for scopes in tasks for scope in scopes for name, size in _sizes(scope)}
+    data = tuple(
+        _declaration(one, stands, initial | sizes.keys(), kept, dict.fromkeys(divisors, 1) | sizes)
+        for one in named
+        if _is_plain(one.type)
+    )
+    made_units = tuple(one.name for one in named if one.type == "mecunit")
+    made |= {signal.name.casefold(): f"signal{signal.type.lower()}" for signal in system.signals}
+    kinds = {name.casefold(): kind for name, kind in made.items()}
+    stubs = {one.name.casefold(): one for scopes in tasks for one in absent(scopes, kinds)}
+    named += [Named(s.name, s.kind, s.span) for s in stubs.values()]
+    looked = dict.fromkeys(
+        flag
+        for spec, scopes in zip(system.tasks, tasks, strict=True)
+        for flag in flags(spec.name, scopes, looks[spec.name], kinds)
+    )
+    blank = blanks((spec.name, s) for spec, s in zip(system.tasks, tasks, strict=True))
+    named += [Named(row.name, kind, span) for row, (kind, span) in blank.items()]
+    listens = heard((scope for scopes in tasks for scope in scopes), stands)
+    routines = "".join(s.stub(stands.get(s.type, "")) for s in stubs.values())
+    return Guess(
+        cell,
+        tuple(named),
+        tuple(unknown),
+        tuple(rows),
+        data,
+        made_units,
+        routines,
+        tuple(looked),
+        listens,
+        tuple(blank),
+        frozenset(given),
+        frozenset(divisors),
+    )
+
+
+def _can_be_made(kind: str) -> bool:
+    return kind.startswith("signal") or kind in _DATA or kind in _MADE or _is_plain(kind)
+
+
+def _is_plain(kind: str) -> bool:
+    """Of a predefined type that any module may declare."""
+    ours = kind.startswith("signal") or kind in _DATA or kind in ("mecunit", "taskid", "cameradev")
+    return not ours and type_class(kind) is not None
+
+
+def _declaration(
+    one: Named,
+    stands: Mapping[str, str],
+    initial: Collection[str],
+    kept: Collection[str],
+    sizes: Mapping[str, int],
+) -> tuple[str, str, str]:
+    """What an initial value is made of is a constant, where its value is known; what only a
+    persistent may be is one."""
+    value = str(sizes.get(one.name.casefold()) or _value(one, stands))
+    if one.name.casefold() in initial:
+        value = value or _NOTHING.get(one.type, "")
+        return f"{'CONST' if value else 'VAR'} {one.type}", one.name, value
+    return f"{'PERS' if one.name.casefold() in kept else 'VAR'} {one.type}", one.name, value
+
+
+def _persistent(module: ModuleScope) -> Iterator[str]:
+    """Names that stand where only a persistent may."""
+    for node, scope in scoped(module):
+        if isinstance(node, n.FunctionCall | n.ProcedureCall):
+            routine = called(scope.find(node.name))
+            if isinstance(routine, RoutineSymbol):
+                for one, _, mode in passed(node.arguments, routine, scope):
+                    if isinstance(one, n.Name) and mode == "PERS":
+                        yield one.name.casefold()
+
+
+def _in_initial_values(module: ModuleScope) -> Iterator[str]:
+    """Names in the initial values of a module's data."""
+    for declared in module.tree.data:
+        if declared.initial is not None:
+            for node in walk(declared.initial):
+                if isinstance(node, n.Name):
+                    yield node.name.casefold()
+
+
+def _divisors(module: ModuleScope) -> Iterator[str]:
+    """Names of what is divided by."""
+    for node, _ in scoped(module):
+        if isinstance(node, n.Binary) and node.operator in ("/", "DIV", "MOD"):
+            by = node.right.inner if isinstance(node.right, n.Parenthesis) else node.right
+            yield from (one.name.casefold() for one in walk(by) if isinstance(one, n.Name))
+
+
+def _sizes(module: ModuleScope) -> Iterator[tuple[str, int]]:
+    """Names that stand for the size of an array, and as many elements as its initial value has."""
+    tree = module.tree
+    for declared in (*tree.data, *(d for routine in tree.routines for d in routine.data)):
+        for place, size in enumerate(declared.dimensions):
+            if isinstance(size, n.Name):
+                whole = declared.initial if place == 0 else None
+                known = len(whole.members) if isinstance(whole, n.Aggregate) else _ELEMENTS
+                yield size.name.casefold(), known
+
+
+def _value(one: Named, stands: Mapping[str, str]) -> str:
+    numbered = _NUMBERED.fullmatch(one.name)
+    figure = float(numbered[1]) if numbered is not None else 0.0
+    match one.type:
+        case "speeddata":
+            return f"[{figure or 100:g},500,5000,1000]"
+        case "zonedata" if figure:
+            return f"[FALSE,{figure:g},{figure:g},{figure:g},1,{figure:g},1]"
+        case "zonedata":
+            return "[TRUE,0,0,0,0,0,0]"
+    return stands.get(one.type, "")
+
+
+def _assigned(module: ModuleScope) -> set[str]:
+    return {
+        node.target.name.casefold()
+        for routine in module.tree.routines
+        for node in walk(routine)
+        if isinstance(node, n.Assignment) and isinstance(node.target, n.Name)
+    }
+
+
+def _undeclared(module: ModuleScope) -> Iterator[Named]:
+    """Every use of a datum that nobody declares, in a module."""
+    if not module.tree.name:
+        return
+    for node, scope in scoped(module):
+        for name, kind, sure in _uses(node, scope):
+            # A signal may have the name of a type: SENSOR.
+            if isinstance(scope.find(name.name), TypeSymbol | None):
+                at = module.tree.source.span(name.first, name.first)
+                yield Named(name.name, kind, at, sure)
+
+
+def _uses(node: n.Node, scope: Scope) -> Iterator[_Use]:
+    """Plain names that stand in a node, with the type that they seem to have (empty: any), and how
+    sure that is."""
+    if isinstance(node, n.FunctionCall | n.ProcedureCall):
+        if node.name.lower() == "aliasio":
+            yield from _aliased(node, scope)
+            return
+        routine = called(scope.find(node.name))
+        if isinstance(routine, RoutineSymbol):
+            for name, kind, _ in passed(node.arguments, routine, scope):
+                if not isinstance(name, n.Name):
+                    continue
+                # A signal stands for its value where a number is wanted.
+                if kind in ("", "num", "dnum"):
+                    found = _read_as(name.name, node) or kind
+                    yield name, found, 1 if found else 0
+                else:
+                    yield name, kind, 2
+        elif routine is None:
+            for argument in node.arguments:
+                if isinstance(argument.value, n.Name):
+                    # What is only given to routines in no file may as well be a number.
+                    found = _read_as(argument.value.name, node)
+                    yield argument.value, found or "num", 1 if found else 0
+        return
+    for one, kind in read(node, scope):
+        if isinstance(one, n.Name):
+            # What compares is a number where nothing else tells.
+            plain = kind or (
+                "num" if isinstance(node, n.Binary) and node.operator in _ORDER else ""
+            )
+            found = _read_as(one.name, node) or plain.replace(NUMBER, "num")
+            yield one, found, 1 if found else 0
+
+
+def _aliased(node: n.FunctionCall | n.ProcedureCall, scope: Scope) -> Iterator[_Use]:
+    """The signal behind an alias: a text names it, or it stands there itself."""
+    values = [argument.value for argument in node.arguments if argument.value is not None]
+    kind = declared_type(values[-1], scope) if len(values) == _ALIASIO else None
+    if kind is not None and kind.startswith("signal"):
+        given = constant(values[0], scope)
+        if isinstance(given, str):
+            yield n.Name(node.first, node.last, given), kind, 2
+        elif isinstance(values[0], n.Name):
+            yield values[0], kind, 2
+
+
+def _read_as(name: str, node: n.Node) -> str:
+    """What a name may be that a node reads as a number."""
+    prefix = _PREFIX.match(name)
+    if prefix is not None:
+        return f"signal{prefix[0].lower()}"
+    if isinstance(node, n.Binary) and node.operator in ("=", "<>") and not _NUM.match(name):
+        for side in (node.left, node.right):
+            if isinstance(side, n.NumberLiteral) and side.value in (0, 1):
+                return "signaldi"
+            if isinstance(side, n.Name) and side.name.casefold() in _DIONUM:
+                return "signaldi"
+    return ""

@@ -1,0 +1,175 @@
+"""Routines that programs call and that are in no file, as stubs: a guess.
+
+Public modules call what stayed on the controller. A stub takes the arguments of its first call, by
+their types, and the optional ones of all further calls. It does nothing, and gives what RAPID makes
+of a declaration without a value: 0, FALSE, an empty text; where a robot stands for a target. A call
+whose arguments have no type that could be told, or a type of the program's own, gets no stub, and
+the task stops there as before.
+"""
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+from rapidgen.controller.inference.name_usage import passed, read, scoped
+from rapidgen.diagnostics import Span
+from rapidgen.rapid.binding import ModuleScope, RoutineSymbol, Scope, constant
+from rapidgen.rapid.binding.expressions import declared_type, type_of
+from rapidgen.rapid.binding.names import called
+from rapidgen.rapid.binding.types import NUMBER, degree, element
+from rapidgen.rapid.builtins.signatures import type_class
+from rapidgen.rapid.syntax import nodes as n
+from rapidgen.rapid.syntax.lexer import KEYWORDS
+from rapidgen.runtime import unsupported
+
+_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,31}")
+_Call = n.ProcedureCall | n.FunctionCall | n.LateCall
+
+
+@dataclass(frozen=True, slots=True)
+class _Parameter:
+    """Of a stub; `name` is empty where no call says it."""
+
+    name: str
+    declaration: str
+    """Without its name."""
+
+    @property
+    def optional(self) -> bool:
+        return self.declaration.startswith("\\")
+
+    def text(self, number: int) -> str:
+        before, _, after = self.declaration.partition("{")
+        return f"{before} {self.name or f'given{number}'}" + (f"{{{after}" if after else "")
+
+
+@dataclass(frozen=True, slots=True)
+class Absent:
+    """A routine that is called and in no file; `type` is what it gives, empty for the others."""
+
+    name: str
+    type: str
+    parameters: tuple[_Parameter, ...]
+    span: Span
+    is_trap: bool = False
+
+    @property
+    def kind(self) -> str:
+        """As it is told: proc, func num, trap."""
+        return f"func {self.type}" if self.type else "trap" if self.is_trap else "proc"
+
+    def stub(self, value: str) -> str:
+        """Its declaration, which does nothing and gives `value` (empty: that of its type)."""
+        if self.is_trap:
+            return f"    TRAP {self.name}\n    ENDTRAP\n"
+        given = (p.text(number) for number, p in enumerate(self.parameters, 1))
+        head = f"{self.name}({','.join(given)})"
+        if not self.type:
+            return f"    PROC {head}\n    ENDPROC\n"
+        initial = f" := {value}" if value else ""
+        return (
+            f"    FUNC {self.type} {head}\n"
+            f"        VAR {self.type} nothing{initial};\n"
+            f"        RETURN nothing;\n"
+            f"    ENDFUNC\n"
+        )
+
+
+def absent(modules: Sequence[ModuleScope], types: Mapping[str, str]) -> tuple[Absent, ...]:
+    """What the modules of a task call and none of them declares, each once, where a stub can be
+    made. `types` are those of names that nobody declares, by lower-case name."""
+    found: dict[str, Absent] = {}
+    for module in modules:
+        if not module.tree.name:
+            continue
+        kinds: dict[int, str] = {}
+        for node, scope in scoped(module):
+            # What stands around a call comes before it.
+            kinds.update((id(e), kind) for e, kind in _wanted(node, scope))
+            name = _unknown(node, scope)
+            if not name:
+                continue
+            before = found.get(name.casefold())
+            at = module.tree.source.span(node.first, node.first)
+            if isinstance(node, n.Connect):
+                found.setdefault(name.casefold(), Absent(name, "", (), at, is_trap=True))
+                continue
+            assert isinstance(node, _Call)
+            parameters = _parameters(node.arguments, scope, types)
+            if parameters is None:
+                continue
+            if before is not None and not before.is_trap:
+                merged = _with_options(before.parameters, parameters)
+                found[name.casefold()] = replace(before, parameters=merged)
+                continue
+            given = kinds.get(id(node), "").replace(NUMBER, "num")
+            is_function = isinstance(node, n.FunctionCall)
+            if not is_function or type_class(given) is not None:
+                kind = given if is_function else ""
+                found[name.casefold()] = Absent(name, kind, parameters, at)
+    return tuple(found.values())
+
+
+def _with_options(
+    known: Sequence[_Parameter], further: Sequence[_Parameter]
+) -> tuple[_Parameter, ...]:
+    """The optional ones that another call has, too, where they stand in it."""
+    merged, place = list(known), 0
+    for parameter in further:
+        names = [p.name.casefold() if p.optional else "" for p in merged]
+        if parameter.optional and parameter.name.casefold() in names:
+            place = names.index(parameter.name.casefold()) + 1
+        elif not parameter.optional:
+            place = next((k for k in range(place, len(names)) if not names[k]), place - 1) + 1
+        else:
+            merged.insert(place, parameter)
+            place += 1
+    return tuple(merged)
+
+
+def _wanted(node: n.Node, scope: Scope) -> Iterator[tuple[n.Expression, str]]:
+    yield from read(node, scope)
+    if isinstance(node, n.ProcedureCall | n.FunctionCall):
+        routine = called(scope.find(node.name))
+        if isinstance(routine, RoutineSymbol):
+            yield from ((e, kind) for e, kind, _ in passed(node.arguments, routine, scope))
+
+
+def _unknown(node: n.Node, scope: Scope) -> str:
+    """The name of a routine that a node calls and nobody has; empty: it calls none, or a known."""
+    name: object = ""
+    if isinstance(node, n.LateCall):
+        name = constant(node.procedure, scope)
+    elif isinstance(node, n.ProcedureCall | n.FunctionCall):
+        name = node.name
+    elif isinstance(node, n.Connect):
+        name = node.trap
+    if not isinstance(name, str) or _NAME.fullmatch(name) is None or name.upper() in KEYWORDS:
+        return ""
+    known = scope.find(name) is not None or name.lower() in unsupported.option_routines()
+    return "" if known else name
+
+
+def _parameters(
+    arguments: Sequence[n.Argument], scope: Scope, types: Mapping[str, str]
+) -> tuple[_Parameter, ...] | None:
+    """Parameters that take these arguments; None: a type is not known."""
+    found = []
+    for argument in arguments:
+        name = argument.name or ""
+        if argument.kind == "switch":
+            found.append(_Parameter(name, "\\switch"))
+            continue
+        value = argument.value
+        kind = None if value is None else type_of(value, scope) or declared_type(value, scope)
+        if not kind and isinstance(value, n.Name):
+            kind = types.get(value.name.casefold(), "")
+        kind = (kind or "").replace(NUMBER, "num")
+        kept = type_class(element(kind))
+        if kept is None:
+            return None
+        mode = "" if kept == "value" else "VAR "
+        dimensions = "{" + ",".join("*" * degree(kind)) + "}" if degree(kind) else ""
+        optional = "" if argument.kind == "required" else "\\"
+        found.append(_Parameter(name, f"{optional}{mode}{element(kind)}{dimensions}"))
+    return tuple(found)

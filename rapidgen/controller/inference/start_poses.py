@@ -1,0 +1,80 @@
+"""Where the robot of somebody else's program stands when the controller is switched on.
+
+With all axes at 0 most arms have their wrist in a singularity, where no real one waits for a
+program: the first MoveL would fail. A driver's robot starts at 0 as its own tests want it.
+"""
+
+import math
+from collections.abc import Mapping, Sequence
+
+from rapidgen.axes.default_postures import usual_start
+from rapidgen.axes.kinematics import Kinematics
+from rapidgen.axes.mapping import JointMap
+from rapidgen.config.model import GroupConfig
+from rapidgen.diagnostics import refusal
+
+
+def in_front(group: GroupConfig) -> tuple[float, float, float]:
+    """Where a table may stand that the robot reaches: below its flange at the usual start, at a
+    third of the height. The origin for a model without geometry."""
+    kinematics = Kinematics.of(group)
+    if kinematics is None:
+        return (0.0, 0.0, 0.0)
+    (x, y, z), _ = kinematics.forward(usual_start(group))
+    return (x, y, z / 3)
+
+
+def stands(group: GroupConfig) -> Mapping[str, str]:
+    """Where the robot stands at first as RAPID's robtarget (in world and flange) and jointtarget;
+    none for a model without geometry."""
+    kinematics = Kinematics.of(group)
+    if kinematics is None:
+        return {}
+    posture = usual_start(group)
+    place, turn = kinematics.forward(posture)
+    robax, extax = JointMap.of(group).to_rapid(posture)
+    robtarget = (
+        [round(1000 * value, 3) for value in place],
+        [round(value, 6) for value in turn],
+        list(kinematics.configuration(posture)),
+        list(extax),
+    )
+    return {"robtarget": f"{list(robtarget)}", "jointtarget": f"{[list(robax), list(extax)]}"}
+
+
+def start_of(group: GroupConfig, values: Sequence[float], where: str) -> tuple[float, ...]:
+    """`values` (deg, mm: robot axes, then external ones, each that the group has) as `usual_start`.
+
+    `where` says who gave them. DiagnosticError RG435: too few, too many, or outside the range.
+    """
+    joints = sorted(group.joints, key=lambda joint: joint.axis.replace("rax", "0"))
+    names = ", ".join(joint.axis for joint in joints)
+    if len(values) != len(joints):
+        raise refusal(
+            "RG435",
+            None,
+            f"{where} has {len(values)} values, {group.task} has {len(joints)} axes",
+            f"one for each of {names}, deg or mm",
+        )
+    found = {}
+    for joint, value in zip(joints, values, strict=True):
+        turning = joint.kind == "revolute"
+        found[joint.axis] = math.radians(value) if turning else value / 1000
+        if not joint.lower - 1e-9 <= found[joint.axis] <= joint.upper + 1e-9:
+            low, high = (
+                f"{math.degrees(b) if turning else b * 1000:g}" for b in (joint.lower, joint.upper)
+            )
+            raise refusal(
+                "RG435",
+                None,
+                f"{where}: {joint.axis} at {value:g} is outside of {low} to {high}",
+                f"the limits are those of {group.model or group.name}",
+            )
+    return tuple(found[joint.axis] for joint in group.joints)
+
+
+def shown(group: GroupConfig, posture: Sequence[float]) -> str:
+    """A posture as RAPID has it: `[0,0,0,0,30,0]`, deg and mm, and external axes behind."""
+    robax, extax = JointMap.of(group).to_rapid(posture)
+    there = [f"{value:g}" for value in extax if value < 1e9]
+    return f"[{','.join(f'{v:g}' for v in robax)}]" + (f" [{','.join(there)}]" if there else "")

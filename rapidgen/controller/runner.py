@@ -1,0 +1,192 @@
+"""A controller with a power switch: what outlives a restart, and who runs what is booted.
+
+A restart makes a new `VirtualController` from the disks, the cfg database and the modules that
+lie in the tasks. Disks, cfg and clock stay; sockets, paths and program pointers do not.
+"""
+
+import shutil
+import tempfile
+import threading
+import uuid
+import weakref
+from collections.abc import Callable
+from pathlib import Path
+from typing import NamedTuple
+
+from rapidgen._compat import Self, Unpack
+from rapidgen.controller.boot_targets import Bootable
+from rapidgen.controller.controller import Choices, VirtualController
+from rapidgen.controller.debugger.breakpoints import Breakpoint
+from rapidgen.controller.programs import Programs
+from rapidgen.controller.warm_start import Kept, boot
+from rapidgen.diagnostics import Diagnostic
+from rapidgen.machine.files import copy_files
+from rapidgen.system import read_backup
+from rapidgen.system.backup import backup_cfg
+from rapidgen.system.cfg_writer import eio_cfg, sys_cfg
+from rapidgen.system.controller_cfg import ControllerCfg
+from rapidgen.system.model import System
+
+_NS = 1_000_000_000
+
+
+class Restored(NamedTuple):
+    """What the next restart takes from a backup."""
+
+    kept: Kept
+    cfg: ControllerCfg
+    home: Path
+
+
+class Cabinet:
+    """One controller and its restarts.
+
+    `controller` is the one that runs now. Everything but `post`, `ask_restart` and `close` belongs
+    to the thread that runs it. `cfg` is the database of all domains: what is changed there takes
+    effect at the next restart. DiagnosticError: the system cannot be booted.
+    """
+
+    def __init__(
+        self,
+        system: System,
+        *,
+        cfg: ControllerCfg | None = None,
+        **options: Unpack[Choices],
+    ) -> None:
+        self.folder = Path(tempfile.mkdtemp(prefix="rapidgen-cabinet-"))
+        self._remove = weakref.finalize(self, shutil.rmtree, self.folder, ignore_errors=True)
+        self._options = options
+        self._options["folder"] = self.folder
+        composed = ControllerCfg(system.robotware, (sys_cfg(system), eio_cfg(system)))
+        self.cfg = composed if cfg is None else cfg
+        self.id = str(uuid.uuid5(uuid.NAMESPACE_DNS, system.name)).upper()
+        """What tells this controller from others, in every run the same."""
+        self.restarts = 0
+        self.breakpoints: list[Breakpoint] = []
+        """Those that whoever debugs has set: they are for the controller after a restart, too."""
+        self.on_restart: list[Callable[[], None]] = []
+        """Called on the controller's thread before a restart: everything about it ends."""
+        self.on_boot: list[Callable[[], None]] = []
+        """Called when the new controller is there."""
+        self._before = 0
+        self._restart_asked = False
+        self._restored: Restored | None = None
+        self._lock = threading.Lock()
+        self._up = True
+        self._thread: threading.Thread | None = None
+        self._ended = False
+        self.controller = VirtualController(system, **self._options)
+        self.programs = Programs(self.controller)
+
+    @classmethod
+    def boot(cls, found: Bootable, **options: Unpack[Choices]) -> Self:
+        """What `booting.load_target` has read, as `VirtualController.boot`."""
+        options.setdefault("robots", found.groups)
+        options.setdefault("surroundings", found.surroundings)
+        return cls(found.system, cfg=found.cfg, **options)
+
+    @property
+    def now(self) -> float:
+        """The controller's time in s; it goes on over restarts."""
+        return (self._before + self.controller.scheduler.now) / _NS
+
+    def post(self, function: Callable[[], None]) -> bool:
+        """Run `function` on the controller's thread, from any thread; False while it restarts."""
+        with self._lock:
+            if self._up:
+                self.controller.scheduler.post(function)
+            return self._up
+
+    def ask_restart(self) -> None:
+        """Restart as soon as what is being done is done."""
+        self._restart_asked = True
+
+    def ask_restore(self, backup: Path) -> None:
+        """Restart with the modules, the cfg and the HOME of a backup. DiagnosticError: it is none.
+
+        The robots stay what they are, and where they are.
+        """
+        notes: list[Diagnostic] = []
+        system = read_backup(backup, notes=notes)
+        cfg = backup_cfg(backup, self.controller.system.robotware, notes)
+        self._restored = Restored({t.name: t.modules for t in system.tasks}, cfg, backup / "HOME")
+        self.ask_restart()
+
+    def run(self, ended: Callable[[], bool]) -> None:
+        """Let time pass, over restarts, until `ended()`."""
+        while not ended():
+            self.controller.scheduler.advance(stop=lambda: ended() or self._restart_asked)
+            if self._restart_asked:
+                self._restart()
+
+    def _restart(self) -> None:
+        with self._lock:
+            self._up = False
+        # What was taken is carried out: whoever posted it waits for it.
+        self.controller.scheduler.run_posted()
+        for tell in tuple(self.on_restart):
+            tell()
+        old, programs = self.controller, self.programs
+        self._restart_asked = False
+        self._before += old.scheduler.now
+        kept = programs.kept()
+        old.close()
+        if self._restored is not None:
+            kept, self.cfg, files = self._restored
+            home = old.files.path("HOME:")
+            shutil.rmtree(home)
+            copy_files(files, home)
+            self._restored = None
+        self.restarts += 1
+        self.controller, self.programs = boot(old, kept, self.cfg, self._options)
+        self._set_going()
+        with self._lock:
+            self._up = True
+        for tell in tuple(self.on_boot):
+            tell()
+
+    # -- in a thread of its own ------------------------------------------------------------------
+
+    def start(self) -> None:
+        """Run in a thread of its own from now on."""
+        self._ended = False
+        self._set_going()
+        self._thread = threading.Thread(target=self._run_alone, name="cabinet", daemon=True)
+        self._thread.start()
+
+    def _run_alone(self) -> None:
+        try:
+            self.run(lambda: self._ended)
+        finally:
+            if not self._ended:
+                # A fault has ended the thread: nobody shall wait for what it will not do.
+                with self._lock:
+                    self._up = False
+
+    def _set_going(self) -> None:
+        """Time begins to pass, and what is posted wakes the scheduler from now on."""
+        scheduler = self.controller.scheduler
+        if scheduler.clock == "real":
+            scheduler.rebase()
+            assert scheduler.selector is not None
+
+    def stop(self) -> None:
+        """End that thread."""
+        if self._thread is None:
+            return
+        self._ended = True
+        self.post(lambda: None)
+        self._thread.join()
+        self._thread = None
+
+    def close(self) -> None:
+        """Stop, and give everything back."""
+        self.stop()
+        self.controller.close()
+        self._remove()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()

@@ -1,0 +1,323 @@
+"""What the verbs have in common: the wanted set, plans of all targets, one question, the work."""
+
+import json
+import sys
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from rapidgen._atomic_write import write_whole
+from rapidgen._json import items, members
+from rapidgen._reading import read_foreign
+from rapidgen.config import from_manifest
+from rapidgen.deploy.apply import apply, conflicts_of, moved_on
+from rapidgen.deploy.driver_set import DriverSet, digest, from_files, from_folder
+from rapidgen.deploy.fleet import GivingUp, TargetOutcome, Word, connected, on_all
+from rapidgen.deploy.online.apply import LiveOptions, another
+from rapidgen.deploy.online.verify import Hello, ReadBack
+from rapidgen.deploy.plan import Plan, Verb, plan_json
+from rapidgen.deploy.planner import find_layout, make_plan
+from rapidgen.deploy.retention import backup_set
+from rapidgen.deploy.state_folder import Past, read_state
+from rapidgen.deploy.syspar import loaded_cfg
+from rapidgen.deploy.target import Access
+from rapidgen.deploy.transports.registry import Target
+from rapidgen.deploy.transports.transport import Transport, refused
+from rapidgen.diagnostics import DiagnosticError, refusal
+from rapidgen.generate.cell_routines import check_routines
+from rapidgen.generate.context import data_of_another
+from rapidgen.generate.existing_controller import check_data
+from rapidgen.system import CfgText, cfg_bytes, read_backup
+
+Say = Callable[[str], None]
+_LARGEST_PLAN = 100_000_000
+"""Bytes of a file of plans, which has every file that would be written."""
+
+
+@dataclass(frozen=True, slots=True)
+class FleetJob:
+    """One verb on several controllers. `find` gives the set that has to lie on a controller."""
+
+    verb: Verb
+    targets: tuple[Target, ...]
+    access: Access
+    find: Callable[[Transport], DriverSet | None]
+    overwrite: bool = False
+    parallel: int = 1
+    backup: Path | None = None
+    """A backup of the one controller, for what its transport does not see."""
+    restart: bool = False
+    """Whether a controller may be restarted, warm."""
+    wait: float = 0.0
+    """s for what only people do at a controller."""
+    hello: Hello | None = None
+    """Which build serves a state port; looked at after a restart."""
+    giving_up: GivingUp = field(default_factory=GivingUp)
+    """Ctrl-C while plans are carried out."""
+
+    def loaded(self) -> tuple[CfgText, ...]:
+        """What that backup says is loaded. Raises DiagnosticError RG536, RG701, RG702."""
+        if self.backup is None:
+            return ()
+        if len(self.targets) != 1:
+            raise refusal(
+                "RG536",
+                None,
+                f"--backup {self.backup} is of one controller, {len(self.targets)} are named",
+                "run once for each controller, with its own backup",
+            )
+        return loaded_cfg(self.backup)
+
+
+def wanted_set(config: str, overrides: Sequence[str] = ()) -> DriverSet:
+    """The driver of a configuration or shipped name (built here), or of a generated folder."""
+    if (Path(config) / "manifest.json").is_file():
+        return from_folder(Path(config))
+    from rapidgen.config import load_config
+    from rapidgen.generate import build
+
+    output = build(load_config(config, overrides=tuple(overrides)))
+    return from_files({file.path: file.data for file in output.files}, source=config)
+
+
+def config_name(config: str) -> str:
+    """Name of the robot that a configuration is for."""
+    from rapidgen.config import load_config
+
+    if (Path(config) / "manifest.json").is_file():
+        return from_folder(Path(config)).name
+    return load_config(config).name
+
+
+def plan_all(job: FleetJob) -> list[Plan]:
+    """Plans of all targets. Raises the faults of those that could not be planned, or RG113."""
+
+    loaded = job.loaded()
+
+    def work(target: Target) -> Plan:
+        with connected(target, job.access) as transport:
+            wanted = job.find(transport)
+            if job.backup is not None and wanted is not None:
+                _check_data(wanted, job.backup)
+            return make_plan(transport, wanted, verb=job.verb, loaded=loaded)
+
+    results = on_all(job.targets, work, parallel=job.parallel)
+    failures = [r for r in results if isinstance(r, DiagnosticError)]
+    if failures:
+        raise DiagnosticError(
+            [d for failure in failures for d in failure.diagnostics],
+            exit_code=max(f.exit_code for f in failures),
+        )
+    return [r for r in results if isinstance(r, Plan)]
+
+
+def _check_data(wanted: DriverSet, backup: Path) -> None:
+    """Refuse a set that reads data or calls routines of a user's program that the backup does not
+    have (RG113, RG114)."""
+    given = wanted.generated.get("configuration")
+    config = from_manifest(given) if given is not None else None
+    if config is not None and any(
+        data_of_another(group) or group.routines or group.data for group in config.groups
+    ):
+        cell = read_backup(backup, notes=[])
+        check_data(config, cell)
+        check_routines(config, cell)
+
+
+def apply_all(job: FleetJob, plans: Sequence[Plan], say: Say) -> list[TargetOutcome]:
+    """Carry the plans out; a controller that has changed since refuses (RG522).
+
+    Where somebody is giving up nothing more is begun: see the outcomes. KeyboardInterrupt does the
+    same, and nobody hears of the outcomes.
+    """
+    by_target = dict(zip(job.targets, plans, strict=True))
+    giving_up = job.giving_up
+
+    def work(target: Target) -> TargetOutcome:
+        plan = by_target[target]
+        if plan.is_empty:
+            return TargetOutcome(target, "same", "nothing to do")
+        prefix = f"{target.shown}: " if len(job.targets) > 1 else ""
+        with connected(target, job.access) as transport:
+            apply(
+                transport,
+                plan,
+                overwrite=job.overwrite,
+                live=LiveOptions(job.restart, job.wait, ReadBack(job.hello, target.host)),
+                say=lambda line: say(prefix + line),
+                given_up=lambda: bool(giving_up),
+            )
+        count = sum(1 for c in plan.changes if c.action != "same")
+        pending = plan.live is not None and plan.live.restart and not job.restart
+        later = ", restart pending" if pending else ""
+        return TargetOutcome(target, "done", f"{count} files, build {plan.build_id or '-'}{later}")
+
+    outcomes = []
+    for target, result in zip(
+        job.targets,
+        on_all(job.targets, work, parallel=job.parallel, giving_up=giving_up),
+        strict=True,
+    ):
+        if isinstance(result, DiagnosticError):
+            first = result.diagnostics[0]
+            word: Word = "given up" if first.code == "RG545" else "failed"
+            outcomes.append(TargetOutcome(target, word, f"{first.code}: {first.message}", result))
+        else:
+            outcomes.append(result or TargetOutcome(target, "not begun"))
+    return outcomes
+
+
+def refuse_conflicts(job: FleetJob, plans: Sequence[Plan]) -> None:
+    """RG520, RG521, RG531, RG534 to RG537 of all targets, before anything is changed on any."""
+    found = [d for plan in plans for d in conflicts_of(plan, overwrite=job.overwrite)]
+    if found:
+        raise DiagnosticError(found, exit_code=1)
+
+
+def confirm(question: str, *, yes: bool, ask: Callable[[str], bool]) -> None:
+    """The one question. Raises DiagnosticError RG533 when the answer is no, or none can be had."""
+    if yes:
+        return
+    if not sys.stdin.isatty():
+        raise refusal(
+            "RG533",
+            None,
+            "nobody is there to answer: nothing was changed",
+            f"it would have been asked: {question} Where that is right, say --yes",
+        )
+    if not ask(question):
+        raise refused("RG533", "not confirmed: nothing was changed", "run it again to be asked")
+
+
+def history(target: Target, access: Access, name: str) -> tuple[Past, ...]:
+    """Backups on a controller, the oldest first. Raises DiagnosticError RG524, RG529, RG531."""
+    with connected(target, access) as transport:
+        plan = make_plan(transport, None, verb="rollback")
+        _check_name(plan, name)
+        return plan.had.history if plan.had else ()
+
+
+def earlier_set(transport: Transport, name: str, number: int | None) -> DriverSet | None:
+    """The set to go back to: that of backup `number`, or the one before the last deployment.
+
+    After a cut it is the set from before it (None when there was none). Raises RG528.
+    """
+    home = find_layout(transport).home
+    plan = make_plan(transport, None, verb="rollback")
+    _check_name(plan, name)
+    if number is not None:
+        return backup_set(transport, home, number)
+    if plan.repair:
+        journal = read_state(transport, home).journal
+        if plan.had is None or journal is None:
+            return None
+        return backup_set(transport, home, journal.id)
+    past = plan.had.history if plan.had else ()
+    if not past:
+        raise refused(
+            "RG528",
+            f"{plan.target}: no earlier set is kept there",
+            "`rapidgen uninstall` goes back to the state before the first deployment",
+        )
+    return backup_set(transport, home, past[-1].id)
+
+
+def write_plans(path: Path, plans: Sequence[Plan]) -> None:
+    """`--out`. Raises OSError."""
+    text = json.dumps({"format": 1, "plans": [plan_json(p) for p in plans]}, indent=2) + "\n"
+    write_whole(path, text.encode())
+
+
+def check_plans(path: Path, plans: Sequence[Plan]) -> None:
+    """That the plans made now are those in the file, one by one.
+
+    Raises DiagnosticError RG523 (not a plan, of another robot or build), RG522 (the controller
+    moved on), RG540 (another controller).
+    """
+    try:
+        stored = json.loads(read_foreign(path, _LARGEST_PLAN).decode())["plans"]
+        by_target = {str(p["target"]): p for p in map(members, items(stored))}
+    except OSError as fault:
+        raise _plan_file(path, fault.strerror or str(fault)) from fault
+    except (ValueError, KeyError, TypeError, RecursionError) as fault:
+        raise _plan_file(path, "it is not a plan that rapidgen wrote") from fault
+    if set(by_target) != {p.target for p in plans}:
+        raise _plan_file(path, f"it is for {', '.join(sorted(by_target)) or 'no controller'}")
+    for plan in plans:
+        old = by_target[plan.target]
+        new = plan_json(plan)
+        for key, what in (("verb", "verb"), ("name", "robot"), ("build_id", "build")):
+            if old.get(key) != new[key]:
+                raise _plan_file(path, f"it is for {what} {old.get(key)!r}, not {new[key]!r}")
+        if old.get("controller") != new["controller"]:
+            raise another(plan, str(old.get("controller")))
+        if old.get("fingerprint") != plan.fingerprint:
+            raise moved_on(plan.target)
+        if digest(json.dumps(old["files"]).encode()) != digest(json.dumps(new["files"]).encode()):
+            raise _plan_file(path, "the files that would be written are others")
+
+
+def save_edits(plans: Sequence[Plan], folder: Path) -> list[Path]:
+    """Copies of hand edits that `uninstall --overwrite` is about to take away, on this machine."""
+    saved = []
+    for plan in plans:
+        for change in plan.conflicts:
+            if change.before is not None:
+                saved.append(_keep(folder / _host(plan) / change.path, change.before))
+    return saved
+
+
+def save_neighbours(plans: Sequence[Plan], folder: Path) -> list[Path]:
+    """Copies of other drivers on this machine: cfg files that load them again."""
+    saved = []
+    for plan in plans:
+        for text in plan.neighbour.texts(plan.cfg_present) if plan.neighbour else ():
+            saved.append(_keep(folder / _host(plan) / f"{text.domain}.cfg", cfg_bytes(text)))
+    return saved
+
+
+def _keep(path: Path, data: bytes) -> Path:
+    """Where the copy lies now: under a name of its own (`SYS-2.cfg`) beside one that is another."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    place, number = path, 1
+    while place.exists() and not _is_same(place, data):
+        number += 1
+        place = path.with_name(f"{path.stem}-{number}{path.suffix}")
+    place.write_bytes(data)
+    return place
+
+
+def _is_same(place: Path, data: bytes) -> bool:
+    """Whether a file has these bytes; what cannot be read is something else."""
+    try:
+        return read_foreign(place, len(data)) == data
+    except OSError:
+        return False
+
+
+def _host(plan: Plan) -> str:
+    return "".join(c if c.isalnum() else "_" for c in plan.target)
+
+
+def check_names(plans: Sequence[Plan], name: str) -> None:
+    """RG524 where a controller carries the driver of another robot."""
+    for plan in plans:
+        _check_name(plan, name)
+
+
+def _check_name(plan: Plan, name: str) -> None:
+    carried = plan.state.carried(plan.had, repair=plan.repair)
+    if carried and name and carried != name:
+        raise refused(
+            "RG524",
+            f"{plan.target} carries the driver of {carried!r}, not of {name!r}",
+            "check the URL",
+        )
+
+
+def _plan_file(path: Path, reason: str) -> DiagnosticError:
+    return refused(
+        "RG523",
+        f"plan {path} cannot be carried out: {reason}",
+        "make a new one with `rapidgen plan ... --out FILE`",
+    )

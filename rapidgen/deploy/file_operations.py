@@ -1,0 +1,166 @@
+"""The small steps of one run: verified writing, switching by what the server can, deleting."""
+
+import logging
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+from typing import Literal
+
+from rapidgen.deploy.driver_set import STATE
+from rapidgen.deploy.plan import Plan
+from rapidgen.deploy.transports.transport import Transport, TransportFault, parent, read_or_none
+
+_LOG = logging.getLogger("rapidgen.deploy")
+
+Rename = Literal["replace", "move", "none"]
+"""rename() replaces an existing file; or only takes a free name; or does not work."""
+
+Say = Callable[[str], None]
+
+
+@dataclass(frozen=True, slots=True)
+class Work:
+    """What every part of one run needs to know."""
+
+    transport: Transport
+    plan: Plan
+    mode: Rename
+    say: Say
+    made: set[str] = field(default_factory=set)
+    """Folders that are known to be there."""
+    given_up: Callable[[], bool] = lambda: False
+    """Whether somebody wants it ended; asked only while that leaves everything as it was."""
+
+    @property
+    def home(self) -> str:
+        return self.plan.layout.home
+
+    @property
+    def folder(self) -> str:
+        """The state folder."""
+        return self.home + STATE
+
+
+def write(work: Work, path: str, data: bytes) -> None:
+    """Write a file and read it back; once more when it differs.
+
+    Raises TransportFault RG526 when it differs again.
+    """
+    folder = parent(path)
+    if folder and folder not in work.made:
+        work.transport.make_folder(folder)
+        work.made.add(folder)
+    for _ in range(2):
+        work.transport.write(path, data)
+        if read_or_none(work.transport, path) == data:
+            _LOG.info("%s: wrote %s, %d bytes", work.plan.target, path, len(data))
+            return
+    raise differs(path)
+
+
+def swap(work: Work, where: str, suffix: str, data: bytes, *, exists: bool) -> None:
+    """Put a staged file in place by the smallest step that there is."""
+    if work.mode == "none":
+        write(work, where, data)
+        return
+    if work.mode == "move" and exists:
+        delete(work, where)
+    work.transport.rename(where + suffix, where)
+    _LOG.info("%s: switched %s", work.plan.target, where)
+
+
+def delete(work: Work, path: str) -> None:
+    """Delete a file that may be gone already."""
+    try:
+        work.transport.delete(path)
+        _LOG.info("%s: deleted %s", work.plan.target, path)
+    except TransportFault as fault:
+        if fault.kind != "missing":
+            raise
+
+
+def delete_all(work: Work, paths: Iterable[str]) -> None:
+    """Delete those of the files that are there: one listing a folder."""
+    folders: dict[str, list[str]] = {}
+    for path in paths:
+        folders.setdefault(parent(path), []).append(path)
+    for folder, members in folders.items():
+        there = names(work.transport, folder)
+        for path in members:
+            if path.rpartition("/")[2] in there:
+                delete(work, path)
+
+
+def delete_folder(work: Work, folder: str) -> None:
+    """Delete a folder if it is there and empty; one that refuses stays."""
+    try:
+        if not work.transport.entries(folder):
+            work.transport.delete_folder(folder)
+            work.made.discard(folder)
+    except TransportFault as fault:
+        if fault.kind in ("lost", "garbled"):
+            raise
+
+
+def names(transport: Transport, folder: str) -> frozenset[str]:
+    """Names in a folder; none where there is no folder."""
+    try:
+        return frozenset(e.name for e in transport.entries(folder))
+    except TransportFault as fault:
+        if fault.kind != "missing":
+            raise
+        return frozenset()
+
+
+def probe(transport: Transport, folder: str) -> Rename:
+    """Try on two files of our own what rename() does here. Leaves nothing behind."""
+    one, two = f"{folder}/probe.one", f"{folder}/probe.two"
+    try:
+        transport.write(one, b"new")
+        transport.write(two, b"old")
+        if _renames(transport, one, two):
+            return "replace"
+        if two.rpartition("/")[2] in names(transport, folder):
+            transport.delete(two)
+        return "move" if _renames(transport, one, two) else "none"
+    finally:
+        _forget(transport, folder, ("probe.one", "probe.two"))
+
+
+def _renames(transport: Transport, old: str, new: str) -> bool:
+    try:
+        transport.rename(old, new)
+    except TransportFault as fault:
+        if fault.kind in ("lost", "garbled"):
+            raise
+        return False
+    return read_or_none(transport, new) == b"new"
+
+
+def _forget(transport: Transport, folder: str, members: tuple[str, ...]) -> None:
+    """Best effort: what stays is overwritten by the next probe."""
+    try:
+        for name in sorted(names(transport, folder) & set(members)):
+            transport.delete(f"{folder}/{name}")
+    except TransportFault:
+        return
+
+
+def go_on(work: Work) -> None:
+    """Raises TransportFault RG545 when somebody has given up."""
+    if work.given_up():
+        raise TransportFault(
+            "denied",
+            f"{work.plan.target}: given up before anything was switched, all is as it was",
+            code="RG545",
+            help="run the same command again",
+        )
+
+
+def differs(path: str) -> TransportFault:
+    """RG526: what was read is not what was written."""
+    return TransportFault(
+        "denied",
+        f"{path} reads back otherwise than it was written",
+        code="RG526",
+        help="the line or the disk of the controller spoils data: look at both, then run again",
+    )

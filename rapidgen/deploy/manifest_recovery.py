@@ -1,0 +1,58 @@
+"""A damaged manifest: what can still be said of a controller, from its backups and its files."""
+
+import json
+from dataclasses import replace
+
+from rapidgen.deploy.driver_set import STATE, DriverSet, digest
+from rapidgen.deploy.state_folder import DAMAGE, FileRecord, Manifest, Past, manifest_from
+from rapidgen.deploy.transports.transport import Transport, TransportFault, read_or_none
+
+
+def mended(transport: Transport, home: str, wanted: DriverSet) -> Manifest:
+    """A manifest for what lies there: the newest whole backup's, with the files as they are now.
+
+    What lies at the places of the wanted set is taken for ours: the next backup keeps all of it.
+    Without a backup nobody knows what was there before the first deployment. Raises TransportFault.
+    """
+    backups = _backups(transport, home)
+    numbers = sorted(backups)
+    known = backups[numbers[-1]] if numbers else None
+    kinds = {r.path: r for r in known.files} if known else {}
+    kinds |= {f.path: FileRecord(f.path, "", 0, f.kind, f.tasks) for f in wanted.files}
+    records = []
+    for path, record in kinds.items():
+        data = read_or_none(transport, home + path)
+        if data is not None:
+            records.append(replace(record, sha256=digest(data), size=len(data), stored=""))
+    history = tuple(Past(n, backups[n].time, backups[n].name, backups[n].build_id) for n in numbers)
+    if known is not None:
+        return replace(known, id=numbers[-1], files=tuple(records), history=history)
+    name, ware = wanted.name, wanted.robotware
+    return Manifest(0, "", name, "unknown", ware, tuple(records))
+
+
+def copies(transport: Transport, home: str) -> int:
+    """Number from which copies of strangers' files are free to be named. Raises TransportFault."""
+    found = [int(n.partition(".")[0]) for n in _names(transport, f"{home}{STATE}/backup/origin")]
+    return max(found, default=-1) + 1
+
+
+def _backups(transport: Transport, home: str) -> dict[int, Manifest]:
+    found = {}
+    for name in _names(transport, f"{home}{STATE}/backup"):
+        raw = read_or_none(transport, f"{home}{STATE}/backup/{name}/backup.json")
+        try:
+            found[int(name)] = manifest_from(json.loads(raw or b""))
+        except DAMAGE:
+            continue
+    return found
+
+
+def _names(transport: Transport, folder: str) -> list[str]:
+    """Names that begin with a number; none where there is no folder."""
+    try:
+        return [e.name for e in transport.entries(folder) if e.name.partition(".")[0].isdecimal()]
+    except TransportFault as fault:
+        if fault.kind != "missing":
+            raise
+        return []

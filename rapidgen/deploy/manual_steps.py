@@ -1,0 +1,197 @@
+"""What files alone do not do: loading parameters, restarts, and who does it where.
+
+Which restart makes a task read its modules again follows the task's type: a SEMISTATIC task
+starts from the beginning at every restart and reads its modules then [manual]; a STATIC one goes
+on where it was and needs its program reset; modules of NORMAL tasks that CAB_TASK_MODULES names
+are loaded at a restart when the file is newer ([mem]). Nothing here restarts anything.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from rapidgen.deploy.cfg import CfgChange, is_delivered, may_be_refused, shown_key
+from rapidgen.deploy.other_driver import Neighbour
+from rapidgen.system import CfgText
+
+_TOPICS = {
+    "CAB_TASKS": "Controller > Task",
+    "CAB_TASK_MODULES": "Controller > Automatic Loading of Modules",
+    "CAB_EXEC_HOOKS": "Controller > Event Routine",
+    "MECHANICAL_UNIT_GROUP": "Controller > Mechanical Unit Group",
+    "EIO_SIGNAL": "I/O System > Signal",
+    "SYSSIG_OUT": "I/O System > System Output",
+    "FIREWALL_MANAGEMENT": "Communication > Firewall Manager",
+}
+"""Topic and type: the first two from abb_driver's page, the last from ABB's, others [mem]."""
+
+
+@dataclass(frozen=True, slots=True)
+class ManualStep:
+    """One thing that a person does; `stops_motion` means that every motion ends with it."""
+
+    who: str
+    what: str
+    stops_motion: bool = False
+
+
+CFG_FIRST = ManualStep(
+    "you",
+    "have the instances below deleted and the controller restarted before the files go: else it "
+    "starts with tasks whose modules are missing; a new backup shows it (--backup)",
+)
+"""Of an uninstall, where what is loaded is not seen or was still there."""
+
+
+def steps_of(
+    modules: Sequence[tuple[str, tuple[str, ...]]],
+    cfg: Sequence[CfgChange],
+    wanted: Sequence[CfgText],
+    old: Sequence[CfgText],
+    *,
+    gone: bool,
+    written: bool,
+) -> tuple[ManualStep, ...]:
+    """Steps after the files have been switched; none where nothing loaded changes.
+
+    `modules` are the new and changed ones with their tasks, `gone` that some went, `wanted` and
+    `old` the cfg files of the new and the last set, `written` that SYSPAR itself was changed.
+    """
+    steps = [] if written else [*_delete(cfg), *_load(cfg, wanted), *_give_back(cfg)]
+    types = {
+        i.text("Name"): i.text("Type") or "SEMISTATIC"
+        for text in (*old, *wanted)
+        for i in text.instances("CAB_TASKS")
+    }
+    tasks: dict[str, list[str]] = {}
+    for path, names in modules:
+        for name in names:
+            tasks.setdefault(name, []).append(path.rpartition("/")[2])
+    for restart in ("Restart", "Reset RAPID"):
+        kinds: dict[str, list[str]] = {}
+        for name, files in tasks.items():
+            kind = types.get(name, "NORMAL")
+            if (kind == "STATIC") == (restart == "Reset RAPID"):
+                kinds.setdefault(kind, []).append(f"{name} {_files(files)}")
+        if kinds:
+            read = "; ".join(f"{', '.join(names)} ({kind})" for kind, names in kinds.items())
+            what = f"{restart} (menu > {restart}), so that tasks read again: {read}"
+            steps.append(ManualStep("pendant", what, stops_motion=True))
+    changed = gone or any(c.action not in ("same", "use") for c in cfg)
+    if changed and not any(step.stops_motion for step in steps):
+        steps.append(
+            ManualStep("pendant", "Restart of the controller (menu > Restart)", stops_motion=True)
+        )
+    if tasks or changed:
+        start = "program pointer to main, motors on and start: a person at the robot"
+        steps.append(ManualStep("pendant", start))
+    return tuple(steps)
+
+
+def _files(names: Sequence[str]) -> str:
+    """One by its name, more by their number: the plan tells which files change."""
+    return names[0] if len(names) == 1 else f"{len(names)} files"
+
+
+def steps_beside(neighbour: Neighbour) -> tuple[ManualStep, ...]:
+    """How another driver goes before ours comes."""
+    steps = [
+        ManualStep("pendant", "back the controller up: that is the way back to the other driver")
+    ]
+    sections: dict[str, list[str]] = {}
+    for one in neighbour.instances:
+        name = one.shown.removeprefix(one.section).strip()
+        sections.setdefault(one.section, []).append(name)
+    steps += [
+        ManualStep("pendant", f"delete in {_where(section)}: {'; '.join(names)}")
+        for section, names in sections.items()
+    ]
+    if not neighbour.instances:
+        what = "delete the other driver's tasks, automatic loading of modules and event routines"
+        steps.append(ManualStep("pendant", f"{what}, if they are still there"))
+    return (
+        *steps,
+        ManualStep("pendant", "Restart of the controller (menu > Restart)", stops_motion=True),
+        ManualStep(
+            "pendant",
+            "unload what of its modules is still in a task (Program Editor > Modules), ROS_motion "
+            "with its main above all",
+        ),
+        ManualStep(
+            "you", "plan again (over FTP and SFTP with a new backup: --backup); its files stay"
+        ),
+    )
+
+
+def _delete(cfg: Sequence[CfgChange]) -> list[ManualStep]:
+    """Loading removes nothing, and cannot tell which instance without a name it replaces."""
+    sections: dict[str, list[str]] = {}
+    for change in cfg:
+        if change.action == "remove" or (change.action == "change" and not change.named):
+            section, _, name = change.key.partition(" ")
+            again = "" if change.action == "remove" else " (comes back changed)"
+            sections.setdefault(section, []).append(name + again)
+    sections = {s: _by_file(n) if s == "CAB_TASK_MODULES" else n for s, n in sections.items()}
+    return [
+        ManualStep("pendant", f"loading removes nothing: delete in {_where(s)}: {'; '.join(names)}")
+        for s, names in sections.items()
+    ]
+
+
+def _by_file(names: Sequence[str]) -> list[str]:
+    """`FILE TASK` of many as `FILE, FILE in TASK, TASK`: files of the same tasks together, their
+    folder once, before them."""
+    files: dict[str, list[str]] = {}
+    for name in names:
+        file, _, task = name.partition(" ")
+        files.setdefault(file, []).append(task)
+    alike: dict[tuple[str, str], list[str]] = {}
+    for path, tasks in files.items():
+        folder, _, file = path.rpartition("/")
+        alike.setdefault((folder, ", ".join(tasks)), []).append(file)
+    return [
+        f"{folder}/{' ' if len(own) > 1 else ''}{', '.join(own)} in {tasks}"
+        for (folder, tasks), own in alike.items()
+    ]
+
+
+def _load(cfg: Sequence[CfgChange], wanted: Sequence[CfgText]) -> list[ManualStep]:
+    """Files that hold something new. Adding refuses what is there already (120006 [real 6.03])."""
+    changes = {(c.domain, c.key): c for c in cfg}
+    steps = []
+    # Signals come before what names them.
+    for text in sorted(wanted, key=lambda text: text.path):
+        rows = [(s.name, i) for s in text.sections for i in s.instances]
+        mine = [changes[text.domain, f"{name} {shown_key(name, i)}"] for name, i in rows]
+        new = sum(c.action == "add" for c in mine)
+        changed = sum(c.action == "change" for c in mine)
+        if not new and not changed:
+            continue
+        there = any(is_delivered(name, i) for name, i in rows) or any(
+            c.action == "same" or (c.action == "change" and c.named) for c in mine
+        )
+        mode = "and replace duplicates" if there else "if no duplicates"
+        what = f"load HOME:/{text.path} ({new} instances to add, {changed} to change): "
+        what += f"Control Panel > Configuration > File > Load parameters {mode}"
+        theirs = [c.key.partition(" ")[2] for c in mine if c.action == "use"]
+        if theirs:
+            what += f"; in a copy without {', '.join(theirs)}: somebody else's, used as they are"
+        if may_be_refused(text):
+            what += "; it may be refused: leave it out, the driver serves and stops without it"
+        steps.append(ManualStep("pendant", what))
+    return steps
+
+
+def _give_back(cfg: Sequence[CfgChange]) -> list[ManualStep]:
+    return [
+        ManualStep(
+            "pendant",
+            f"keep {c.key.partition(' ')[2]} in {_where(c.key.partition(' ')[0])}, it is the "
+            f"controller's own: take out what it did not have before the driver ({c.note})",
+        )
+        for c in cfg
+        if c.action == "leave" and c.note
+    ]
+
+
+def _where(section: str) -> str:
+    return f"Control Panel > Configuration > {_TOPICS.get(section, section)}"

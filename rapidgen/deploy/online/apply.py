@@ -1,0 +1,326 @@
+"""Carry out what is not files, in an order in which a cut leaves the old set, the new, or neither.
+
+Files before cfg: a new task without its module is a system failure. What goes is deleted from cfg
+before its files go. Program memory comes last, right before the restart. All of it is found again
+by the next plan, which looks at the controller and not at notes.
+"""
+
+import time
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from datetime import datetime, timezone
+from typing import TYPE_CHECKING
+
+from rapidgen.client.errors import NotReady, NotSupported, RobotError
+from rapidgen.client.rws import RwsError
+from rapidgen.client.rws.core import APPLICATION
+from rapidgen.client.rws.model import Holder
+from rapidgen.deploy.file_operations import Work, go_on
+from rapidgen.deploy.online.plan import LivePlan
+from rapidgen.deploy.online.program_memory import forget_saved, rearrange
+from rapidgen.deploy.online.snapshot import Row
+from rapidgen.deploy.online.verify import ReadBack, prove, way_back
+from rapidgen.deploy.plan import Plan
+from rapidgen.deploy.transports.transport import TransportFault, refused
+from rapidgen.diagnostics import DiagnosticError, error
+from rapidgen.system import CfgText, write_cfg
+from rapidgen.wire.rws.bodies import Generation
+
+if TYPE_CHECKING:
+    from rapidgen.client.rws import Controller
+
+_LOOK = 1.0
+"""s between two looks whether a person has done it."""
+_PROMPT = 10.0
+"""s that a question of RMMP stands on the pendant [RWS manual]."""
+_SESSION_ENDS = 310.0
+"""s after which the session of a run that was killed has ended: 300 s idle [RWS manual]."""
+_MANUAL = ("MANR", "MANF")
+_SCRATCH = "TEMP/rapidgen_{}.cfg"
+
+
+@dataclass(frozen=True, slots=True)
+class LiveOptions:
+    """What may be done over web services, and how long is waited for people."""
+
+    restart: bool = False
+    """Whether the controller may be restarted, warm."""
+    wait: float = 0.0
+    """s for automatic mode, for a program to be stopped, for somebody else's mastership."""
+    proof: ReadBack = field(default_factory=ReadBack)
+    pause: Callable[[float], None] = time.sleep
+
+
+@dataclass(frozen=True, slots=True)
+class Live:
+    """One run over web services."""
+
+    services: "Controller"
+    work: Work
+    live: LivePlan
+    options: LiveOptions
+
+    @property
+    def plan(self) -> Plan:
+        return self.work.plan
+
+    @property
+    def rearranges(self) -> bool:
+        """Whether memory is changed now: what that stops comes back by a restart, or belongs to
+        the driver that goes."""
+        live = self.live
+        stops = set(live.started) - (set(live.owned) if self.plan.wanted is None else set())
+        return live.touches_memory and (self.options.restart or not stops)
+
+
+def check(run: Live) -> None:
+    """Raises DiagnosticError RG540 (another controller), RG542 (not in this state)."""
+    target, live = run.plan.target, run.live
+    if run.services.identity().id != live.id:
+        raise another(run.plan, live.id)
+    if live.is_empty:
+        return
+    lacking = live.lacking(run.services.generation, restart=run.options.restart)
+    if lacking:
+        raise refused(
+            "RG542",
+            f"the user lacks {', '.join(lacking)} at {target}",
+            "give it in RobotStudio, or log in as another; nothing was changed",
+        )
+    _await_earlier_run(run)
+    _await(run)
+    if run.plan.wanted is None and live.touches_memory and not run.rearranges:
+        others = sorted(set(live.started) - set(live.owned))
+        raise refused(
+            "RG542",
+            f"taking modules out stops {', '.join(others)} on {target}, which is not the driver's",
+            "say --restart: a warm start brings it back",
+        )
+
+
+def _await_earlier_run(run: Live) -> None:
+    """Wait while another run of rapidgen has mastership, also one that was killed.
+
+    Nothing has been stopped or written yet. `_await` refuses what is still held then.
+    """
+    left, told = max(run.options.wait, _SESSION_ENDS), False
+    while (who := _holder(run)) is not None and who.application == APPLICATION and left > 0:
+        if not told:
+            run.work.say(
+                f"waiting for mastership of {who.domain}, which {who} has: another run of "
+                "rapidgen. If that was killed, the controller ends its session after five idle "
+                "minutes; nothing has been changed yet"
+            )
+            told = True
+        go_on(run.work)
+        run.options.pause(_LOOK)
+        left -= _LOOK
+
+
+def _holder(run: Live) -> Holder | None:
+    """Another session that has mastership of what is written."""
+    for domain in ("cfg", "rapid"):
+        who = run.services.holder(domain)
+        if who is not None and not who.mine:
+            return who
+    return None
+
+
+def _await(run: Live) -> None:
+    """Wait for what only people do. Raises DiagnosticError RG542 when the time is over."""
+    left, told, refusal = run.options.wait, "", ""
+    granted = False
+    while (missing := _missing(run, granted=granted)) is not None:
+        what, mend = missing
+        if not (granted or refusal) and run.services.panel().mode in _MANUAL:
+            granted, refusal = _ask_pendant(run)
+            continue
+        if left <= 0:
+            raise refused(
+                "RG542", f"{what}{refusal}", f"{mend}, then run this again (--wait S waits)"
+            )
+        if what != told:
+            run.work.say(f"waiting for a person: {what}; {mend}")
+            told = what
+        go_on(run.work)
+        run.options.pause(_LOOK)
+        left -= _LOOK
+
+
+def _ask_pendant(run: Live) -> tuple[bool, str]:
+    """Ask by RMMP; whether it was granted, or why not."""
+    wait = max(run.options.wait, _PROMPT)
+    if run.services.generation is not Generation.EIGHT:
+        run.work.say(
+            f"{run.plan.target} is in manual mode: its pendant asks now whether rapidgen may "
+            f"write. Press Grant there within {wait:g} s"
+        )
+    try:
+        run.services.ask_rmmp("modify", wait=wait)
+    except (NotReady, NotSupported, RwsError) as cause:
+        return False, f" ({cause.diagnostics[0].message})"
+    return True, ""
+
+
+def _missing(run: Live, *, granted: bool) -> tuple[str, str] | None:
+    """What is in the way, and what a person does about it."""
+    target = run.plan.target
+    mode = run.services.panel().mode
+    if mode != "AUTO" and not (granted and mode in _MANUAL):
+        what = f"{target} is in mode {mode or '?'}, which lets nobody write from afar"
+        return what, "switch it to automatic at the pendant and acknowledge"
+    if (who := _holder(run)) is not None:
+        what = f"mastership of {who.domain} at {target} is held by {who}"
+        return what, "let them give it back, or end their session"
+    stops = (run.options.restart and run.live.restart) or run.rearranges
+    if stops and run.services.execution().running:
+        what = f"the program of {target} runs, and what is planned stops it"
+        return what, f"when the robot may stop: `rapidgen halt {target}`"
+    return None
+
+
+def another(plan: Plan, id: str) -> DiagnosticError:
+    """RG540."""
+    return refused(
+        "RG540",
+        f"the plan was made for controller {id}, and another one answers at {plan.target}",
+        "look who answers at this address, then plan again",
+    )
+
+
+def before_files(run: Live) -> None:
+    """A backup by the controller; what is in the way of files that go. Raises DiagnosticError."""
+    if run.live.is_empty:
+        return
+    with _steps(run):
+        _back_up(run)
+        if run.plan.wanted is None and run.rearranges:
+            rearrange(run.services, run.work, run.live, run.options.wait)
+            forget_saved(run.work, run.live)
+        if not run.live.touches_cfg:
+            return
+        with run.services.mastership("cfg", wait=run.options.wait):
+            _delete(run, run.live.delete)
+            if run.plan.wanted is None:
+                _set(run)
+
+
+@contextmanager
+def writing(run: Live) -> Iterator[None]:
+    """What files are written under: write access on RobotWare 8 [real 8.1.0], else nothing."""
+    if run.services.generation is not Generation.EIGHT:
+        yield
+        return
+    with run.services.mastership("cfg", wait=run.options.wait):
+        yield
+
+
+def after_files(run: Live) -> None:
+    """cfg, program memory, restart, read back. Raises DiagnosticError RG543, RG544."""
+    if run.live.is_empty:
+        return
+    with _steps(run):
+        if run.plan.wanted is not None:
+            if run.live.touches_cfg:
+                with run.services.mastership("cfg", wait=run.options.wait):
+                    _set(run)
+                    _delete(run, run.live.again)
+                    _load(run)
+            if run.rearranges:
+                rearrange(run.services, run.work, run.live, run.options.wait)
+    if not run.live.restart:
+        if run.plan.wanted is not None and run.rearranges:
+            # NORMAL tasks that stood: their program is there, and waits to be started.
+            prove(run.services, run.plan, run.live, None, ReadBack(), run.work.say)
+            with _steps(run):
+                _point(run)
+        return
+    if not run.options.restart:
+        run.work.say("restart pending: what was loaded counts after a warm start (--restart)")
+        return
+    with _steps(run):
+        last = max((event.number for event in run.services.log(count=1)), default=0)
+        run.work.say("restarting (a warm start)")
+        run.services.restart()
+    prove(run.services, run.plan, run.live, last, run.options.proof, run.work.say)
+    with _steps(run):
+        _point(run)
+
+
+def _point(run: Live) -> None:
+    """Program pointers to main in the driver's own motion tasks, and in no other."""
+    for task, module in run.live.mains:
+        try:
+            run.services.set_pointer(task, module, "main")
+        except RwsError as cause:
+            others = ", ".join(run.live.pointers) or "no other task"
+            run.work.say(
+                f"! the program pointer of {task} cannot be set alone ({cause.symbol}): "
+                f"`rapidgen start --main` sets those of all tasks ({others})"
+            )
+
+
+def _back_up(run: Live) -> None:
+    name = f"rapidgen_{datetime.now(timezone.utc):%Y%m%d_%H%M%S}"
+    try:
+        run.work.say(f"the controller's own backup: {run.services.backup(name)}")
+    except RwsError as cause:
+        if cause.symbol not in ("E_DIR_EXIST", "E_ALREADY_EXISTS"):
+            raise
+
+
+def _delete(run: Live, rows: Sequence[Row]) -> None:
+    for row in rows:
+        run.work.say(f"deleting {row.section} {row.title}")
+        run.services.cfg_delete(row.domain, row.section, row.title)
+
+
+def _set(run: Live) -> None:
+    for change in run.live.change:
+        run.work.say(f"setting {change.section} {change.title}")
+        run.services.cfg_set(change.domain, change.section, change.title, change.new)
+
+
+def _load(run: Live) -> None:
+    optional = run.live.optional if run.live.touches_cfg else ()
+    for text in run.live.load:
+        run.work.say(f"loading {_count(text)} instances of {text.domain}")
+        _load_one(run, text)
+    for text in optional:
+        try:
+            _load_one(run, text)
+        except RwsError as cause:
+            run.work.say(f"left out, as the controller refuses it: {text.path} ({cause.symbol})")
+
+
+def _load_one(run: Live, text: CfgText) -> None:
+    path = _SCRATCH.format(text.domain.lower())
+    run.services.write_file(path, write_cfg(text).encode("latin-1", "replace"))
+    run.services.cfg_load(path, mode="add")
+    run.services.delete_file(path)
+
+
+def _count(text: CfgText) -> int:
+    return sum(len(section.instances) for section in text.sections)
+
+
+@contextmanager
+def _steps(run: Live) -> Iterator[None]:
+    """Turns what a step says into a refusal that tells the way on."""
+    try:
+        yield
+    except (RobotError, TransportFault) as cause:
+        plan = run.plan
+        raise DiagnosticError(
+            [
+                *cause.diagnostics,
+                error(
+                    "RG543",
+                    None,
+                    f"{plan.verb} of {plan.target} ended before it was done",
+                    f"run `rapidgen {plan.verb}` again to finish, or {way_back(plan)} to undo",
+                ),
+            ],
+            exit_code=1,
+        ) from cause

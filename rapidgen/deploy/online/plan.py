@@ -1,0 +1,426 @@
+"""What a deployment does besides files: cfg, modules in memory, a restart. Made of one look."""
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from rapidgen._json import Json, Members
+from rapidgen.client.rws import RwsError
+from rapidgen.deploy.cfg import (
+    CfgChange,
+    instance_from,
+    is_delivered,
+    may_be_refused,
+)
+from rapidgen.deploy.driver_set import DriverSet
+from rapidgen.deploy.manual_steps import ManualStep
+from rapidgen.deploy.online.snapshot import SECTIONS, LiveView, Row
+from rapidgen.deploy.other_driver import MODULE
+from rapidgen.deploy.tasks import MAIN
+from rapidgen.system import CfgText, Instance, Section, write_cfg
+from rapidgen.wire.rws import operations as ops
+from rapidgen.wire.rws.bodies import Generation
+from rapidgen.wire.rws.grants import missing
+
+if TYPE_CHECKING:
+    from rapidgen.client.rws import Controller
+
+_GRANTED = ", or Grant when it asks whether rapidgen may write"
+_OR_GRANT = {Generation.ONE: _GRANTED, Generation.TWO: _GRANTED}
+BY_SERVICES = "web services"
+"""Who does the steps that no person has to do."""
+
+
+@dataclass(frozen=True, slots=True)
+class AttributeChange:
+    """Attributes of one instance that get new values; `old` ones are written down."""
+
+    domain: str
+    section: str
+    title: str
+    new: Mapping[str, str]
+    old: Mapping[str, str]
+
+
+@dataclass(frozen=True, slots=True)
+class InMemory:
+    """A module in a task; `path` is the file below HOME that is loaded, where one is."""
+
+    task: str
+    module: str
+    path: str = ""
+    why: str = ""
+
+    @property
+    def shown(self) -> str:
+        return f"{self.task}/{self.module}"
+
+
+@dataclass(frozen=True, slots=True)
+class LivePlan:
+    """All of it, for the controller with this `id`."""
+
+    id: str
+    shown: str
+    delete: tuple[Row, ...] = ()
+    """Instances that go."""
+    again: tuple[Row, ...] = ()
+    """Those that come back changed."""
+    change: tuple[AttributeChange, ...] = ()
+    load: tuple[CfgText, ...] = ()
+    """What is loaded, by `add`: signals before what names them."""
+    optional: tuple[CfgText, ...] = ()
+    """What a controller may refuse; it goes along with the rest only."""
+    clash: tuple[InMemory, ...] = ()
+    """Somebody else's modules that ours cannot stand beside: unloaded only with `--overwrite`."""
+    unload: tuple[InMemory, ...] = ()
+    replace: tuple[InMemory, ...] = ()
+    """Modules of NORMAL tasks, which a restart would leave as they are."""
+    restore: tuple[InMemory, ...] = ()
+    """Saved modules that come back."""
+    restart: bool = False
+    """Whether something counts only after a restart."""
+    symbols: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    """Where BUILD_ID is in each task."""
+    started: tuple[str, ...] = ()
+    """Background tasks that run: whatever changes memory stops them."""
+    owned: tuple[str, ...] = ()
+    """Those of them that a deployment brought."""
+    silent: tuple[str, ...] = ()
+    """Background tasks of the driver that stand: a run that was killed had stopped them."""
+    pointers: tuple[str, ...] = ()
+    """NORMAL tasks that are not the driver's: where no pointer can be set alone, theirs go, too."""
+    mains: tuple[tuple[str, str], ...] = ()
+    """NORMAL tasks whose `main` is ours, with its module."""
+    running: bool = False
+    mode: str = ""
+    orphans: tuple[str, ...] = ()
+    """Background tasks without cfg, which a restart ends."""
+    grants: frozenset[str] = frozenset()
+    """What the user may do; none where the controller does not tell."""
+
+    @property
+    def touches_cfg(self) -> bool:
+        return bool(self.delete or self.again or self.change or self.load)
+
+    @property
+    def touches_memory(self) -> bool:
+        return bool(self.clash or self.unload or self.replace or self.restore)
+
+    @property
+    def is_empty(self) -> bool:
+        return not (self.touches_cfg or self.touches_memory or self.restart)
+
+    def lacking(self, generation: Generation, *, restart: bool) -> tuple[str, ...]:
+        """Grants that the user has not, and that this takes."""
+        if not self.grants or any("FULL_ACCESS" in grant for grant in self.grants):
+            return ()
+        wanted = [ops.READ_FILE, ops.WRITE_FILE, ops.BACKUP]
+        if self.touches_cfg:
+            wanted += [ops.CFG_DELETE, ops.CFG_SET, ops.CFG_LOAD]
+        if self.touches_memory:
+            wanted += [ops.LOAD_MODULE, ops.POINTER_TO_ROUTINE, ops.SAVE_MODULE]
+            wanted += [ops.STOP] if self.started else []
+        if self.restart and restart:
+            wanted += [ops.RESTART, *([ops.POINTER_TO_ROUTINE] if self.mains else [])]
+        found = (g for one in wanted for g in missing(one, generation, self.grants))
+        return tuple(dict.fromkeys(found))
+
+    @property
+    def fingerprint(self) -> Members:
+        """What the plan is true for: not whether a program runs just now."""
+        told: Members = {
+            "id": self.id,
+            "delete": [r.name for r in (*self.delete, *self.again)],
+            "change": [[c.section, c.title, dict(c.new)] for c in self.change],
+            "load": [write_cfg(t) for t in (*self.load, *self.optional)],
+            "restart": self.restart,
+        }
+        for name in ("clash", "unload", "replace", "restore"):
+            told[name] = [m.shown for m in getattr(self, name)]
+        return told
+
+
+def make_live_plan(
+    view: LiveView,
+    cfg: Sequence[CfgChange],
+    wanted: DriverSet | None,
+    old: Mapping[str, tuple[str, ...]],
+    ours: frozenset[str],
+    before: Mapping[str, Json],
+    symbols: Mapping[str, tuple[str, ...]],
+    clash: tuple[InMemory, ...],
+    restore: tuple[InMemory, ...],
+) -> LivePlan:
+    """`old` are the modules of earlier sets with their tasks, `ours` and `before` as in a plan."""
+    rows = {row.name: row for row in view.rows}
+    delete, again, change = [], [], []
+    for one in cfg:
+        name = f"{one.domain} {one.key}".casefold()
+        if one.action == "remove":
+            delete.append(rows[name])
+        elif (
+            one.action == "change"
+            and name in ours
+            and before.get(name) is None
+            and not is_delivered(rows[name].section, rows[name].instance)
+        ):
+            again.append(rows[name])
+        elif one.action in ("change", "restore"):
+            new = before[name] if one.action == "restore" else None
+            instance = instance_from(new) if new is not None else _wanted(wanted, name)
+            change.append(_change(rows[name], instance))
+    load = _loads(cfg, wanted, frozenset(row.name for row in again))
+    replace, unload = _memory(view, wanted, old)
+    needed = {task.casefold() for f in wanted.files for task in f.tasks} if wanted else set()
+    running = {f"sys cab_tasks {t.name.casefold()}" for t in view.tasks}
+    stale = bool(running & ours - rows.keys())
+    background = [t for t in view.tasks if t.kind != "normal" and t.execution == "started"]
+    if wanted is not None:
+        # A NORMAL task is given its modules as it stands, where nothing runs beside it.
+        hot = set() if background else _loaded_whole(wanted, replace)
+        stale = stale or any(view.builds.get(t) != wanted.build_id for t in needed - hot)
+    known = needed | {t.casefold() for names in old.values() for t in names}
+    # Nobody starts them but a restart, also where all modules are those that are wanted.
+    silent = tuple(
+        t.name
+        for t in view.tasks
+        if t.kind != "normal" and t.execution != "started" and t.name.casefold() in needed
+    )
+    needful = [t for t in load if not may_be_refused(t)]
+    return LivePlan(
+        view.id,
+        view.shown,
+        _dependents_first(delete),
+        _dependents_first(again),
+        tuple(change),
+        tuple(needful),
+        tuple(t for t in load if may_be_refused(t)),
+        clash,
+        unload,
+        replace,
+        restore,
+        bool(delete or again or change or needful or stale or silent or view.orphans),
+        dict(symbols),
+        tuple(t.name for t in background),
+        tuple(t.name for t in background if t.name.casefold() in known),
+        silent,
+        tuple(t.name for t in view.tasks if t.kind == "normal" and t.name.casefold() not in known),
+        _mains(view, wanted),
+        view.running,
+        view.mode,
+        view.orphans,
+        view.grants,
+    )
+
+
+def find_clashes(
+    services: "Controller",
+    view: LiveView,
+    wanted: DriverSet | None,
+    old: Mapping[str, tuple[str, ...]],
+) -> tuple[InMemory, ...]:
+    """Modules in the driver's tasks with a name of ours that we did not load, or another `main`.
+
+    Raises RobotError.
+    """
+    found = []
+    for task, names in view.modules.items():
+        mine, main = set(), False
+        for file in wanted.files if wanted else ():
+            if task in (t.casefold() for t in file.tasks):
+                mine.add(_module_name(file.data).casefold())
+                main = main or MAIN.search(file.data) is not None
+        earlier = {m.casefold() for m, t in old.items() if task in map(str.casefold, t)}
+        for name in names:
+            low = name.casefold()
+            if low in earlier:
+                continue
+            if low in mine:
+                found.append(InMemory(task.upper(), name, why="has a name of ours"))
+            elif main and has_main(services, task, name):
+                found.append(InMemory(task.upper(), name, why="has a main, too"))
+    real = {t.name.casefold(): t.name for t in view.tasks}
+    return tuple(InMemory(real[m.task.casefold()], m.module, why=m.why) for m in found)
+
+
+def _by_task(modules: Sequence[InMemory]) -> list[tuple[str, str, bool]]:
+    """Modules of one task and one reason as one text, their reason, whether they are several."""
+    found: dict[tuple[str, str], list[str]] = {}
+    for module in modules:
+        found.setdefault((module.task, module.why), []).append(module.module)
+    return [(f"{t}/{', '.join(names)}", w, len(names) > 1) for (t, w), names in found.items()]
+
+
+def live_steps(
+    live: LivePlan, verb: str, host: str, generation: Generation
+) -> tuple[ManualStep, ...]:
+    """What the plan says of it: by web services, and by people."""
+    by = BY_SERVICES
+    gone = Counter(row.domain for row in (*live.delete, *live.again))
+    steps = [
+        ManualStep(by, f"delete {count} instances of {domain}") for domain, count in gone.items()
+    ]
+    steps += [
+        ManualStep(by, f"set {c.section} {c.title}: {_words(c.new)} (was {_words(c.old)})")
+        for c in live.change
+    ]
+    for text in (*live.load, *(live.optional if live.touches_cfg else ())):
+        count = sum(len(s.instances) for s in text.sections)
+        steps.append(ManualStep(by, f"load {count} instances of {text.domain} by add"))
+    for shown, why, several in _by_task(live.clash):
+        which = "each of which" if several else "which"
+        steps.append(ManualStep(by, f"save and unload {shown}, {which} {why} (--overwrite)"))
+    steps += [ManualStep(by, f"unload {shown}") for shown, *_ in _by_task(live.unload)]
+    if live.replace:
+        names = ", ".join(m.shown for m in live.replace)
+        steps.append(ManualStep(by, f"load anew: {names}"))
+    for shown, _, several in _by_task(live.restore):
+        saved = "they were" if several else "it was"
+        steps.append(ManualStep(by, f"load {shown} again, as {saved} saved"))
+    if live.is_empty:
+        return tuple(steps)
+    if live.mode != "AUTO":
+        what = f"automatic mode (it is {live.mode or 'unknown'})"
+        steps.append(ManualStep("pendant", f"{what}{_OR_GRANT.get(generation, '')}"))
+    lacking = live.lacking(generation, restart=True)
+    if lacking:
+        steps.append(ManualStep("you", f"give the user {', '.join(lacking)} in RobotStudio"))
+    if live.running:
+        what = f"stop the program: `rapidgen halt {host}`"
+        steps.append(ManualStep("you", what, stops_motion=True))
+    if live.restart:
+        others = sorted(set(live.started) - set(live.owned))
+        beside = f"; it stops {', '.join(others)}, too" if others else ""
+        beside += f"; it starts {', '.join(live.silent)}, which stand" if live.silent else ""
+        what = f"a warm start: --restart does it, or menu > Restart{beside}"
+        steps.append(ManualStep("you", what, stops_motion=True))
+    if verb != "uninstall":
+        what = f"motors on and start, at the robot or by `rapidgen start {host}`"
+        if live.mains and not live.restart and not live.touches_memory:
+            what += "; program pointer to main first"
+        steps.append(ManualStep("you", what))
+    return tuple(steps)
+
+
+def _words(attributes: Mapping[str, str]) -> str:
+    return ", ".join(f"{k} {v or '(empty)'}" for k, v in attributes.items())
+
+
+def _wanted(wanted: DriverSet | None, name: str) -> Instance:
+    for text in wanted.cfg if wanted else ():
+        for section in text.sections:
+            for instance in section.instances:
+                if Row(text.domain, section.name, "", instance).name == name:
+                    return instance
+    raise KeyError(name)
+
+
+def _change(row: Row, new: Instance) -> AttributeChange:
+    def plain(instance: Instance) -> dict[str, str]:
+        # A flag is true or not there.
+        return {
+            a.name: " ".join(map(str, a.values)) if a.values else "true"
+            for a in instance.attributes
+        }
+
+    before, after = plain(row.instance), plain(new)
+    names = [n for n in {**before, **after} if before.get(n) != after.get(n)]
+    flags = {a.name for i in (row.instance, new) for a in i.attributes if not a.values}
+
+    def values(of: dict[str, str]) -> dict[str, str]:
+        return {n: of.get(n, "false" if n in flags else "") for n in names}
+
+    return AttributeChange(row.domain, row.section, row.title, values(after), values(before))
+
+
+def _dependents_first(rows: list[Row]) -> tuple[Row, ...]:
+    """What names something goes before that: outputs before signals, modules before tasks."""
+    order = [section for _, section in SECTIONS]
+
+    def place(row: Row) -> int:
+        return -order.index(row.section) if row.section in order else 0
+
+    return tuple(sorted(rows, key=place))
+
+
+def _loads(
+    cfg: Sequence[CfgChange], wanted: DriverSet | None, gone: frozenset[str]
+) -> list[CfgText]:
+    new = {f"{c.domain} {c.key}".casefold() for c in cfg if c.action == "add"} | gone
+    found = []
+    for text in sorted(wanted.cfg if wanted else (), key=lambda t: (may_be_refused(t), t.path)):
+        sections = [
+            Section(
+                s.name,
+                tuple(i for i in s.instances if Row(text.domain, s.name, "", i).name in new),
+            )
+            for s in text.sections
+        ]
+        kept = tuple(s for s in sections if s.instances)
+        if kept:
+            found.append(CfgText(text.domain, text.version, kept, text.path))
+    return found
+
+
+def _memory(
+    view: LiveView, wanted: DriverSet | None, old: Mapping[str, tuple[str, ...]]
+) -> tuple[tuple[InMemory, ...], tuple[InMemory, ...]]:
+    """Modules of NORMAL tasks that are loaded anew, and those that go."""
+    replace, unload = [], []
+    for task, names in view.modules.items():
+        if not view.normal(task):
+            continue
+        real = next(t.name for t in view.tasks if t.name.casefold() == task)
+        lying = {n.casefold() for n in names}
+        mine = set()
+        for file in wanted.files if wanted else ():
+            if file.kind != "module" or real not in file.tasks:
+                continue
+            module = _module_name(file.data)
+            mine.add(module.casefold())
+            stale = wanted is not None and view.builds.get(task) != wanted.build_id
+            if stale and module.casefold() in lying:
+                replace.append(InMemory(real, module, file.path))
+        for module, tasks in old.items():
+            low = module.casefold()
+            if real in tasks and low in lying and low not in mine:
+                unload.append(InMemory(real, module))
+    return tuple(replace), tuple(unload)
+
+
+def _loaded_whole(wanted: DriverSet, replace: Sequence[InMemory]) -> set[str]:
+    """Tasks, in lower case, each of whose modules is loaded anew."""
+    coming = {m.shown.casefold() for m in replace}
+    missing = {
+        task.casefold()
+        for file in wanted.files
+        for task in file.tasks
+        if file.kind == "module" and f"{task}/{_module_name(file.data)}".casefold() not in coming
+    }
+    return {m.task.casefold() for m in replace} - missing
+
+
+def _mains(view: LiveView, wanted: DriverSet | None) -> tuple[tuple[str, str], ...]:
+    found: dict[str, str] = {}
+    for file in wanted.files if wanted else ():
+        if file.kind == "module" and MAIN.search(file.data):
+            found |= {task: _module_name(file.data) for task in file.tasks if view.normal(task)}
+    return tuple(found.items())
+
+
+def _module_name(data: bytes) -> str:
+    found = MODULE.search(data)
+    return found[1].decode("latin-1") if found else ""
+
+
+def has_main(services: "Controller", task: str, module: str) -> bool:
+    """Whether a module in a task declares a main. Raises RobotError."""
+    try:
+        text = services.module_text(task, module)
+    except RwsError as error:
+        if error.status < 500:
+            raise
+        return False  # encoded: it cannot be read [VC 7.21]
+    return MAIN.search(text.encode("latin-1", "replace")) is not None

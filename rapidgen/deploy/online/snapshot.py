@@ -1,0 +1,201 @@
+"""What a controller has besides its files: who it is, its cfg, its tasks and their memory.
+
+Only reads. An instance comes from a controller with all of its attributes, those that nobody has
+set among them; what is compared are the attributes that we ever wrote.
+"""
+
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from rapidgen.client.rws import RwsError
+from rapidgen.client.rws.model import CfgInstance, TaskState
+from rapidgen.deploy.cfg import Keyed, shown_key
+from rapidgen.deploy.driver_set import DriverSet
+from rapidgen.deploy.other_driver import MODULE
+from rapidgen.system import Attribute, CfgText, Instance, Section
+
+if TYPE_CHECKING:
+    from rapidgen.client.rws import Controller
+
+SECTIONS = (
+    ("SYS", "CAB_TASKS"),
+    ("SYS", "CAB_TASK_MODULES"),
+    ("SYS", "CAB_EXEC_HOOKS"),
+    ("EIO", "EIO_SIGNAL"),
+    ("EIO", "SYSSIG_OUT"),
+)
+"""What another driver, a signal of another kind or a missing task is seen by; what names another
+one comes after it."""
+_NONE = ("E_CFG_DOMAIN_INVALID", "E_CFG_TYPE_INVALID", "E_CFG_INSTANCE_INVALID")
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """An instance of the controller, and what the controller calls it."""
+
+    domain: str
+    section: str
+    title: str
+    instance: Instance
+
+    @property
+    def name(self) -> str:
+        """As plans and manifests name it, without case."""
+        return f"{self.domain} {self.section} {shown_key(self.section, self.instance)}".casefold()
+
+
+@dataclass(frozen=True, slots=True)
+class LiveView:
+    """One look at a controller."""
+
+    id: str
+    shown: str
+    robotware: str
+    mode: str
+    state: str
+    running: bool
+    """Whether the program of the NORMAL tasks runs."""
+    tasks: tuple[TaskState, ...]
+    rows: tuple[Row, ...]
+    modules: Mapping[str, tuple[str, ...]]
+    """Modules in the memory of the tasks that were asked for, by lower-case name of the task."""
+    builds: Mapping[str, str]
+    """BUILD_ID in the memory of those tasks; empty where there is none."""
+    grants: frozenset[str] = frozenset()
+    """What the user may do, by UAS name; none where the controller does not tell."""
+
+    @property
+    def orphans(self) -> tuple[str, ...]:
+        """Background tasks that cfg no longer has: they are there until a restart."""
+        rows = {r.title.casefold() for r in self.rows if r.section == "CAB_TASKS"}
+        background = (t.name for t in self.tasks if t.kind != "normal")
+        return tuple(n for n in background if rows and n.casefold() not in rows)
+
+    @property
+    def texts(self) -> tuple[CfgText, ...]:
+        """The cfg as files, one a domain."""
+        found = []
+        for domain in dict.fromkeys(row.domain for row in self.rows):
+            rows = [row for row in self.rows if row.domain == domain]
+            sections = tuple(
+                Section(name, tuple(r.instance for r in rows if r.section == name))
+                for name in dict.fromkeys(r.section for r in rows)
+            )
+            found.append(CfgText(domain, None, sections, f"{domain} of {self.shown}"))
+        return tuple(found)
+
+    def normal(self, task: str) -> bool:
+        """Whether a task keeps its modules over a restart."""
+        return any(t.kind == "normal" and t.name.casefold() == task.casefold() for t in self.tasks)
+
+
+def look(
+    services: "Controller",
+    references: Keyed,
+    tasks: Iterable[str],
+    symbols: Mapping[str, tuple[str, ...]],
+) -> LiveView:
+    """Read all of it. `references` are the instances that we write or have written, `tasks` those
+    whose memory matters, `symbols` where BUILD_ID is in each (`MODULE/NAME`). Raises RobotError."""
+    who, panel = services.identity(), services.panel()
+    there = services.tasks()
+    known = {t.name.casefold(): t.name for t in there}
+    mine = [known[t.casefold()] for t in dict.fromkeys(tasks) if t.casefold() in known]
+    normal = {t.name for t in there if t.kind == "normal"}
+    kind = "virtual, " if who.is_virtual else ""
+    return LiveView(
+        who.id,
+        f"{who.name} ({kind}RobotWare {who.robotware})",
+        who.robotware,
+        panel.mode,
+        panel.state,
+        services.execution().running,
+        there,
+        tuple(_rows(services, references)),
+        {t.casefold(): tuple(m.name for m in services.modules(t)) for t in mine},
+        {
+            # A cut may leave old and new modules in what a restart keeps. Others are read from
+            # files, but for the one whose file was not there just then: the one that is switched
+            # last, which is loaded first.
+            t.casefold(): build_in(services, t, _some(symbols.get(t, ()), whole=t in normal))
+            for t in mine
+        },
+        services.grants(),
+    )
+
+
+def _some(symbols: Sequence[str], *, whole: bool) -> Sequence[str]:
+    return symbols if whole or len(symbols) < 3 else (symbols[0], symbols[-1])
+
+
+def build_in(services: "Controller", task: str, symbols: Sequence[str]) -> str:
+    """BUILD_ID in a task's memory; empty where there is none, or where its modules differ.
+
+    Raises RobotError.
+    """
+    found: set[str] = set()
+    for symbol in symbols:
+        try:
+            value = services.symbol(f"{task}/{symbol}")
+        except RwsError as error:
+            if error.status >= 500:
+                raise
+            value = ""
+        found.add(value if isinstance(value, str) else "")
+    return found.pop() if len(found) == 1 else ""
+
+
+def build_symbols(wanted: DriverSet) -> dict[str, tuple[str, ...]]:
+    """Where BUILD_ID is in each task: `MODULE/NAME` for each module that has it."""
+    declared = rf'^\s*(?:LOCAL\s+)?CONST\s+string\s+(\w+)\s*:=\s*"{re.escape(wanted.build_id)}"'
+    pattern = re.compile(declared.encode(), re.M | re.I)
+    found: dict[str, tuple[str, ...]] = {}
+    for file in wanted.files:
+        module, name = MODULE.search(file.data), pattern.search(file.data)
+        if file.kind == "module" and module and name:
+            symbol = f"{module[1].decode()}/{name[1].decode()}"
+            for task in file.tasks:
+                found[task] = (*found.get(task, ()), symbol)
+    return found
+
+
+def _rows(services: "Controller", references: Keyed) -> Iterator[Row]:
+    wanted = [(domain, section) for domain, section, _ in references]
+    for domain, section in dict.fromkeys([*SECTIONS, *wanted]):
+        known = [i for key, i in references.items() if key[:2] == (domain, section)]
+        try:
+            found = services.cfg_instances(domain, section)
+        except RwsError as error:
+            if error.symbol not in _NONE and error.status != 404:
+                raise
+            continue
+        for one in found:
+            yield Row(domain, section, one.name, _instance(section, one, known))
+
+
+def _instance(section: str, told: CfgInstance, known: Sequence[Instance]) -> Instance:
+    for reference in known:
+        seen = _through(told, reference)
+        if shown_key(section, seen).casefold() == shown_key(section, reference).casefold():
+            return seen
+    # Nobody asked for it: what is empty or false says nothing.
+    given = [(k, v) for k, v in told.attributes.items() if v and v.lower() != "false"]
+    return Instance(tuple(_attribute(k, v, flag=v.lower() == "true") for k, v in given))
+
+
+def _through(told: CfgInstance, reference: Instance) -> Instance:
+    """The attributes that a reference has."""
+    values = {name.casefold(): value for name, value in told.attributes.items()}
+    found = []
+    for attribute in reference.attributes:
+        value = values.get(attribute.name.casefold())
+        flag = not attribute.values
+        if value is not None and not (flag and value.lower() != "true"):
+            found.append(_attribute(attribute.name, value, flag=flag))
+    return Instance(tuple(found))
+
+
+def _attribute(name: str, value: str, *, flag: bool) -> Attribute:
+    return Attribute(name) if flag else Attribute(name, (value,))

@@ -1,0 +1,139 @@
+"""After a restart: is it the same controller, does it have what was deployed, does that serve?"""
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from rapidgen._json import members, whole
+from rapidgen.client.rws.model import LogEvent
+from rapidgen.deploy.online.plan import LivePlan
+from rapidgen.deploy.online.snapshot import build_in
+from rapidgen.deploy.plan import Plan
+from rapidgen.diagnostics import DiagnosticError, error
+
+if TYPE_CHECKING:
+    from rapidgen.client.rws import Controller
+
+Hello = Callable[[str, int], str | None]
+"""BUILD_ID of what serves a state port; None where something else answers. OSError: nobody."""
+
+_LOOK = 0.5
+"""s between two looks at a port."""
+
+
+@dataclass(frozen=True, slots=True)
+class ReadBack:
+    """How it is looked whether the driver serves. `host` is where its ports are."""
+
+    hello: Hello | None = None
+    host: str = ""
+    patience: float = 20.0
+    """s until a port has to answer."""
+
+
+def prove(
+    services: "Controller",
+    plan: Plan,
+    live: LivePlan,
+    last: int | None,
+    proof: ReadBack,
+    say: Callable[[str], None],
+) -> None:
+    """Look at everything, and tell all that is wrong at once. `last` is the number of the last
+    event before the restart; None: there was none.
+
+    Raises DiagnosticError RG540, RG544; RobotError.
+    """
+    found = services.identity()
+    faults = []
+    if found.id != live.id:
+        faults.append(f"another controller answers: {found.name} ({found.id})")
+    if services.panel().state == "sysfail":
+        faults.append("it is in system failure")
+    there = {task.name.casefold(): task.name for task in services.tasks()}
+    faults += _driver(services, plan, live, there)
+    events = _events(services, last) if last is not None else ()
+    for event in events:
+        say(f"event log: {event}")
+    if not faults:
+        faults += _ports(plan, proof)
+    if not faults:
+        say(f"read back: {found.name} has it" if plan.wanted else f"read back: {found.name}")
+        return
+    raise DiagnosticError(
+        [
+            error(
+                "RG544",
+                None,
+                f"{plan.target} {'took it' if last is None else 'restarted'}, and {faults[0]}",
+                f"go back: {way_back(plan)} with --restart; a backup was made before",
+                notes=(*faults[1:], *map(str, events[:5])),
+            )
+        ],
+        exit_code=1,
+    )
+
+
+def way_back(plan: Plan) -> str:
+    """The command that undoes a deployment."""
+    return "`rapidgen rollback`" if plan.had is not None else "`rapidgen uninstall`"
+
+
+def _driver(services: "Controller", plan: Plan, live: LivePlan, there: dict[str, str]) -> list[str]:
+    """What is wrong with the tasks."""
+    if plan.wanted is None:
+        gone = [c.key.partition(" ")[2] for c in plan.cfg if c.action == "remove"]
+        names = [n for n in gone if n.casefold() in there and n in live.owned]
+        return [f"task {name} is still there" for name in names]
+    faults = []
+    for name in dict.fromkeys(t for f in plan.wanted.files for t in f.tasks):
+        task = there.get(name.casefold())
+        if task is None:
+            faults.append(f"task {name} is not there")
+            continue
+        wrong = services.build_errors(task)
+        faults += [f"{task}: {e.module} line {e.row}: {e.text}" for e in wrong]
+        build = build_in(services, task, live.symbols.get(name, ()))
+        if not wrong and build != plan.wanted.build_id:
+            faults.append(f"{task} runs build {build or '(none)'}, not {plan.wanted.build_id}")
+    return faults
+
+
+def _events(services: "Controller", last: int) -> tuple[LogEvent, ...]:
+    """Errors since the restart; where numbers began anew, all that there are."""
+    newest = max((event.number for event in services.log(count=1)), default=0)
+    events = services.log(after=last if newest >= last else 0)
+    return tuple(event for event in events if event.type == "error")
+
+
+def _ports(plan: Plan, proof: ReadBack) -> list[str]:
+    """State ports that do not tell our BUILD_ID."""
+    if proof.hello is None or plan.wanted is None:
+        return []
+    faults = []
+    groups = members(plan.wanted.generated.get("groups") or {})
+    end = time.monotonic() + proof.patience
+    for name, group in groups.items():
+        port = members(members(group).get("ports") or {}).get("state")
+        if port is None:
+            continue
+        where = f"{name} state {proof.host}:{whole(port)}"
+        told = _told(proof, whole(port), end)
+        if told is None:
+            faults.append(f"nobody serves {where}: is a firewall between, or `sim --ports auto`?")
+        elif told != plan.wanted.build_id:
+            faults.append(f"{where} serves {told or 'something else'}")
+    return faults
+
+
+def _told(proof: ReadBack, port: int, end: float) -> str | None:
+    """BUILD_ID of what answers, '' for another program; None: nobody does."""
+    assert proof.hello is not None
+    while True:
+        try:
+            return proof.hello(proof.host, port) or ""
+        except OSError:
+            if time.monotonic() >= end:
+                return None
+        time.sleep(_LOOK)

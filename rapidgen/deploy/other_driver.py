@@ -1,0 +1,209 @@
+"""Another driver on the same controller: which cfg instances have to go before ours is loaded.
+
+abb_driver's modules have names of ours (ROS_common, ROS_socket, ROS_messages, ROS_motion, ...),
+and three of them are loaded into every task [backup 6.06 with abb_driver: `-AllTask`]. Which of two
+modules of one name a task gets nobody has told; that both give it their data is 40160 and a task
+that does not run [VC 6.15]. The same is true of a driver that was copied there by hand. Its files
+are never touched.
+"""
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from rapidgen.deploy.cfg import Keyed, attributes_text, keyed, name_of, shown_key
+from rapidgen.deploy.driver_set import STATE
+from rapidgen.deploy.transports.transport import Transport, TransportFault, read_or_none, safe
+from rapidgen.system import CfgText, Instance, Section
+
+MODULE = re.compile(rb"^\s*MODULE\s+([A-Za-z]\w*)", re.I | re.M)
+_PROC = re.compile(rb"^\s*(?:LOCAL\s+)?PROC\s+([A-Za-z]\w*)", re.I | re.M)
+_OLD = re.compile(r"ROS_(common|socket|messages|motion|motionServer|stateServer)(_\w+)?", re.I)
+"""Modules of abb_driver; with two arms they carry suffixes [backup 6.06]."""
+_ENDINGS = ("mod", "sys", "modx", "sysx", "prg")
+
+
+@dataclass(frozen=True, slots=True)
+class Loaded:
+    """One instance of the other driver."""
+
+    domain: str
+    section: str
+    instance: Instance
+
+    @property
+    def shown(self) -> str:
+        """As plans name it, with who loads it where that is not one task."""
+        every = [a for a in self.instance.attributes if a.name.casefold().startswith("all")]
+        name = shown_key(self.section, self.instance)
+        return f"{self.section} {name} {attributes_text(every)}".strip()
+
+
+@dataclass(frozen=True, slots=True)
+class Neighbour:
+    """Another driver. Without `instances` only its files are seen: what is loaded is not."""
+
+    instances: tuple[Loaded, ...]
+    files: tuple[str, ...]
+    """Paths in HOME."""
+
+    def texts(self, present: Sequence[CfgText]) -> tuple[CfgText, ...]:
+        """cfg files that, loaded, bring the other driver's instances back."""
+        found = []
+        for text in present:
+            mine = [n for n in self.instances if n.domain == text.domain]
+            names = list(dict.fromkeys(n.section for n in mine))
+            sections = tuple(
+                Section(name, tuple(n.instance for n in mine if n.section == name))
+                for name in names
+            )
+            if sections:
+                found.append(replace(text, sections=sections))
+        return tuple(found)
+
+
+@dataclass(frozen=True, slots=True)
+class Beside:
+    """What is ours: module names with their tasks, cfg instances, and paths in HOME."""
+
+    modules: dict[str, frozenset[str]]
+    instances: frozenset[str]
+    paths: frozenset[str]
+    tasks: frozenset[str] = frozenset()
+    """Background tasks that no deployment has brought yet, without case: one that is there with a
+    module of its own is somebody else's."""
+
+
+def find_neighbour(
+    transport: Transport, home: str, present: Sequence[CfgText], mine: Beside
+) -> Neighbour | None:
+    """The other driver, if there is one. `present` is empty where loaded cfg is not seen.
+
+    Raises TransportFault.
+    """
+    if not present:
+        lying = _files(transport, home, mine)
+        return Neighbour((), lying) if lying else None
+    there = {k: i for k, i in keyed(present).items() if name_of(k) not in mine.instances}
+    rows = [i for k, i in there.items() if k[1] == "CAB_TASK_MODULES"]
+    sources = {i.text("File"): _source(transport, home, i.text("File")) for i in rows}
+    out = [i for i in rows if _is_other(i, sources[i.text("File")], mine)]
+    if not out:
+        return None
+    tasks = _tasks(there, rows, out)
+    routines = {
+        name.decode("latin-1").casefold()
+        for row in out
+        for name in _PROC.findall(sources[row.text("File")] or b"")
+    }
+    instances = [
+        Loaded(domain, section, instance)
+        for (domain, section, _), instance in there.items()
+        if (section == "CAB_TASK_MODULES" and instance in out)
+        or (section == "CAB_TASKS" and instance.text("Name").casefold() in tasks)
+        or (
+            section == "CAB_EXEC_HOOKS"
+            and (
+                instance.text("Task").casefold() in tasks
+                or instance.text("Routine").casefold() in routines
+            )
+        )
+    ]
+    files = [_path(row.text("File")) for row in out if sources[row.text("File")] is not None]
+    return Neighbour(tuple(instances), tuple(dict.fromkeys(files)))
+
+
+def in_memory(transport: Transport, modules: dict[str, frozenset[str]]) -> tuple[str, ...]:
+    """Modules with names of ours that a backup holds as its programs: RAPID/TASKn/PROGMOD, SYSMOD.
+
+    They were in the tasks' memory when it was made [backup 6.06], and are what it restores, not
+    the files in HOME. Raises TransportFault.
+    """
+    found = []
+    for folder in _folders(transport, "", "rapid"):
+        for task in _folders(transport, folder, "task"):
+            for kind in _folders(transport, task, ""):
+                for entry in transport.entries(kind):
+                    stem = entry.name.rpartition(".")[0].casefold()
+                    if stem in modules and entry.folder is not True:
+                        found.append(f"{kind}/{entry.name}")
+    return tuple(found)
+
+
+def _folders(transport: Transport, place: str, beginning: str) -> list[str]:
+    return [
+        f"{place}/{entry.name}".lstrip("/")
+        for entry in transport.entries(place)
+        if entry.folder is not False and entry.name.casefold().startswith(beginning)
+    ]
+
+
+def _is_other(row: Instance, source: bytes | None, mine: Beside) -> bool:
+    """Whether a row of CAB_TASK_MODULES loads abb_driver, a name of ours into a task of ours, or
+    anything into a task that has only its name from us."""
+    found = MODULE.search(source or b"")
+    stem = row.text("File").replace("\\", "/").rpartition("/")[2].rpartition(".")[0]
+    name = found[1].decode("latin-1") if found else row.text("ModName") or stem
+    if _OLD.fullmatch(name) or _OLD.fullmatch(stem):
+        return True
+    if row.text("Task").casefold() in mine.tasks:
+        return True
+    tasks = mine.modules.get(name.casefold(), frozenset())
+    return bool(tasks) and (not row.text("Task") or row.text("Task").casefold() in tasks)
+
+
+def _tasks(there: Keyed, rows: list[Instance], out: list[Instance]) -> frozenset[str]:
+    """Background tasks into which nothing else is loaded by name."""
+    kept = {r.text("Task").casefold() for r in rows if r not in out}
+    gone = {r.text("Task").casefold() for r in out} - kept - {""}
+    motion = {
+        i.text("Name").casefold()
+        for k, i in there.items()
+        if k[1] == "CAB_TASKS" and i.flag("MotionTask")
+    }
+    return frozenset(gone - motion)
+
+
+def _files(transport: Transport, home: str, mine: Beside) -> tuple[str, ...]:
+    """Modules in HOME and its folders that are not ours and have a name of ours or abb_driver's.
+
+    Its page says HOME:/ROS; nothing keeps them from lying elsewhere.
+    """
+    found = []
+    top = transport.entries(home.rstrip("/"))
+    folders = [e.name for e in top if e.folder or (e.folder is None and "." not in e.name)]
+    for folder in ("", *(name for name in folders if name != STATE)):
+        for name in _names(transport, home + folder) if folder else (e.name for e in top):
+            path = f"{folder}/{name}".lstrip("/")
+            stem, _, suffix = name.rpartition(".")
+            if suffix.casefold() not in _ENDINGS or path in mine.paths:
+                continue
+            if stem.casefold() in mine.modules or _OLD.fullmatch(stem):
+                found.append(path)
+    return tuple(found)
+
+
+def _names(transport: Transport, folder: str) -> tuple[str, ...]:
+    """Names in what may be a folder: not every server tells."""
+    try:
+        return tuple(entry.name for entry in transport.entries(folder))
+    except TransportFault as fault:
+        if fault.kind in ("lost", "garbled"):
+            raise
+        return ()
+
+
+def _source(transport: Transport, home: str, file: str) -> bytes | None:
+    """The module's text, where it lies in HOME and can be read."""
+    path = _path(file)
+    try:
+        return read_or_none(transport, home + safe(path)) if path else None
+    except TransportFault as fault:
+        if fault.kind in ("lost", "garbled"):
+            raise
+        return None
+
+
+def _path(file: str) -> str:
+    head, _, rest = file.replace("\\", "/").partition(":")
+    return rest.strip("/") if head.casefold() == "home" else ""

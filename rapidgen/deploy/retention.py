@@ -1,0 +1,151 @@
+"""What a run keeps for later: backups, strangers' files, the manifest; and what it throws away."""
+
+from dataclasses import replace
+from datetime import datetime, timezone
+
+from rapidgen import __version__
+from rapidgen._json import Members
+from rapidgen.deploy.cfg import keyed, remember
+from rapidgen.deploy.driver_set import DriverSet, SetFile, digest
+from rapidgen.deploy.file_operations import Work, delete, delete_folder, names, write
+from rapidgen.deploy.plan import Plan
+from rapidgen.deploy.state_folder import (
+    KEPT,
+    FileRecord,
+    Manifest,
+    Past,
+    encode,
+    manifest_json,
+    read_backup,
+)
+from rapidgen.deploy.transports.transport import Transport, parent, read_or_none
+
+
+def back_up(work: Work, number: int) -> None:
+    """Strangers' files for `uninstall`, and the whole set as it lies there, edits included."""
+    plan, had = work.plan, work.plan.had
+    if plan.wanted is None:
+        return
+    for record, data in strangers(plan):
+        work.say(f"keeping a copy of {record.path}")
+        write(work, f"{work.folder}/backup/{record.stored}", data)
+    if had is None:
+        return
+    folder = f"{work.folder}/backup/{number}"
+    work.say(f"backup {number}")
+    by_path = {c.path: c.before for c in plan.changes if c.kind != "syspar"}
+    records = []
+    for index, record in enumerate(had.files):
+        if record.path in by_path:
+            found = by_path[record.path]
+        else:
+            found = read_or_none(work.transport, work.home + record.path)
+        if found is not None:
+            name = f"{index}.bin"
+            write(work, f"{folder}/{name}", found)
+            records.append(replace(record, sha256=digest(found), size=len(found), stored=name))
+    kept = replace(had, files=tuple(records), history=())
+    write(work, f"{folder}/backup.json", encode(manifest_json(kept)))
+
+
+def strangers(plan: Plan) -> list[tuple[FileRecord, bytes]]:
+    """Files that are not ours and are about to be replaced, or taken over because they are equal,
+    and cfg files before our first instance."""
+    count = plan.copies
+    found: list[tuple[FileRecord, bytes]] = []
+    for change in plan.changes:
+        if change.foreign and change.before is not None:
+            kept = plan.origin.get(change.path)
+            if kept is not None and kept.sha256 == digest(change.before):
+                continue  # it came back once, and nobody has changed it since
+            record = FileRecord(
+                change.path,
+                digest(change.before),
+                len(change.before),
+                change.kind,
+                stored=f"origin/{count + len(found)}.bin",
+            )
+            found.append((record, change.before))
+    return found
+
+
+def new_manifest(plan: Plan, wanted: DriverSet, number: int) -> Manifest:
+    """The manifest that stands when the run is done."""
+    had = plan.had
+    files = tuple(FileRecord(f.path, f.sha256, len(f.data), f.kind, f.tasks) for f in wanted.files)
+    history = had.history if had else ()
+    undone = plan.repair and had is not None and had.files == files
+    if had is not None and not undone:
+        history = (*history, Past(number, had.time, had.name, had.build_id))[-KEPT:]
+    origin = {**plan.origin, **{record.path: record for record, _ in strangers(plan)}}
+    before: Members = dict(plan.cfg_before)
+    if plan.cfg_present:
+        before = remember(keyed(wanted.cfg), keyed(plan.cfg_present), before, plan.cfg_ours)
+    return Manifest(
+        number,
+        now(),
+        wanted.name,
+        wanted.build_id,
+        wanted.robotware,
+        files,
+        tuple(origin.values()),
+        history,
+        before,
+        {"written_by": __version__, **wanted.generated},
+    )
+
+
+def backup_set(transport: Transport, home: str, number: int) -> DriverSet:
+    """The set that backup `number` keeps. Raises DiagnosticError RG528."""
+    manifest, files = read_backup(transport, home, number)
+    return DriverSet(
+        manifest.name,
+        manifest.build_id,
+        manifest.robotware,
+        tuple(
+            SetFile(r.path, files[r.path], "cfg" if r.kind == "cfg" else "module", r.tasks)
+            for r in manifest.files
+        ),
+        manifest.generated,
+    )
+
+
+def delete_backups(work: Work, *, keep: frozenset[str]) -> None:
+    """All backups but those named."""
+    folder = f"{work.folder}/backup"
+    for name in sorted(names(work.transport, folder) - keep):
+        delete_backup(work, name)
+    if not keep:
+        delete_folder(work, folder)
+
+
+def delete_backup(work: Work, name: str) -> None:
+    """One backup; `backup.json` first, without which the rest counts as none."""
+    folder = f"{work.folder}/backup/{name}"
+    for member in sorted(names(work.transport, folder), key=lambda n: n != "backup.json"):
+        delete(work, f"{folder}/{member}")
+    delete_folder(work, folder)
+
+
+def delete_empty_folders(work: Work) -> None:
+    """Folders of removed files that are empty now, the deepest first; never HOME or SYSPAR.
+
+    A run that was cut may have removed the files already: the sets before and after it know them.
+    """
+    journal = work.plan.state.journal
+    sets = [work.plan.had, *((journal.old, journal.new) if journal else ())]
+    paths = [c.where for c in work.plan.changes if c.kind != "syspar"]
+    paths += [work.home + record.path for known in filter(None, sets) for record in known.files]
+    folders: set[str] = set()
+    for path in paths:
+        place = parent(path)
+        while place and place + "/" != work.home:
+            folders.add(place)
+            place = parent(place)
+    for folder in sorted(folders, key=len, reverse=True):
+        delete_folder(work, folder)
+
+
+def now() -> str:
+    """UTC, to the second."""
+    return datetime.now(timezone.utc).strftime("%Y-%m-%dT%H:%M:%SZ")

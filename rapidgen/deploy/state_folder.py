@@ -1,0 +1,325 @@
+"""What a deployment writes down on the controller, and reads back as a stranger's words.
+
+`manifest.json` says what lies there (written last), `journal.a`/`journal.b` what is under way
+(the one not in use is written, then the other deleted, so that one is always whole), `switching`
+that old files are being replaced, and `backup/<number>/` what was there before a deployment.
+"""
+
+import json
+import re
+from collections.abc import Iterable, Mapping
+from dataclasses import asdict, dataclass, field
+
+from rapidgen._json import Json, Members, items, members, whole
+from rapidgen.deploy.cfg import instance_from
+from rapidgen.deploy.driver_set import FENCE, NEW, STATE, digest
+from rapidgen.deploy.transports.transport import Transport, TransportFault, read_or_none, safe
+from rapidgen.diagnostics import DiagnosticError, refusal
+
+FORMAT = 1
+KEPT = 5
+"""Backups that stay on the controller."""
+
+DAMAGE = (
+    ValueError,
+    KeyError,
+    TypeError,
+    AttributeError,
+    OverflowError,
+    RecursionError,
+    TransportFault,
+)
+"""What reading a damaged or hostile state file raises."""
+
+
+class LaterFormat(ValueError):
+    """A file that a later rapidgen wrote."""
+
+
+_SHA = re.compile(r"[0-9a-f]{64}")
+
+
+@dataclass(frozen=True, slots=True)
+class FileRecord:
+    """One file: its path in HOME, its hash, and the name of a copy in a backup folder."""
+
+    path: str
+    sha256: str
+    size: int = 0
+    kind: str = "module"
+    tasks: tuple[str, ...] = ()
+    stored: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Past:
+    """A set that a backup keeps: `id` is the deployment that replaced it."""
+
+    id: int
+    time: str
+    name: str
+    build_id: str
+
+
+@dataclass(frozen=True, slots=True)
+class Manifest:
+    """What the last deployment left, or what a backup keeps (with `stored` in its records)."""
+
+    id: int
+    time: str
+    name: str
+    build_id: str
+    robotware: tuple[int, int]
+    files: tuple[FileRecord, ...]
+    origin: tuple[FileRecord, ...] = ()
+    """Strangers' files that were overwritten: kept for `uninstall`."""
+    history: tuple[Past, ...] = ()
+    cfg_before: Mapping[str, Json] = field(default_factory=dict)
+    """cfg instances of SYSPAR before the first deployment: key to attributes, or null."""
+    generated: Mapping[str, Json] = field(default_factory=dict)
+
+    def record(self, path: str) -> FileRecord | None:
+        """The record of a path in HOME."""
+        return next((r for r in self.files if r.path == path), None)
+
+
+@dataclass(frozen=True, slots=True)
+class Journal:
+    """A deployment under way: enough to finish or undo it, whatever became of the manifest."""
+
+    id: int
+    attempt: int
+    verb: str
+    started: str
+    old: Manifest | None
+    new: Manifest | None
+    known: Mapping[str, tuple[str, ...]]
+    """Hashes by path that this or an earlier attempt found or put there."""
+    staged: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class StateFolder:
+    """All that the state folder says."""
+
+    manifest: Manifest | None = None
+    journal: Journal | None = None
+    journal_file: str = ""
+    switching: bool = False
+    damaged: str = ""
+    """Why manifest.json cannot be used, if so."""
+    later: bool = False
+    """It is not damaged, but of a later format."""
+    digest: str = ""
+    present: bool = False
+    litter: bool = False
+    """Files of a run that was cut while it tried out what rename does."""
+
+    def carried(self, had: Manifest | None, *, repair: bool) -> str:
+        """Name of the robot whose driver lies there, if only in part (`repair`); '' for none."""
+        half = self.journal.new if repair and self.journal is not None else None
+        return next((m.name for m in (had, half) if m is not None), "")
+
+
+def read_state(transport: Transport, home: str) -> StateFolder:
+    """State folder of the HOME with this prefix ('' or 'HOME/')."""
+    folder = home + STATE
+    try:
+        names = {e.name for e in transport.entries(folder)}
+    except TransportFault as fault:
+        if fault.kind != "missing":
+            raise
+        return StateFolder(digest=digest(b""))
+    raw = read_or_none(transport, f"{folder}/manifest.json") if "manifest.json" in names else None
+    manifest, damaged, later = None, "", False
+    if raw is not None:
+        try:
+            manifest = manifest_from(json.loads(raw))
+        except LaterFormat:
+            later, damaged = (
+                True,
+                "a later rapidgen wrote the manifest on the controller: use that one",
+            )
+        except DAMAGE as cause:
+            damaged = f"manifest.json on the controller is damaged ({type(cause).__name__})"
+    journals: list[tuple[int, str, Journal, bytes]] = []
+    for name in sorted(names & {"journal.a", "journal.b"}):
+        text = read_or_none(transport, f"{folder}/{name}") or b""
+        try:
+            journal = journal_from(json.loads(text))
+        except DAMAGE:
+            # Cut while it was written: then nothing that it announces was done.
+            continue
+        journals.append((journal.attempt, name, journal, text))
+    switching = "switching" in names
+    latest = max(journals, key=lambda j: j[0]) if journals else None
+    litter = bool(names & {"probe.one", "probe.two"})
+    seen = (raw or b"") + (latest[3] if latest else b"") + (b"switching" if switching else b"")
+    if latest is None:
+        return StateFolder(
+            manifest, None, "", switching, damaged, later, digest(seen), True, litter
+        )
+    return StateFolder(
+        manifest, latest[2], latest[1], switching, damaged, later, digest(seen), True, litter
+    )
+
+
+def manifest_json(manifest: Manifest) -> Members:
+    """As it stands on the controller."""
+    return {
+        "format": FORMAT,
+        **asdict(manifest),
+        "files": [_record_json(r) for r in manifest.files],
+        "origin": [_record_json(r) for r in manifest.origin],
+    }
+
+
+def manifest_from(read: Json) -> Manifest:
+    """Raises one of DAMAGE for anything unexpected."""
+    data = members(read)
+    if whole(data["format"]) != FORMAT:
+        raise LaterFormat
+    first, second = items(data["robotware"])
+    return Manifest(
+        whole(data["id"]),
+        _text(data["time"]),
+        _text(data["name"]),
+        _text(data["build_id"]),
+        (whole(first), whole(second)),
+        tuple(_record(r) for r in items(data["files"])),
+        tuple(_record(r) for r in items(data["origin"])),
+        tuple(
+            Past(whole(p["id"]), _text(p["time"]), _text(p["name"]), _text(p["build_id"]))
+            for p in map(members, items(data["history"]))
+        ),
+        _instances(data["cfg_before"]),
+        members(data["generated"]),
+    )
+
+
+def _instances(read: Json) -> Members:
+    """What was there before the first deployment: instances, or null for those that were not."""
+    found = members(read)
+    for old in found.values():
+        if old is not None:
+            instance_from(old)
+    return found
+
+
+def journal_json(journal: Journal) -> Members:
+    """As it stands on the controller."""
+    return {
+        "format": FORMAT,
+        **asdict(journal),
+        "old": manifest_json(journal.old) if journal.old else None,
+        "new": manifest_json(journal.new) if journal.new else None,
+    }
+
+
+def journal_from(read: Json) -> Journal:
+    """Raises one of DAMAGE for anything unexpected."""
+    data = members(read)
+    if data["format"] != FORMAT:
+        raise ValueError("a later format")
+    return Journal(
+        whole(data["id"]),
+        whole(data["attempt"]),
+        _text(data["verb"]),
+        _text(data["started"]),
+        manifest_from(data["old"]) if data["old"] is not None else None,
+        manifest_from(data["new"]) if data["new"] is not None else None,
+        {
+            safe(path): tuple(_sha(h) for h in items(hashes))
+            for path, hashes in members(data["known"]).items()
+        },
+        tuple(_staged(path) for path in items(data["staged"])),
+    )
+
+
+def encode(data: Members) -> bytes:
+    """JSON as it is stored: stable, readable, ASCII."""
+    return (json.dumps(data, indent=1, sort_keys=False) + "\n").encode("ascii")
+
+
+def read_backup(transport: Transport, home: str, number: int) -> tuple[Manifest, dict[str, bytes]]:
+    """A backup: its manifest and its files by path in HOME, checked against their hashes.
+
+    Raises DiagnosticError RG528 when it is not there or not whole.
+    """
+    folder = f"{home}{STATE}/backup/{number}"
+    raw = read_or_none(transport, f"{folder}/backup.json")
+    if raw is None:
+        raise _no_backup(f"there is no backup {number} on the controller")
+    try:
+        manifest = manifest_from(json.loads(raw))
+    except DAMAGE as fault:
+        raise _no_backup(f"backup {number} is damaged: {fault!r}") from None
+    files = {}
+    for record in manifest.files:
+        data = read_or_none(transport, f"{folder}/{safe(record.stored)}")
+        if data is None or digest(data) != record.sha256:
+            raise _no_backup(f"backup {number} is damaged: {record.path}")
+        files[record.path] = data
+    return manifest, files
+
+
+def read_kept(transport: Transport, home: str, record: FileRecord) -> bytes | None:
+    """The copy of a stranger's file, damaged or not; None when it is gone."""
+    return read_or_none(transport, f"{home}{STATE}/backup/{record.stored}")
+
+
+def next_copy(kept: Iterable[FileRecord]) -> int:
+    """Number of the next copy of a stranger's file: above those that are kept."""
+    stems = [r.stored.rpartition("/")[2].partition(".")[0] for r in kept]
+    return 1 + max((int(stem) for stem in stems if stem.isdecimal()), default=-1)
+
+
+def _no_backup(message: str) -> DiagnosticError:
+    return refusal(
+        "RG528", None, message, "`rapidgen rollback --list` shows which there are", exit_code=1
+    )
+
+
+def _record_json(record: FileRecord) -> Members:
+    data: Members = {
+        "path": record.path,
+        "sha256": record.sha256,
+        "size": record.size,
+        "kind": record.kind,
+        "task": list(record.tasks),
+    }
+    if record.stored:
+        data["stored"] = record.stored
+    return data
+
+
+def _record(read: Json) -> FileRecord:
+    data = members(read)
+    return FileRecord(
+        safe(_text(data["path"])),
+        _sha(data["sha256"]),
+        whole(data["size"]),
+        _text(data["kind"]),
+        tuple(_text(t) for t in items(data["task"])),
+        safe(_text(data["stored"])) if "stored" in data else "",
+    )
+
+
+def _staged(value: object) -> str:
+    """Only such names are ever deleted on a journal's word."""
+    path = safe(_text(value))
+    if not path.endswith((NEW, FENCE)):
+        raise ValueError("not a staged file")
+    return path
+
+
+def _sha(value: object) -> str:
+    if not isinstance(value, str) or not _SHA.fullmatch(value):
+        raise ValueError("not a sha256")
+    return value
+
+
+def _text(value: object) -> str:
+    if not isinstance(value, str) or len(value) > 500:
+        raise ValueError("not a short text")
+    return value

@@ -1,0 +1,201 @@
+"""What is said about wrong text: one function a diagnostic, and the parser's own exceptions."""
+
+from collections.abc import Sequence
+from typing import Final
+
+from rapidgen.diagnostics import Diagnostic, Label, Span, error
+from rapidgen.rapid.syntax import lexer
+from rapidgen.rapid.syntax.foreign_syntax import habit, second_if
+from rapidgen.rapid.syntax.source import Source
+
+_LOOKED_BACK: Final = 2_000
+"""Tokens in which an ELSE IF is looked for: texts may be long, and errors many."""
+Block = tuple[str, int]
+"""Keyword of an open block and the index of its token."""
+
+CLOSER: Final = {
+    "MODULE": "ENDMODULE",
+    "RECORD": "ENDRECORD",
+    "PROC": "ENDPROC",
+    "FUNC": "ENDFUNC",
+    "TRAP": "ENDTRAP",
+    "IF": "ENDIF",
+    "FOR": "ENDFOR",
+    "WHILE": "ENDWHILE",
+    "TEST": "ENDTEST",
+}
+
+_LEXICAL: Final = {
+    lexer.BAD_CHARACTER: ("RG204", "this character has no meaning in RAPID", ""),
+    lexer.BAD_NAME: (
+        "RG204",
+        "a name may only have letters of Latin-1",
+        "rename it with letters A to Z, accented Latin letters, digits and _",
+    ),
+    lexer.BAD_NUMBER: (
+        "RG205",
+        "this is not a number",
+        "numbers look like 3, 38., .27 or 2.5E-3, and a blank ends them",
+    ),
+    lexer.BAD_RADIX: (
+        "RG205",
+        "numbers with a prefix 0x, 0o or 0b are younger than this RobotWare",
+        "write the value in decimal, or check with --robotware 6 or later",
+    ),
+    lexer.BAD_ESCAPE: (
+        "RG206",
+        "a backslash in a string starts a code of two hexadecimal digits",
+        "write \\\\ for a backslash, and \\0A for a line feed",
+    ),
+    lexer.UNTERMINATED: (
+        "RG207",
+        "the closing quote is missing on this line",
+        'a string ends on its own line; write "" for a quote inside it',
+    ),
+}
+
+
+class SyntaxFault(Exception):
+    """What the parser raises at a token that it cannot use; caught by the nearest list."""
+
+    def __init__(self, at: int, expected: str, help: str = "") -> None:
+        super().__init__(expected)
+        self.at = at
+        self.expected = expected
+        self.help = help
+        self.reported = False
+
+
+class GivenUp(Exception):
+    """Ends the parse of a text that is beyond the limits, or too wrong to go on."""
+
+    def __init__(self, diagnostic: Diagnostic) -> None:
+        super().__init__(diagnostic.message)
+        self.diagnostic = diagnostic
+
+
+def place(source: Source, at: int) -> Span:
+    """Place of token `at`, or of the end of the text behind the last token."""
+    if at < len(source.tokens):
+        return source.span(at, at)
+    line, column = source.position(len(source.text))
+    return Span(source.path, line, column)
+
+
+def met(source: Source, kinds: Sequence[str], at: int) -> str:
+    """How a token is called in a message."""
+    if at >= len(source.tokens):
+        return lexer.EOF
+    text = source.tokens[at]
+    shown = text if len(text) <= 40 else text[:37] + "..."
+    return f"'{shown}'" if len(text) > 1 or text.isascii() else f"'{shown}' (U+{ord(text):04X})"
+
+
+def still_open(source: Source, blocks: Sequence[Block]) -> tuple[tuple[Label, ...], str]:
+    """A label at the innermost open block, and a note that lists the open ones."""
+    if not blocks:
+        return (), ""
+    keyword, at = blocks[-1]
+    labels = (Label(source.span(at, at), f"this {keyword} is still open"),)
+    inner = list(reversed(blocks))
+    listed = ", ".join(f"{k} (line {source.line(i)})" for k, i in inner[:5])
+    return labels, f"open here: {listed}" + (", ..." if len(inner) > 5 else "")
+
+
+def unexpected(
+    source: Source,
+    kinds: Sequence[str],
+    at: int,
+    expected: str,
+    blocks: Sequence[Block],
+    help: str = "",
+) -> Diagnostic:
+    """Token `at` does not fit: what was met, what was expected, and what is open."""
+    span = place(source, at)
+    lexical = _LEXICAL.get(kinds[at])
+    if lexical:
+        code, message, mend = lexical
+        mend = mend or habit(source, at)
+        return error(code, span, f"{message}: {met(source, kinds, at)}", mend)
+    related, note = still_open(source, blocks)
+    return error(
+        "RG201",
+        span,
+        f"met {met(source, kinds, at)}, expected {expected}",
+        help or _mend(source, kinds, at, expected),
+        label=f"expected {expected}",
+        notes=(note,) if note else (),
+        related=related,
+    )
+
+
+def _mend(source: Source, kinds: Sequence[str], at: int, expected: str) -> str:
+    if kinds[at] == "=" and "':='" in expected:
+        return "write `:=` where a value is given; `=` compares"
+    meant = habit(source, at)
+    if meant:
+        return meant
+    begins = kinds[at] in (lexer.NAME, lexer.NUMBER, lexer.STRING, "[")
+    if begins and "','" in expected and source.line(at) == source.line(at - 1):
+        return f"a ',' stands between two arguments: perhaps before {met(source, kinds, at)}"
+    if "';'" in expected:
+        return "a statement or declaration ends with ';': perhaps the one before has none"
+    if kinds[at] == lexer.EOF:
+        return f"write {expected} here"
+    return f"write {expected} here, or take out what stands here"
+
+
+def unclosed(
+    source: Source, kinds: Sequence[str], at: int, blocks: Sequence[Block], missing: int
+) -> Diagnostic:
+    """Token `at` closes an outer block while `missing` inner ones are open."""
+    inner = blocks[len(blocks) - missing :]
+    closers = " and ".join(CLOSER[keyword] for keyword, _ in reversed(inner[-3:]))
+    related, note = still_open(source, blocks)
+    split = any(second_if(source, i) for i in range(max(inner[0][1], at - _LOOKED_BACK), at))
+    return error(
+        "RG202",
+        place(source, at),
+        f"met {met(source, kinds, at)}, but {closers} is missing before it",
+        f"add {closers} before this place"
+        + ("; ELSE IF begins a second IF, ELSEIF is one word" if split else ""),
+        label=f"expected {CLOSER[inner[-1][0]]}",
+        notes=(note,),
+        related=related,
+    )
+
+
+def too_many(last: Diagnostic, limit: int) -> Diagnostic:
+    """Says that the rest of a text was not looked at."""
+    return error(
+        "RG214",
+        last.span,
+        f"more than {limit} errors: the rest of the text was not read",
+        "mend the first ones and check again",
+    )
+
+
+def stray(
+    source: Source,
+    kinds: Sequence[str],
+    at: int,
+    expected: str,
+    blocks: Sequence[Block],
+    suspect: int,
+) -> Diagnostic:
+    """Token `at` ends or divides a block that is not open.
+
+    `suspect` is a compact IF behind whose condition a THEN may be missing, or -1.
+    """
+    related, note = still_open(source, blocks)
+    if suspect >= 0:
+        related = (Label(source.span(suspect, suspect), "is THEN missing behind this condition?"),)
+    return error(
+        "RG203",
+        place(source, at),
+        f"met {met(source, kinds, at)}, but no block that it belongs to is open here",
+        "remove it, or add the statement that opens its block",
+        label=f"expected {expected}",
+        notes=(note,) if note else (),
+        related=related,
+    )

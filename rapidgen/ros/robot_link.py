@@ -1,0 +1,224 @@
+"""The link to one motion group: up before the robot, saying why it waits, back when it is.
+
+One `RobotLink` runs on one asyncio loop. What it sees goes to a `Public`, which publishes it.
+"""
+
+import asyncio
+from collections.abc import Callable, Sequence
+from contextlib import suppress
+from typing import Protocol
+
+from rapidgen.client.aio import AsyncRobot
+from rapidgen.client.core.state import State
+from rapidgen.client.errors import NotReady, RequestRefused, RobotError
+from rapidgen.client.program import Argument, Left
+from rapidgen.ros.goal_execution import Follower, GoalFeedback, Policy, UnderWay, reason
+from rapidgen.ros.goals import Code, Ending, Goal, Outcome
+from rapidgen.ros.status_messages import (
+    Health,
+    JointStates,
+    RobotStatus,
+    health,
+    no_link,
+    robot_status,
+    unknown_status,
+)
+from rapidgen.ros.time_stamps import Stamps
+from rapidgen.wire.simple_message.spec import Feature, Reason
+
+AGAIN = 1.0
+"""s between two tries to reach the robot."""
+
+
+class Public(Protocol):
+    """Takes what is to be published, on the link's loop."""
+
+    def joint_states(self, states: JointStates) -> None:
+        """A new sample of the joints; never the same one twice."""
+
+    def status(self, status: RobotStatus, health: Health) -> None:
+        """Whenever the joints are told, and each second without a link."""
+
+    def note(self, text: str) -> None:
+        """For the log: a change of the link, or what was done with a goal."""
+
+
+class RobotLink:
+    """One motion group of a robot as the door sees it."""
+
+    def __init__(
+        self,
+        make: Callable[[], AsyncRobot],
+        policy: Policy,
+        now: Callable[[], float],
+        public: Public,
+        *,
+        is_clock: bool = False,
+    ) -> None:
+        """`make` gives a robot that is not connected; `now` is s of ROS time, which with
+        `is_clock` is only where the controller's own begins."""
+        self._make = make
+        self._policy = policy
+        self._machine = now
+        self._is_clock = is_clock
+        self._public = public
+        self._stamps = Stamps(is_clock=is_clock)
+        self._robot: AsyncRobot | None = None
+        self._follower: Follower | None = None
+        self._why = "not connected yet"
+        self._paused_at: tuple[float, ...] | None = None
+
+    @property
+    def is_up(self) -> bool:
+        """Whether the robot can be asked for something."""
+        return self._follower is not None
+
+    def now(self) -> float:
+        """s of ROS time."""
+        if self._is_clock and self._stamps.last:
+            return self._stamps.last * 1e-9
+        return self._machine()
+
+    async def run(self) -> None:
+        """Hold the link until this is cancelled; what moves then is stopped first."""
+        while True:
+            robot = self._make()
+            try:
+                async with robot:
+                    self._came(robot)
+                    await self._publish(robot)
+            except RobotError as error:
+                self._lost(robot, reason(error))
+            finally:
+                self._robot = self._follower = None
+            await asyncio.sleep(AGAIN)
+
+    def _came(self, robot: AsyncRobot) -> None:
+        self._robot = robot
+        self._follower = Follower(robot, self._policy, self.now, self._public.note)
+        self._why = ""
+        self._public.note(f"connected to {robot.address}")
+
+    def _lost(self, robot: AsyncRobot, why: str) -> None:
+        # Said once, however often it is tried.
+        if why != self._why:
+            self._why = why
+            self._public.note(f"no link to the robot at {robot.address}: {why}")
+        self._public.status(unknown_status(), no_link(why, str(robot.address)))
+
+    async def _publish(self, robot: AsyncRobot) -> None:
+        """Each sample once, until the link is lost: then the last one is not told again."""
+        measures = Feature.FEEDBACK in robot.driver.features
+        while True:
+            if measures:
+                fed = await robot.next_feedback()
+                moment, joints, velocity = fed.time, fed.joints, fed.velocity
+                state = robot.state
+            else:
+                state = await robot.next_state()
+                moment, joints, velocity = state.time, state.joints, state.velocity
+            stamp = self._stamps.stamp(moment, self._machine())
+            self._public.joint_states(JointStates(stamp, robot.group.names, joints, velocity))
+            told = health(state, robot.driver, str(robot.address))
+            self._public.status(robot_status(state.status), told)
+
+    # What others ask for
+
+    async def follow(
+        self, goal: Goal, tell: Callable[[GoalFeedback], None], under: UnderWay
+    ) -> Outcome:
+        """Carry out a goal; without a link it is aborted with the reason."""
+        follower = self._follower
+        if follower is None:
+            text = f"no link to the robot: {self._why}"
+            return Outcome(Ending.ABORTED, Code.INVALID_GOAL, text)
+        self._paused_at = None
+        return await follower.follow(goal, tell, under)
+
+    async def stop(self) -> State | None:
+        """Stop the robot, whoever moved it; goals that wait end, too. Raises RobotError."""
+        robot = self._there()
+        if self._follower is not None:
+            self._follower.call_off()
+        return await robot.stop()
+
+    async def pause(self) -> None:
+        """Hold what moves on its path. Raises RobotError."""
+        robot = self._there()
+        await robot.pause()
+        stood = await robot.wait_until(lambda state: not state.is_moving, 10.0)
+        self._paused_at = stood.joints
+
+    async def resume(self) -> None:
+        """Go on behind a pause, where the robot still stands as it was left. Raises RobotError."""
+        robot = self._there()
+        if self._paused_at is None:
+            raise RequestRefused.because("RG625", "nothing was paused here", "send a goal")
+        moved = max(abs(a - b) for a, b in zip(robot.state.joints, self._paused_at, strict=True))
+        if moved > robot.group.policy.start_tolerance:
+            raise NotReady.because(
+                "RG621",
+                f"the robot was moved by {moved:.4f} (rad, m) since it was paused",
+                "stop, and plan again from where it stands",
+            )
+        await robot.resume()
+        self._paused_at = None
+
+    @property
+    def speed(self) -> float:
+        """% of the programmed speed that was last asked for. Raises NotReady."""
+        return self._there().override * 100
+
+    async def set_speed(self, percent: float) -> None:
+        """Go at 1 to 100 % of the programmed speed. Raises RobotError, ValueError."""
+        await self._there().set_speed(percent)
+
+    async def read_signal(self, name: str) -> float:
+        """A signal that the configuration exposes. Raises RobotError."""
+        return await self._there().read_signal(name)
+
+    async def write_signal(self, name: str, value: float) -> float:
+        """Set a signal; the value as it was read then. Raises RobotError."""
+        return await self._there().write_signal(name, value)
+
+    async def call(self, routine: str, arguments: Sequence[Argument]) -> tuple[Left, ...]:
+        """Call a routine of the controller's program; what it gave back. Raises RobotError."""
+        robot = self._there()
+        if self._follower is not None and self._follower.is_busy:
+            raise NotReady.because(
+                "RG621", "a goal is executed", "cancel it, or wait for its end, then call"
+            )
+        self._paused_at = None
+        return await robot.call(routine, *arguments)
+
+    def _there(self) -> AsyncRobot:
+        if self._robot is None:
+            raise NotReady.because(
+                "RG621", f"no link to the robot: {self._why}", "start the driver's tasks"
+            )
+        return self._robot
+
+
+async def set_speeds(links: Sequence[RobotLink], percent: float) -> None:
+    """1 to 100 % for all groups that move; none is changed where one of them refuses, or has no
+    link. Raises RobotError, also where none moves, and ValueError."""
+    before = [link.speed for link in links]
+    changed: list[tuple[RobotLink, float]] = []
+    idle: RequestRefused | None = None
+    try:
+        for link, was in zip(links, before, strict=True):
+            try:
+                await link.set_speed(percent)
+                changed.append((link, was))
+            except RequestRefused as refused:
+                if refused.reason is not Reason.IDLE:
+                    raise
+                idle = refused
+    except (RobotError, ValueError):
+        for link, was in changed:
+            # A motion that has ended meanwhile, or a link that was lost, goes at no speed.
+            with suppress(RobotError):
+                await link.set_speed(was)
+        raise
+    if idle is not None and not changed:
+        raise idle

@@ -1,0 +1,243 @@
+"""The face without a network: a request in, an answer out, on the controller's thread.
+
+Strict is what controllers are: versions in media types (406, 415), verbs in their place (405),
+20 requests a second of RWS 1.0, 70 sessions, mastership.
+"""
+
+import secrets
+from dataclasses import replace
+from functools import partial
+
+from rapidgen.controller.runner import Cabinet
+from rapidgen.servers.rws import handlers as handlers
+from rapidgen.servers.rws.context import Accounts, Office
+from rapidgen.servers.rws.event_sources import watched
+from rapidgen.servers.rws.messages import Denied, HttpReply, Received, RwsRequest, Served
+from rapidgen.servers.rws.routing import find
+from rapidgen.servers.rws.sessions import Session, Sessions
+from rapidgen.servers.rws.subscriptions import Groups
+from rapidgen.wire.rws import login as logging_in
+from rapidgen.wire.rws.bodies import Body, Fault, Generation, Syntax, Unreadable
+from rapidgen.wire.rws.forms import FORM, read_form, split_target
+from rapidgen.wire.rws.grants import missing
+from rapidgen.wire.rws.media import CONTENT_TYPES, FILE_TYPES, WRITERS, plain, wanted
+from rapidgen.wire.rws.operations import RwsOperation
+
+SESSION, CONNECTION = "-http-session-", "ABBCX"
+"""Cookies: of the session, and of the TCP connection."""
+LARGEST_FORM = 100_000
+_REALM = 'Basic realm="Robot Web Services"'
+
+
+class Desk:
+    """Answers requests to one cabinet."""
+
+    def __init__(
+        self, cabinet: Cabinet, generation: Generation, login: Accounts, *, strict: bool = True
+    ) -> None:
+        self.office = office = Office(cabinet, generation, login, strict=strict)
+        self.generation = generation
+        # The ceiling is that of RWS 1.0 [RWS manual].
+        self.sessions = Sessions(lambda: cabinet.now, limited=strict and self.is_one)
+        self.groups = office.groups = Groups(
+            generation, lambda: cabinet.controller.scheduler, partial(watched, office)
+        )
+        office.end_session = self.sessions.end
+        office.sessions = self.sessions.all
+        self._users = login.users
+        self._strict = strict
+        self._key = secrets.randbelow(10**9) * 10**6
+        self._nonces: dict[str, None] = {}
+        self._connections: dict[str, Session] = {}
+        """Sessions by the cookie of the TCP connection."""
+        cabinet.on_restart.append(self._restarted)
+        cabinet.on_boot.append(self._booted)
+        self._booted()
+
+    @property
+    def is_one(self) -> bool:
+        """Whether RWS 1.0 is spoken."""
+        return self.generation is Generation.ONE
+
+    def session_of(self, got: Received) -> Session | None:
+        """The session that a request belongs to; None: nobody's, and it is not let in."""
+        session = self.sessions.find(_cookies(got).get(SESSION, ""))
+        if session is None and self.is_one and (user := self._user(got)) is not None:
+            # A client may show its connection's cookie and its digest [code: abb_robot_client].
+            number = _cookies(got).get(CONNECTION, "")
+            session = self._connections.get(number)
+            if session is not None and session.user != user:
+                return None
+        return session
+
+    def _booted(self) -> None:
+        """Dialogs of programs can be answered from now on."""
+        self.office.controller.operator.attach()
+
+    def _restarted(self) -> None:
+        self.groups.end_all()
+        self.sessions.end_all()
+        self.office.restarted()
+        self._nonces.clear()
+
+    # -- a request -------------------------------------------------------------------------------
+
+    def handle(self, got: Received) -> HttpReply:
+        """Answer a request."""
+        if self.sessions.is_too_fast():
+            return HttpReply(503, (("Retry-After", "1"),))
+        try:
+            path, suffix, query = split_target(got.target)
+        except Unreadable:
+            return HttpReply(400)
+        if not got.headers.get("host", "").isascii():
+            return HttpReply(400)
+        session = self.sessions.find(_cookies(got).get(SESSION, ""))
+        if session is None:
+            entered = self._enter(got)
+            if isinstance(entered, HttpReply):
+                return entered
+            session = entered
+        syntax: Syntax = "xhtml"
+        try:
+            accepted = self._syntax(got, path, dict(query))
+            syntax = accepted or "hal"
+            answer = self._carry_out(got, session, path, suffix, dict(query), accepted)
+        except Denied as refused:
+            title = "rw" if self.is_one else ""
+            fault = Fault(refused.code, refused.message)
+            answer = Served(refused.status, Body(title=title, fault=fault))
+        return self._reply(got, session, path, answer, syntax)
+
+    def _enter(self, got: Received) -> Session | HttpReply:
+        """Log in; a reply says why not."""
+        user = self._user(got)
+        if user is None:
+            return HttpReply(401, (("WWW-Authenticate", self._challenge()),))
+        return self.sessions.begin(user) or HttpReply(503, (("Retry-After", "1"),))
+
+    def _challenge(self) -> str:
+        if self.generation is not Generation.ONE:
+            return _REALM
+        nonce = secrets.token_hex(16)
+        self._nonces[nonce] = None
+        if len(self._nonces) > 1000:
+            del self._nonces[next(iter(self._nonces))]
+        return logging_in.challenge(nonce)
+
+    def _user(self, got: Received) -> str | None:
+        """Who it is, by the Authorization header; None: nobody."""
+        header = got.headers.get("authorization", "")
+        if self.generation is not Generation.ONE:
+            return logging_in.basic_user(header, self._users)
+        sent = logging_in.parse(header)
+        if sent is None or sent.nonce not in self._nonces:
+            return None
+        password = self._users.get(sent.user)
+        if password is None or not logging_in.is_right(sent, got.method, password):
+            return None
+        return sent.user
+
+    def _syntax(self, got: Received, path: str, query: dict[str, str]) -> Syntax | None:
+        """What the answer is to be written in; None: this client does not say."""
+        found = wanted(self.generation, got.headers.get("accept", ""), query)
+        if found is None and not self._strict:
+            return "hal"
+        if found is None and path == "/logout":
+            return "hal"
+        return found
+
+    def _carry_out(
+        self,
+        got: Received,
+        session: Session,
+        path: str,
+        suffix: str,
+        query: dict[str, str],
+        syntax: Syntax | None,
+    ) -> Served:
+        files = path.startswith("/fileservice")
+        if syntax is None and not (files and got.method in ("GET", "HEAD", "PUT")):
+            raise Denied(406, "E_INVALIDARG", "cannot generate response for given accept header")
+        self._check_type(got, files)
+        method = "GET" if got.method == "HEAD" else got.method
+        found = find(self.generation, method, path, query)
+        if found.handler is None:
+            if found.allowed:
+                raise Denied(405, "E_INVALIDARG", f"{got.method} {path}")
+            raise Denied(404, "E_UNRESOLVED_URL", path)
+        self._check_grants(found.operation, session)
+        form = got.method == "POST" or path.startswith("/subscription")
+        asked = RwsRequest(
+            self.generation, session, path, suffix, found.names, query,
+            self._form(got) if form else (), got.body,
+            plain(got.headers.get("content-type", "")), got.headers.get("host", ""),
+        )  # fmt: skip
+        return found.handler(self.office, asked) or Served()
+
+    def _check_grants(self, operation: RwsOperation | None, session: Session) -> None:
+        granted = self.office.login.granted(session.user)
+        lacking = missing(operation, self.generation, granted) if operation else ()
+        if lacking:
+            raise Denied(403, "E_UAS_REJECT", f"user lacks the grant {lacking[0]}", -757)
+
+    def _check_type(self, got: Received, files: bool) -> None:
+        """406 for a request without the type that RWS 2.0 wants, 415 for a file of another."""
+        if got.method in ("GET", "HEAD", "OPTIONS") or not self._strict:
+            return
+        sent = plain(got.headers.get("content-type", ""))
+        if self.generation is Generation.ONE:
+            # Nothing at all is let through: public clients send such requests [code: rwsuis].
+            if got.method == "POST" and got.body and not sent.startswith(FORM):
+                raise Denied(415, "E_INVALIDARG", "a form is wanted")
+        elif files and got.method == "PUT":
+            if sent not in FILE_TYPES:
+                raise Denied(415, "E_INVALIDARG", f"Content type {sent} is not supported")
+        elif sent != f"{FORM};v=2.0":
+            raise Denied(406, "E_INVALIDARG", "Content type is not supported")
+
+    def _form(self, got: Received) -> tuple[tuple[str, str], ...]:
+        if len(got.body) > LARGEST_FORM:
+            raise Denied(413, "E_BUFFER_OVERFLOW", "the form is too large")
+        try:
+            return tuple(read_form(got.body))
+        except UnicodeDecodeError as error:
+            raise Denied(400, "E_INVALIDARG", "no form") from error
+
+    def _connection(self, got: Received, session: Session) -> str:
+        """The cookie of a TCP connection, which leads to the session."""
+        number = str(self._key + got.connection)
+        if number not in self._connections:
+            self._connections[number] = session
+            session.on_end.append(lambda: self._connections.__delitem__(number))
+        return number
+
+    def _reply(
+        self, got: Received, session: Session, path: str, answer: Served, syntax: Syntax
+    ) -> HttpReply:
+        headers = [*answer.headers]
+        headers.append(("Set-Cookie", f"{SESSION}={session.key}; path=/; httponly"))
+        headers.append(
+            ("Set-Cookie", f"{CONNECTION}={self._connection(got, session)}; path=/; httponly")
+        )
+        if answer.body is None:
+            if not any(name == "Content-Type" for name, _ in headers):
+                if answer.data is not None:
+                    headers.append(("Content-Type", "application/octet-stream"))
+                elif self.is_one and answer.status != 204:
+                    # Also of an answer without a body [code: abb_robot_client].
+                    headers.append(("Content-Type", CONTENT_TYPES[syntax]))
+            return HttpReply(answer.status, tuple(headers), answer.data or b"")
+        scheme = "http" if self.is_one else "https"
+        base = f"{scheme}://{got.headers.get('host', '')}{path.rpartition('/')[0]}/"
+        body = replace(answer.body, base=base, here=answer.body.here or path.rpartition("/")[2])
+        kind = CONTENT_TYPES[syntax]
+        if syntax == "xhtml" and self.generation is not Generation.ONE:
+            kind += ";v=2.0"
+        headers.append(("Content-Type", kind))
+        return HttpReply(answer.status, tuple(headers), WRITERS[syntax](body))
+
+
+def _cookies(got: Received) -> dict[str, str]:
+    parts = (part.strip().partition("=") for part in got.headers.get("cookie", "").split(";"))
+    return {name: value for name, _, value in parts if name}

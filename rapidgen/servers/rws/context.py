@@ -1,0 +1,100 @@
+"""What handlers work with: the cabinet, who may what, what is under way."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from rapidgen.controller.controller import VirtualController
+from rapidgen.controller.runner import Cabinet
+from rapidgen.machine.files import DiskFault
+from rapidgen.servers.rws.client_queues import ClientQueue
+from rapidgen.servers.rws.mastership import Masters
+from rapidgen.servers.rws.messages import Denied, Served
+from rapidgen.servers.rws.rmmp import ManualPrivilege
+from rapidgen.servers.rws.sessions import Session
+from rapidgen.servers.rws.subscriptions import Groups
+from rapidgen.wire.rws.bodies import Generation
+from rapidgen.wire.rws.codes import CODES, OK
+from rapidgen.wire.rws.grants import GRANTS
+
+
+@dataclass(frozen=True, slots=True)
+class Accounts:
+    """Who may log in. All users have all grants but `Default User` those of `denied`."""
+
+    users: dict[str, str]
+    denied: frozenset[str] = frozenset()
+
+    def granted(self, user: str) -> frozenset[str]:
+        """What a user may do, by UAS names."""
+        return frozenset(GRANTS) - (self.denied if user == "Default User" else frozenset())
+
+
+class Office:
+    """State of one face beyond its sessions."""
+
+    groups: Groups
+    """Subscriptions."""
+    end_session: Callable[[Session], None]
+    """A user logs out."""
+    sessions: Callable[[], tuple[Session, ...]]
+    """Who is logged in."""
+
+    def __init__(
+        self, cabinet: Cabinet, generation: Generation, login: Accounts, *, strict: bool
+    ) -> None:
+        self.cabinet = cabinet
+        self.generation = generation
+        self.login = login
+        self.strict = strict
+        self.masters = self._new_masters()
+        self.progress: dict[str, int] = {}
+        """Result codes of jobs by number."""
+        self.dialogs: dict[int, str] = {}
+        """Answers to dialogs by number, until they are complete."""
+        self.queues: dict[str, ClientQueue] = {}
+        """Message queues of clients, by name in lower case."""
+        self.chosen: dict[str, dict[str, str]] = {}
+        """What clients have chosen for jogging, by mechanical unit: tool, wobj, ..."""
+        self.led: set[str] = set()
+        """Units that are led by hand."""
+        self.program_names: dict[str, str] = {}
+        """Names of program files that were loaded, by task."""
+        self.mode_lock = ""
+        """`Temporary`, `Permanent`, or nothing: whether the operating mode is locked by a pin."""
+
+    @property
+    def controller(self) -> VirtualController:
+        """The controller that runs now."""
+        return self.cabinet.controller
+
+    def _new_masters(self) -> Masters:
+        manual = ManualPrivilege(lambda: self.controller, lambda: self.cabinet.now)
+        return Masters(self.generation, lambda: self.controller.mode, manual, strict=self.strict)
+
+    def restarted(self) -> None:
+        """Nothing is held and nothing is under way any more."""
+        self.masters = self._new_masters()
+        for state in (self.progress, self.dialogs, self.queues, self.chosen, self.led):
+            state.clear()
+
+    def started(self, refused: str) -> Served:
+        """The answer to a job that has come to its end already: refused by a code's name, or not.
+
+        RWS 2.0, and a backup in RWS 1.0, answer 202 with the address of the end.
+        """
+        number = str(len(self.progress) + 1)
+        self.progress[number] = CODES[refused] if refused else OK
+        return Served(202, headers=(("Location", f"/progress/{number}"),))
+
+    def write_file(self, path: Path, data: bytes) -> bool:
+        """Write a file of the controller's disks; whether it is a new one. Denied."""
+        new = not path.exists()
+        try:
+            self.controller.files.spend(len(data))
+            path.write_bytes(data)
+        except DiskFault as fault:
+            raise Denied(507, "E_NOT_ENOUGH_SPACE", str(fault)) from fault
+        except OSError as fault:
+            raise Denied(404, "E_DIR_NOT_EXIST", fault.strerror or "") from fault
+        return new

@@ -1,0 +1,34 @@
+"""Volumes of the file service as the controller's disks. There is no way out of them."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from rapidgen.machine.files import DiskFault
+from rapidgen.servers.rws.messages import Denied, RwsRequest
+
+if TYPE_CHECKING:
+    from rapidgen.servers.rws.context import Office
+
+VOLUMES = ("HOME", "TEMP", "BACKUP", "RAMDISK")
+
+
+def disk_path(office: "Office", words: str, asked: RwsRequest) -> Path:
+    """Where `$HOME/a`, `HOME/a`, `HOME:/a` or `/fileservice/...` of these lies.
+
+    Denied: it names no volume, or leads out of one.
+    """
+    text = words.removeprefix("/fileservice/").strip("/")
+    first, _, rest = text.partition("/")
+    name = first.strip("$:").upper()
+    if ":" in first.rstrip(":"):
+        name, _, more = first.partition(":")
+        name, rest = name.strip("$").upper(), f"{more}/{rest}".strip("/")
+    if name not in VOLUMES:
+        # RobotWare 6 and 7 differ here [VC 6.16, VC 7.21].
+        if asked.is_one:
+            raise Denied(404, "E_FAIL", f"no volume {first}")
+        raise Denied(400, "E_INVALID_PATH", f"no volume {first}")
+    try:
+        return office.controller.files.path(f"{name}:{rest}")
+    except DiskFault as fault:
+        raise Denied(400, "E_INVALID_PATH", str(fault)) from fault

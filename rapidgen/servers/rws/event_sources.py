@@ -1,0 +1,322 @@
+"""What can be subscribed: what it is now, and who tells that it changed."""
+
+import re
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+from urllib.parse import unquote
+
+from rapidgen.machine.event_log import Event
+from rapidgen.machine.scheduler import WaitSet
+from rapidgen.runtime.text import literal_text
+from rapidgen.runtime.values import PersistentCell
+from rapidgen.servers.rws.handlers import (
+    dialogs,
+    execution,
+    panel,
+    pointers,
+    queues,
+    signals,
+    symbols,
+    tasks,
+)
+from rapidgen.servers.rws.messages import Denied, RwsRequest
+from rapidgen.servers.rws.subscriptions import Told, Watched
+from rapidgen.wire.rws.bodies import Item
+from rapidgen.wire.rws.events import WantedResource
+from rapidgen.wire.rws.operations import SYMBOL
+
+if TYPE_CHECKING:
+    from rapidgen.servers.rws.context import Office
+
+
+def watched(office: "Office", asked: RwsRequest, wanted: WantedResource) -> Watched:
+    """The resource of a text such as `/rw/panel/ctrlstate`. Denied: nothing of the kind."""
+    path, _, suffix = wanted.resource.partition(";")
+    path = unquote(path).rstrip("/")
+    for pattern, make in _KINDS:
+        match = re.fullmatch(pattern, path)
+        if match is not None:
+            return make(office, asked, wanted.resource, suffix, match)
+    raise Denied(400, "E_INVALIDARG", f"cannot be subscribed: {wanted.resource}")
+
+
+_Make = Callable[["Office", RwsRequest, str, str, re.Match[str]], Watched]
+
+
+def _on(wait: WaitSet, now: Callable[[], object], item: Callable[[], Item]) -> Watched:
+    """Watched through a WaitSet; told only when `now()` has another value."""
+
+    def watch(told: Told) -> Callable[[], None]:
+        last = now()
+
+        def look() -> None:
+            nonlocal last
+            if (value := now()) != last:
+                last = value
+                told(None)
+
+        wait.add(look)
+        return lambda: wait.remove(look)
+
+    return Watched(item, watch)
+
+
+def _panel(kind: str, name: str, read: Callable[["Office"], str]) -> _Make:
+    def make(
+        office: "Office", _a: RwsRequest, text: str, suffix: str, _m: re.Match[str]
+    ) -> Watched:
+        if suffix not in ("", name):
+            raise Denied(400, "E_INVALIDARG", f"cannot be subscribed: {text}")
+        href = text.partition(";")[0]
+
+        def item() -> Item:
+            return Item(kind, name, {name: read(office)}, {"self": href})
+
+        return _on(office.controller.operation.changed, lambda: read(office), item)
+
+    return make
+
+
+def _execution(
+    office: "Office", _asked: RwsRequest, text: str, suffix: str, _m: re.Match[str]
+) -> Watched:
+    kinds = {"ctrlexecstate": "rap-ctrlexecstate-ev", "rapidexeccycle": "rap-execcycle-ev"}
+    if suffix not in kinds:
+        raise Denied(400, "E_INVALIDARG", f"cannot be subscribed: {text}")
+
+    def read() -> str:
+        c = office.controller
+        return execution.execution(c) if suffix == "ctrlexecstate" else c.cycle
+
+    def item() -> Item:
+        return Item(kinds[suffix], suffix, {suffix: read()}, {"self": text})
+
+    return _on(office.controller.operation.changed, read, item)
+
+
+def _task(office: "Office", asked: RwsRequest, text: str, suffix: str, m: re.Match[str]) -> Watched:
+    task, programs = tasks.find_task(office, m["task"], asked), office.cabinet.programs
+    if suffix == "taskchange":
+
+        def change() -> Item:
+            told = {"change-count": str(programs.changes[task.name]), "task-name": task.name}
+            return Item(
+                "rap-task-ev", "taskchange", {**told, "changetype": "module"}, {"self": text}
+            )
+
+        return _on(programs.changed, lambda: programs.changes[task.name], change)
+    if suffix != "excstate":
+        raise Denied(400, "E_INVALIDARG", f"cannot be subscribed: {text}")
+
+    def item() -> Item:
+        told = {"task-name": task.name, "pgmtaskexec-state": tasks.execution_state(task, asked)}
+        return Item("rap-execstate-ev", "execstatechange", told, {"self": text})
+
+    return _on(office.controller.operation.changed, lambda: task.state, item)
+
+
+def _tasks(
+    office: "Office", _asked: RwsRequest, text: str, suffix: str, _m: re.Match[str]
+) -> Watched:
+    programs = office.cabinet.programs
+    if suffix != "buildlogchange":
+        raise Denied(400, "E_INVALIDARG", f"cannot be subscribed: {text}")
+
+    def item() -> Item:
+        count = str(sum(programs.changes.values()))
+        return Item("rap-buildlog-ev", "buildlogchange", {"change-count": count}, {"self": text})
+
+    return _on(programs.changed, lambda: sum(programs.changes.values()), item)
+
+
+_POINTERS = {
+    "programpointerchange": ("rap-pp-ev", "pp"), "motionpointerchange": ("rap-mp-ev", "mp"),
+}  # fmt: skip
+
+
+def _pointer(
+    office: "Office", asked: RwsRequest, text: str, suffix: str, m: re.Match[str]
+) -> Watched:
+    task = tasks.find_task(office, m["task"], asked)
+    if suffix not in _POINTERS:
+        raise Denied(400, "E_INVALIDARG", f"cannot be subscribed: {text}")
+    kind, title = _POINTERS[suffix]
+
+    def item() -> Item:
+        place = pointers.place_of(task)
+        row, column = (place.span.line, place.span.column) if place else (0, 0)
+        told = {
+            "module-name": place.module if place else "",
+            "routine-name": place.routine if place else "",
+            "BegPosLine": str(row),
+            "BegPosCol": str(column),
+            "EndPosLine": str(row),
+            "EndPosCol": str(column),
+        }
+        return Item(kind, title, told, {"self": text})
+
+    return _on(office.controller.operation.changed, lambda: pointers.place_of(task), item)
+
+
+def _dialog(
+    office: "Office", _asked: RwsRequest, text: str, suffix: str, _m: re.Match[str]
+) -> Watched:
+    operator = office.controller.operator
+    if suffix != "uievent":
+        raise Denied(400, "E_INVALIDARG", f"cannot be subscribed: {text}")
+
+    def watch(told: Told) -> Callable[[], None]:
+        seen = {q.number: q for q in operator.questions if q.task}
+
+        def look() -> None:
+            now = {q.number: q for q in operator.questions if q.task}
+            gone = [q for number, q in seen.items() if number not in now and not q.answered]
+            new = [q for number, q in now.items() if number not in seen]
+            seen.clear()
+            seen.update(now)
+            for event, questions in (("ABORT", gone), ("SEND", new)):
+                for question in questions:
+                    told(Item("rap-ui-ev", "uiinstruction", dialogs.told(question, event)))
+
+        def written(task: str, line: str) -> None:
+            stack = {"stack": f"RAPID/{task}/", "execlv": "NORMAL", "msg": f'"{line}"'}
+            fields = {"instr": "TPWrite", "event": "POST", **stack}
+            told(Item("rap-ui-ev", "uiinstruction", fields))
+
+        def end() -> None:
+            operator.asked.remove(look)
+            no_more()
+
+        operator.asked.add(look)
+        no_more = operator.subscribe(written)
+        return end
+
+    return Watched(lambda: Item("rap-ui-ev"), watch, has_state=False)
+
+
+def _queue(
+    office: "Office", _asked: RwsRequest, text: str, suffix: str, m: re.Match[str]
+) -> Watched:
+    queue = queues.find(office, m["queue"])
+    if suffix not in ("", "nomessage"):
+        raise Denied(400, "E_INVALIDARG", f"cannot be subscribed: {text}")
+
+    def watch(told: Told) -> Callable[[], None]:
+        def look() -> None:
+            if suffix:
+                told(Item("dipc-msg-ev", "msg", {}, {"self": text}))
+                return
+            while (fields := queues.taken(queue)) is not None:  # those from before, too
+                told(Item("dipc-msg-ev", "msg", fields, {"self": text}))
+
+        queue.queue.changed.add(look)
+        return lambda: queue.queue.changed.remove(look)
+
+    return Watched(lambda: Item("dipc-msg-ev"), watch, has_state=False)
+
+
+def _mastership(
+    office: "Office", _asked: RwsRequest, text: str, _suffix: str, m: re.Match[str]
+) -> Watched:
+    masters, domain = office.masters, m["domain"]
+    if domain not in masters.domains:
+        raise Denied(400, "E_INVALIDARG", f"cannot be subscribed: {text}")
+
+    def item() -> Item:
+        holder = masters.holders.get(domain)
+        told = {
+            "holdmastership": "TRUE" if holder else "FALSE",
+            "uid": str(holder.number if holder else 0),
+            "location": holder.location if holder else "",
+            "alias": (holder.alias or holder.user) if holder else "",
+            "application": holder.application if holder else "",
+            "mastership": "remote" if holder else "nomaster",
+        }
+        return Item("msh-resource-value", domain, told, {"self": text})
+
+    return _on(masters.changed, lambda: masters.holders.get(domain), item)
+
+
+def _signal(office: "Office", _a: RwsRequest, text: str, suffix: str, m: re.Match[str]) -> Watched:
+    if suffix != "state":
+        raise Denied(400, "E_INVALIDARG", f"cannot be subscribed: {text}")
+    signal = signals.find(office, m["signal"])
+
+    def item() -> Item:
+        told = {"lvalue": signals.value_of(signal), "lstate": "not simulated"}
+        return Item("ios-signalstate-ev", signal.name, told, {"self": text})
+
+    def watch(told: Told) -> Callable[[], None]:
+        def look() -> None:
+            told(None)
+
+        signal.changed.add(look)
+        return lambda: signal.changed.remove(look)
+
+    return Watched(item, watch, fast=True)
+
+
+def _symbol(
+    office: "Office", asked: RwsRequest, text: str, suffix: str, m: re.Match[str]
+) -> Watched:
+    route = SYMBOL.route(asked.generation)
+    assert route is not None
+    if suffix != "value":
+        raise Denied(400, "E_INVALIDARG", f"cannot be subscribed: {text}")
+    found = symbols.find(office, m["symbol"], asked)
+    cell = found.task.cell(found.name)
+    if not isinstance(cell, PersistentCell) or cell.cell is None:
+        raise Denied(400, "E_INVALIDARG", f"no persistent: {text}")
+    # RWS 2.0 gives the address without what follows the semicolon [code: App SDK].
+    href = text if asked.is_one else text.partition(";")[0]
+
+    def item() -> Item:
+        value = literal_text(found.value, found.type)
+        return Item("rap-value-ev", found.name, {"value": value}, {"self": href})
+
+    def watch(told: Told) -> Callable[[], None]:
+        def look() -> None:
+            told(None)
+
+        cell.add(look)
+        return lambda: cell.remove(look)
+
+    return Watched(item, watch, fast=True)
+
+
+def _elog(office: "Office", _a: RwsRequest, text: str, _suffix: str, m: re.Match[str]) -> Watched:
+    domain = int(m["domain"])
+
+    def event_item(event: Event) -> Item:
+        href = f"/rw/elog/{domain}/{event.sequence}"
+        return Item("elog-message-ev", href, {"seqnum": str(event.sequence)}, {"self": href})
+
+    def watch(told: Told) -> Callable[[], None]:
+        def take(event: Event) -> None:
+            if domain in (0, int(event.domain)):
+                told(event_item(event))
+
+        return office.controller.log.subscribe(take)
+
+    return Watched(lambda: Item("elog-message-ev"), watch, has_state=False)
+
+
+_KINDS: tuple[tuple[str, _Make], ...] = (
+    (r"/rw/panel/ctrl-?state", _panel(
+        "pnl-ctrlstate-ev", "ctrlstate", lambda d: panel.ctrl_state(d.controller))),
+    (r"/rw/panel/opmode", _panel("pnl-opmode-ev", "opmode", lambda d: panel.opmode(d.controller))),
+    (r"/rw/panel/speedratio", _panel(
+        "pnl-speedratio-ev", "speedratio", lambda d: str(panel.speed(d.controller)))),
+    (r"/rw/panel/coldetstate", _panel("pnl-coldetstate-ev", "coldetstate", lambda _: "INIT")),
+    (r"/rw/rapid/execution", _execution),
+    (r"/rw/rapid/tasks", _tasks),
+    (r"/rw/rapid/tasks/(?P<task>[^/]+)", _task),
+    (r"/rw/rapid/tasks/(?P<task>[^/]+)/pcp", _pointer),
+    (r"/rw/rapid/uiinstr", _dialog),
+    (r"/rw/dipc/(?P<queue>[^/]+)", _queue),
+    (r"/rw/mastership/(?P<domain>[^/]+)", _mastership),
+    (r"/rw/iosystem/signals/(?P<signal>.+)", _signal),
+    (r"/rw/rapid/symbol/data/RAPID/(?P<symbol>.+)", _symbol),
+    (r"/rw/rapid/symbol/RAPID/(?P<symbol>.+)/data", _symbol),
+    (r"/rw/elog/(?P<domain>\d{1,2})", _elog),
+)  # fmt: skip

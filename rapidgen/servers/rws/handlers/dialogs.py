@@ -1,0 +1,125 @@
+"""Dialogs of the pendant (UI instructions) answered from afar [RWS manual 3HAC050973].
+
+TPReadFK and TPReadNum are answered by `TPAnswer` and then `TPCompleted`, the others by `Result`.
+"""
+
+from typing import TYPE_CHECKING
+
+from rapidgen.machine.operator import Question
+from rapidgen.servers.rws.messages import Denied, RwsRequest, Served, show
+from rapidgen.servers.rws.routing import serves
+from rapidgen.wire.rws import operations as ops
+from rapidgen.wire.rws.bodies import Item
+
+if TYPE_CHECKING:
+    from rapidgen.servers.rws.context import Office
+
+
+def active(office: "Office") -> Question | None:
+    """The dialog of a task that waits on the pendant, the newest; None: there is none."""
+    found = [q for q in office.controller.operator.questions if q.task]
+    return found[-1] if found else None
+
+
+def stack_of(question: Question) -> str:
+    """How a dialog is called: a place on the stack of its task."""
+    return f"RAPID/{question.task}/%${question.number}"
+
+
+def told(question: Question, event: str = "SEND") -> dict[str, str]:
+    """What a dialog says of itself."""
+    return {
+        "instr": question.dialog,
+        "event": event,
+        "stack": stack_of(question),
+        "execlv": "NORMAL",
+        "msg": "",
+    }
+
+
+@serves(ops.DIALOG)
+def get_dialog(office: "Office", asked: RwsRequest) -> Served:
+    """The dialog that waits; 404 while none does [VC 6.16]."""
+    question = active(office)
+    if question is None:
+        raise Denied(404, "E_NO_DATA", "no active UI instruction")
+    links = {"params": f"active/params/{stack_of(question)}".replace("%", "%25")}
+    return show(Item("rap-uiactive-li", question.dialog, told(question), links))
+
+
+def _asked_for(office: "Office", asked: RwsRequest) -> Question:
+    stack = asked.names["stack"].lower()
+    for question in office.controller.operator.questions:
+        if question.task and stack_of(question).lower() in (stack, stack.replace("/$", "/%$")):
+            return question
+    raise Denied(404, "E_NO_DATA", f"no UI instruction {stack}")
+
+
+def _quoted(text: str) -> str:
+    return '"' + text.replace('"', '""') + '"'
+
+
+def _parameters(office: "Office", question: Question) -> dict[str, str]:
+    """Values by name, as RAPID literals."""
+    chosen = office.dialogs.get(question.number, "")
+    if question.dialog.startswith("TP"):
+        keys = {f"TPFK{i}": _quoted(text) for i, text in enumerate(question.choices, 1)}
+        first = {"TPAnswer": chosen or "0", "TPText": _quoted(question.text)}
+        return {**first, **keys, "TPCompleted": "FALSE"}
+    header, _, rest = question.text.partition("\n")
+    lines = ",".join(map(_quoted, rest.split("\n"))) if rest else ""
+    found = {"Header": _quoted(header), "MsgArray": f"[{lines}]"}
+    if question.choices:
+        name = "ListItems" if question.dialog == "UIListView" else "BtnArray"
+        found[name] = f"[{','.join(map(_quoted, question.choices))}]"
+    if question.proposed:
+        found["InitValue"] = question.proposed
+    return {**found, "Result": chosen or "0"}
+
+
+@serves(ops.DIALOG_PARAMETERS)
+def get_parameters(office: "Office", asked: RwsRequest) -> Served:
+    """All parameters of a dialog."""
+    found = _parameters(office, _asked_for(office, asked)).items()
+    items = (Item("rap-uiparams-li", name, {"value": value}) for name, value in found)
+    return show(*items, collection=True)
+
+
+@serves(ops.DIALOG_PARAMETER)
+def get_parameter(office: "Office", asked: RwsRequest) -> Served:
+    """One parameter of a dialog."""
+    question, name = _asked_for(office, asked), asked.names["parameter"]
+    found = {k.lower(): v for k, v in _parameters(office, question).items()}.get(name.lower())
+    if found is None:
+        raise Denied(404, "E_NO_DATA", f"no parameter {name}")
+    return show(Item("rap-uiparam", f"{stack_of(question)}/{name}", {"value": found}))
+
+
+@serves(ops.SET_DIALOG_PARAMETER)
+def set_parameter(office: "Office", asked: RwsRequest) -> None:
+    """Answer: the dialog is gone when it is complete, and the program goes on."""
+    office.masters.need_mode(asked.session)
+    question, name = _asked_for(office, asked), asked.names["parameter"].lower()
+    value = asked.field("value").strip()
+    if name == "tpcompleted":
+        if value.upper() == "TRUE":
+            _answer(office, question, office.dialogs.get(question.number, ""))
+    elif name in ("tpanswer", "result"):
+        office.dialogs[question.number] = value
+        if name == "result":
+            _answer(office, question, value)
+    elif name not in {k.lower() for k in _parameters(office, question)}:
+        raise Denied(404, "E_NO_DATA", f"no parameter {name}")
+    else:
+        raise Denied(400, "E_INVALIDARG", f"{name} is no answer")
+
+
+def _answer(office: "Office", question: Question, value: str) -> None:
+    text = value
+    if len(value) > 1 and value[0] == value[-1] == '"':
+        text = value[1:-1].replace('""', '"')
+    try:
+        office.controller.operator.answer(question.number, text)
+    except ValueError as error:
+        raise Denied(400, "E_INVALIDARG", str(error)) from error
+    office.dialogs.pop(question.number, None)

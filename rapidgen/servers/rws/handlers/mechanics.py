@@ -1,0 +1,171 @@
+"""Mechanical units beyond their positions: axes, base frame, what is chosen for jogging.
+
+Classes and fields: RWS manual 3HAC050973, and what was seen [VC 7.21].
+"""
+
+from math import isfinite
+from typing import TYPE_CHECKING
+
+from rapidgen.axes.mapping import ABSENT
+from rapidgen.motion.group import MotionGroup
+from rapidgen.servers.rws.handlers.execution import execution
+from rapidgen.servers.rws.handlers.motion import find_group
+from rapidgen.servers.rws.messages import Denied, RwsRequest, Served, show, whole
+from rapidgen.servers.rws.routing import serves
+from rapidgen.wire.rws import operations as ops
+from rapidgen.wire.rws.bodies import Item
+
+if TYPE_CHECKING:
+    from rapidgen.servers.rws.context import Office
+
+_CHOICES = ("tool", "wobj", "payload", "total-payload", "mode", "jog-mode", "coord-system")
+_PARTS = ("checkchangecount", "mechunits", "errorstate", "nonmotionexecution")
+
+
+@serves(ops.MOTION_SYSTEM)
+def get_system(office: "Office", asked: RwsRequest) -> Served:
+    """The motion system: its count of changes, its first unit."""
+    units = [g.config.mechanical_unit for g in office.controller.motion.groups.values()]
+    told = {
+        "change-count": str(office.cabinet.restarts),
+        "mechunit-name": units[0] if units else "",
+        "poll-rate": "60",
+        "modal-payload-mode": "ON",
+        "absacc-active": "OFF",
+    }
+    only = asked.query.get("resource", "")
+    if only:
+        if only not in told:
+            raise Denied(400, "E_INVALIDARG", f"resource {only}")
+        told = {only: told[only]}
+    links = [Item(f"ms-{p}-li", p, {}, {"self": f"motionsystem/{p}"}) for p in _PARTS]
+    return show(Item("ms", "motionsystem", told), *(links if not only else ()))
+
+
+@serves(ops.CHECK_COUNT)
+def check_count(office: "Office", asked: RwsRequest) -> Served:
+    """Whether the motion system has changed since a count."""
+    count = asked.names.get("count") or asked.query.get("changecount", "")
+    changed = "FALSE" if whole("changecount", count) == office.cabinet.restarts else "TRUE"
+    name = asked.kind("changestate", "change-state")
+    kind = asked.kind("checkchangecount", "check-changecount")
+    return show(Item(kind, "changecount", {name: changed}))
+
+
+@serves(ops.ERROR_STATE)
+def error_state(office: "Office", asked: RwsRequest) -> Served:
+    """Errors of the motion system; collisions are none here."""
+    return show(Item("ms-errorstate", "errorstate", {"err-state": "HPJ_OK", "err-count": "0"}))
+
+
+@serves(ops.BASE_FRAME)
+def base_frame(office: "Office", asked: RwsRequest) -> Served:
+    """Where a robot stands in the world: at its origin, here."""
+    find_group(office, asked)
+    names = ("x", "y", "z", "q1", "q2", "q3", "q4")
+    told = {name: "1" if name == "q1" else "0" for name in names}
+    return show(Item("ms-mechunit-baseframe", "baseframe", told))
+
+
+@serves(ops.AXES)
+def axes(office: "Office", asked: RwsRequest) -> Served:
+    """How many axes a unit has."""
+    count = len(find_group(office, asked).config.joints)
+    numbers = map(str, range(1, count + 1))
+    links = (Item("ms-mechunit-axis-li", n, {}, {"self": f"axes/{n}"}) for n in numbers)
+    return show(Item("ms-mechunit-axes", "axes", {"axes": str(count)}), *links)
+
+
+@serves(ops.AXIS)
+def axis(office: "Office", asked: RwsRequest) -> Served:
+    """One axis, from 1 on; all are calibrated here."""
+    number, count = asked.names["axis"], len(find_group(office, asked).config.joints)
+    whole("axis", number, 1, count)
+    return show(
+        Item("ms-mechunit-axisstatus", "axisstatus", {"axis-status": "Synchronized"}),
+        Item("ms-mechunit-logicalaxis", "logicalaxis", {"logical-axis": number}),
+    )
+
+
+@serves(ops.SET_MECHUNIT)
+def choose(office: "Office", asked: RwsRequest) -> None:
+    """Choose tool, work object, ... for jogging."""
+    office.masters.need(asked, "motion", by_itself=not asked.is_one)
+    group = find_group(office, asked)
+    told = asked.form
+    if not told or any(name not in _CHOICES for name in told):
+        raise Denied(400, "E_INVALIDARG", f"one of {', '.join(_CHOICES)} is wanted")
+    for name, kind in (("tool", "tooldata"), ("wobj", "wobjdata")):
+        if name in told:
+            _must_be(office, group, told[name], kind)
+    office.chosen.setdefault(group.config.mechanical_unit, {}).update(told)
+
+
+def _must_be(office: "Office", group: MotionGroup, name: str, kind: str) -> None:
+    if name in ("tool0", "wobj0"):
+        return
+    try:
+        if office.controller.tasks[group.config.task].type_of(name)[0].name == kind:
+            return
+    except KeyError:
+        pass
+    raise Denied(400, "E_TOOL_ERROR" if kind == "tooldata" else "E_WOBJ_ERROR", name)
+
+
+@serves(ops.LEAD_THROUGH)
+def lead_through(office: "Office", asked: RwsRequest) -> Served:
+    """Whether a robot is led by hand."""
+    unit = find_group(office, asked).config.mechanical_unit
+    told = {"status": "Active" if unit in office.led else "Inactive"}
+    return show(Item("ms-mechunit-lead-through", "lead-through", told))
+
+
+@serves(ops.SET_LEAD_THROUGH)
+def lead(office: "Office", asked: RwsRequest) -> None:
+    """Lead by hand, or no more. With motors off or a running program nothing comes of it, though
+    it is agreed to [real 7.21]."""
+    unit = find_group(office, asked).config.mechanical_unit
+    wanted = asked.field("status", ("active", "inactive"))
+    if wanted == "inactive":
+        office.led.discard(unit)
+    elif office.controller.motors_on and execution(office.controller) == "stopped":
+        office.led.add(unit)
+
+
+@serves(ops.SET_POSITION)
+def set_position(office: "Office", asked: RwsRequest) -> None:
+    """Put the standing robot elsewhere, degrees and mm: virtual controllers only [VC 7.21]."""
+    group = find_group(office, asked)
+    arm, external = _numbers(asked, "rob_joint"), _numbers(asked, "ext_joint")
+    if len(arm) != 6:
+        raise Denied(400, "E_INVALIDARG", "rob_joint has six numbers")
+    external += [ABSENT] * (6 - len(external))
+    posture = group.map.from_rapid(arm, external, group.positions())
+    for value, joint in zip(posture, group.config.joints, strict=True):
+        if not joint.lower <= value <= joint.upper:
+            raise Denied(400, "E_MECHPOS_NOT_IN_LIMIT", f"{joint.name}: {value:g}")
+    try:
+        group.jog(posture)
+    except ValueError as error:
+        raise Denied(403, "E_EXEC_STATE", str(error)) from error
+
+
+def _numbers(asked: RwsRequest, name: str) -> list[float]:
+    text = asked.field(name)
+    try:
+        found = [float(part) for part in text.strip("[] ").split(",")]
+    except ValueError as error:
+        raise Denied(400, "E_INVALIDARG", f"{name}: {text}") from error
+    if len(found) > 6 or not all(map(isfinite, found)):
+        raise Denied(400, "E_INVALIDARG", f"{name}: {text}")
+    return found
+
+
+@serves(ops.JOG)
+def jog(office: "Office", asked: RwsRequest) -> None:
+    """Jogging wants an enabling device: virtual controllers refuse it [VC 6.16, VC 7.21]."""
+    for name in ("jogmode", "mechunit", "ccount"):
+        asked.field(name)
+    if office.controller.mode == "auto":
+        raise Denied(403, "E_MODE_REJECT", "jogging is for manual mode", -2)
+    raise Denied(403, "E_REJECT", "no enabling device is pressed", -2)

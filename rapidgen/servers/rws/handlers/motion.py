@@ -1,0 +1,186 @@
+"""Mechanical units: joints and poses as RAPID has them, degrees and mm."""
+
+from typing import TYPE_CHECKING
+
+from rapidgen.axes.mapping import ABSENT
+from rapidgen.motion.group import MotionGroup
+from rapidgen.runtime.builtins.motion.arguments import joint_target
+from rapidgen.runtime.builtins.motion.positions import tool0
+from rapidgen.runtime.builtins.motion.targets import carrier_of, rob_target
+from rapidgen.runtime.errors import RapidError
+from rapidgen.runtime.robot_data import NO_OFFSETS
+from rapidgen.runtime.values import Value
+from rapidgen.servers.rws.handlers.tasks import find_task
+from rapidgen.servers.rws.messages import Denied, RwsRequest, Served, show
+from rapidgen.servers.rws.routing import serves
+from rapidgen.wire.rws import operations as ops
+from rapidgen.wire.rws.bodies import Item
+
+if TYPE_CHECKING:
+    from rapidgen.servers.rws.context import Office
+
+_AXES = ("rax_1", "rax_2", "rax_3", "rax_4", "rax_5", "rax_6")
+_EXTERNAL = "abcdef"
+
+
+def find_group(office: "Office", asked: RwsRequest) -> MotionGroup:
+    """The robot of a request. Denied: there is none of that name."""
+    name = asked.names["unit"]
+    for group in office.controller.motion.groups.values():
+        if group.config.mechanical_unit.lower() == name.lower():
+            return group
+    raise Denied(404, "E_NO_SUCH_MECHUNIT", name)
+
+
+@serves(ops.MECHUNITS)
+def get_units(office: "Office", asked: RwsRequest) -> Served:
+    """Robots; units of their own are not listed."""
+    groups = office.controller.motion.groups.values()
+    names = [group.config.mechanical_unit for group in groups]
+    found = (Item("ms-mechunit-li", n, {"mode": "Activated"}) for n in names if n)
+    return show(*found, collection=True)
+
+
+_STATIC = ("type", "task-name", "axes", "axes-total", "is-integrated-unit", "has-integrated-unit")
+
+
+@serves(ops.MECHUNIT)
+def get_unit(office: "Office", asked: RwsRequest) -> Served:
+    """One robot, with what has been chosen for jogging; `resource` asks for parts of it."""
+    group = find_group(office, asked)
+    count, chosen = (
+        str(len(group.config.joints)),
+        office.chosen.get(group.config.mechanical_unit, {}),
+    )
+    told = {
+        "tool-name": chosen.get("tool", "tool0"),
+        "wobj-name": chosen.get("wobj", "wobj0"),
+        "payload-name": chosen.get("payload", "load0"),
+        "total-payload-name": chosen.get("total-payload", "load0"),
+        "status": "Synchronized",
+        "mode": chosen.get("mode", "Activated"),
+        "jog-mode": chosen.get("jog-mode", "Cartesian"),
+        "coord-system": chosen.get("coord-system", "World"),
+        "type": "TCPRobot",
+        "task-name": group.config.task,
+        "axes": count,
+        "axes-total": count,
+        "is-integrated-unit": "NoIntegratedUnit",
+        "has-integrated-unit": "NoIntegratedUnit",
+    }
+    parts = {p for p in (asked.query.get("resource", ""), asked.suffix) for p in p.split(";") if p}
+    if parts:
+        told = {name: value for name, value in told.items() if _is_asked(name, parts)}
+    return show(Item("ms-mechunit", group.config.mechanical_unit, told))
+
+
+def _is_asked(name: str, parts: set[str]) -> bool:
+    short = {name, name.removesuffix("-name"), name.removesuffix("-unit")}
+    return bool(short & parts) or ("static" if name in _STATIC else "dynamic") in parts
+
+
+@serves(ops.JOINT_TARGET)
+def get_joints(office: "Office", asked: RwsRequest) -> Served:
+    """Where the joints are."""
+    group = find_group(office, asked)
+    value = joint_target(group.map, group.positions())
+    told = dict(zip(_AXES, map(str, value.robax.values()), strict=True))
+    external = zip(_EXTERNAL, value.extax.values(), strict=True)
+    told |= {f"eax_{letter}": f"{v:g}" for letter, v in external}
+    return show(Item("ms-jointtarget", "jointtarget", told))
+
+
+def _pose(office: "Office", asked: RwsRequest) -> Value:
+    """The TCP of a tool in a work object; `Base` is the world's here: robots stand at its origin
+    unless their object says otherwise."""
+    return _pose_of(office, asked, find_group(office, asked))
+
+
+def _pose_of(
+    office: "Office", asked: RwsRequest, group: MotionGroup, default: str = "base"
+) -> Value:
+    frame = asked.query.get("coordinate", default).lower()
+    if frame not in ("base", "world", "wobj"):
+        raise Denied(400, "E_INVALIDARG", f"coordinate {frame}")
+    tool = _datum(office, group, asked.query.get("tool", "tool0"), "tooldata") or tool0()
+    name = asked.query.get("wobj", "wobj0") if frame == "wobj" else "wobj0"
+    work_object = _datum(office, group, name, "wobjdata")
+    try:
+        return rob_target(
+            group, group.positions(), carrier_of(group, tool, work_object), NO_OFFSETS
+        )
+    except RapidError as error:
+        raise Denied(400, "E_INVALIDARG", error.name) from error
+
+
+def _datum(office: "Office", group: MotionGroup, name: str, kind: str) -> Value | None:
+    """A tool or an object of the robot's task; None: tool0 or wobj0. Denied: there is none."""
+    if name.lower() in ("tool0", "wobj0"):
+        return None
+    task = office.controller.tasks[group.config.task]
+    try:
+        if task.type_of(name)[0].name != kind:
+            raise Denied(400, "E_INVALIDARG", f"{name} is no {kind}")
+        return task[name]
+    except KeyError as error:
+        raise Denied(400, "E_NO_SUCH_SYMBOL", name) from error
+
+
+@serves(ops.ROB_TARGET)
+def get_target(office: "Office", asked: RwsRequest) -> Served:
+    """Where the TCP is, as a robtarget."""
+    return show(Item("ms-robtargets", "robtarget", _rob_target(_pose(office, asked))))
+
+
+def _rob_target(value: Value, external: str = "") -> dict[str, str]:
+    """A robtarget's fields; `external` spells those of external axes, by number from 1 on."""
+    told = dict(zip(("x", "y", "z"), map(str, value.trans.values()), strict=True))
+    told |= dict(zip(("q1", "q2", "q3", "q4"), map(str, value.rot.values()), strict=True))
+    conf = ("cf1", "cf4", "cf6", "cfx")
+    told |= dict(zip(conf, (f"{v:g}" for v in value.robconf.values()), strict=True))
+    names = [external.format(i) if external else f"eax{c}" for i, c in enumerate(_EXTERNAL, 1)]
+    return told | dict(zip(names, (f"{v:g}" for v in value.extax.values()), strict=True))
+
+
+@serves(ops.CARTESIAN)
+def get_cartesian(office: "Office", asked: RwsRequest) -> Served:
+    """Where the TCP is; RWS 1.0 calls the configuration j1 to jx."""
+    value = _pose(office, asked)
+    names = ("j1", "j4", "j6", "jx") if asked.is_one else ("cf1", "cf4", "cf6", "cfx")
+    told = dict(zip(("x", "y", "z"), map(str, value.trans.values()), strict=True))
+    told |= dict(zip(("q1", "q2", "q3", "q4"), map(str, value.rot.values()), strict=True))
+    told |= dict(zip(names, (f"{v:g}" for v in value.robconf.values()), strict=True))
+    return show(Item("ms-mechunit-cartesian", "cartesian", told))
+
+
+# -- by task -------------------------------------------------------------------------------------
+
+
+@serves(ops.TASK_MOTION)
+def get_motion(office: "Office", asked: RwsRequest) -> Served:
+    """Positions of a task's robot [RWS manual 3HAC050973]; without `resource` what there is."""
+    task = find_task(office, asked.names["task"], asked)
+    kind = asked.query.get("resource", "")
+    if not kind:
+        names = ("jointtarget", "robtarget", "extjointstate")
+        return show(
+            *(Item(f"rapid-{n}-li", n, {}, {"self": f"motion?resource={n}"}) for n in names)
+        )
+    group = next(
+        (g for g in office.controller.motion.groups.values() if g.config.task == task.name), None
+    )
+    if group is None:
+        raise Denied(400, "E_NO_SUCH_MECHUNIT", f"{task.name} has no robot")
+    if kind == "robtarget":
+        told = _rob_target(_pose_of(office, asked, group, "wobj"), "ej{}")
+    elif kind in ("jointtarget", "extjointstate"):
+        value = joint_target(group.map, group.positions())
+        external = enumerate(value.extax.values(), 1)
+        if kind == "extjointstate":
+            told = {f"j{i}": "not_active" if v > ABSENT / 2 else "rotating" for i, v in external}
+        else:
+            told = {f"j{i}": str(v) for i, v in enumerate(value.robax.values(), 1)}
+            told |= {f"ej{i}": f"{v:g}" for i, v in external}
+    else:
+        raise Denied(400, "E_INVALIDARG", f"resource {kind}")
+    return show(Item(f"rapid-{kind}", kind, told))

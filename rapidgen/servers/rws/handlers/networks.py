@@ -1,0 +1,101 @@
+"""Networks and devices that signals stand on: they run, always, here."""
+
+from typing import TYPE_CHECKING
+
+from rapidgen.servers.rws.handlers.signals import network_of
+from rapidgen.servers.rws.messages import Denied, RwsRequest, Served, show
+from rapidgen.servers.rws.routing import serves
+from rapidgen.wire.rws import operations as ops
+from rapidgen.wire.rws.bodies import Item
+
+if TYPE_CHECKING:
+    from rapidgen.servers.rws.context import Office
+
+_NETWORK = {"pstate": "running", "lstate": "started"}
+_DEVICE = {"lstate": "enabled", "pstate": "running", "address": "-"}
+
+
+@serves(ops.IO_SYSTEM)
+def get_system(office: "Office", asked: RwsRequest) -> Served:
+    """What the I/O system has."""
+    names = ("networks", "devices", "signals")
+    return show(*(Item(f"ios-{n}-li", n, {}, {"self": f"iosystem/{n}"}) for n in names))
+
+
+def networks(office: "Office") -> list[str]:
+    """Networks, in order."""
+    return list(dict.fromkeys(map(network_of, devices(office))))
+
+
+def devices(office: "Office") -> list[str]:
+    """Devices that some signal is on."""
+    found = (s.spec.device for s in office.controller.io.signals.values())
+    return [device for device in dict.fromkeys(found) if device]
+
+
+def _network(name: str, kind: str) -> Item:
+    links = {"self": f"networks/{name}", "devices": f"devices?network={name}"}
+    return Item(kind, name, {"name": name, **_NETWORK}, links)
+
+
+def _device(name: str, kind: str) -> Item:
+    network = network_of(name)
+    links = {"self": f"devices/{network}/{name}", "network": f"networks/{network}"}
+    return Item(kind, f"{network}/{name}", {"name": name, **_DEVICE}, links)
+
+
+@serves(ops.NETWORKS)
+def get_networks(office: "Office", asked: RwsRequest) -> Served:
+    """Networks that signals stand on."""
+    return show(*(_network(n, "ios-network-li") for n in networks(office)), collection=True)
+
+
+@serves(ops.NETWORK)
+def get_network(office: "Office", asked: RwsRequest) -> Served:
+    """One network."""
+    for name in networks(office):
+        if name.lower() == asked.names["network"].lower():
+            return show(_network(name, asked.kind("ios-network", "ios-network-li")))
+    raise Denied(404, "E_UNRESOLVED_URL", f"no network {asked.names['network']}")
+
+
+@serves(ops.DEVICES)
+def get_devices(office: "Office", asked: RwsRequest) -> Served:
+    """Devices that signals stand on."""
+    only = asked.query.get("network")
+    found = (d for d in devices(office) if only in (None, network_of(d)))
+    return show(*(_device(d, "ios-device-li") for d in found), collection=True)
+
+
+@serves(ops.DEVICE)
+def get_device(office: "Office", asked: RwsRequest) -> Served:
+    """One device, by its name or with its network."""
+    wanted = asked.names["device"].lower()
+    for name in devices(office):
+        if wanted in (name.lower(), f"{network_of(name)}/{name}".lower()):
+            return show(_device(name, asked.kind("ios-device", "ios-device-li")))
+    raise Denied(404, "E_UNRESOLVED_URL", f"no device {wanted}")
+
+
+@serves(ops.SEARCH_NETWORKS)
+def search_networks(office: "Office", asked: RwsRequest) -> Served:
+    """Networks by name and state; one of them has to be said [RWS manual]."""
+    name, state = (asked.form.get(k, "").lower() for k in ("name", "state"))
+    if not (name or state):
+        raise Denied(400, "E_INVALIDARG", "name or state")
+    found = [n for n in networks(office) if name in n.lower() and state in ("", "running")]
+    return show(*(_network(n, "ios-network-li") for n in found), collection=True)
+
+
+@serves(ops.SEARCH_DEVICES)
+def search_devices(office: "Office", asked: RwsRequest) -> Served:
+    """Devices by name, state and network; one of the first two has to be said."""
+    name, state, network = (asked.form.get(k, "").lower() for k in ("name", "lstate", "network"))
+    if not (name or state):
+        raise Denied(400, "E_INVALIDARG", "name or lstate")
+    found = [
+        d
+        for d in devices(office)
+        if name in d.lower() and state in ("", "enabled") and network in ("", network_of(d).lower())
+    ]
+    return show(*(_device(d, "ios-device-li") for d in found), collection=True)

@@ -1,0 +1,129 @@
+"""Program pointers: where they are, where they are put; the stack below them."""
+
+from typing import TYPE_CHECKING
+
+from rapidgen.runtime.errors import Location
+from rapidgen.runtime.task.pointer import CannotStep
+from rapidgen.runtime.task.task import Task
+from rapidgen.servers.rws.handlers.execution import execution
+from rapidgen.servers.rws.handlers.tasks import find_task
+from rapidgen.servers.rws.messages import Denied, RwsRequest, Served, show, whole
+from rapidgen.servers.rws.routing import serves
+from rapidgen.wire.rws import operations as ops
+from rapidgen.wire.rws.bodies import Item
+
+if TYPE_CHECKING:
+    from rapidgen.servers.rws.context import Office
+
+
+def place_of(task: Task) -> Location | None:
+    """Where a task stands; None while it has not begun."""
+    stack = task.stack()
+    return task.pointer.stands_before() or (stack[-1] if stack else None)
+
+
+@serves(ops.POINTER)
+def get_pointer(office: "Office", asked: RwsRequest) -> Served:
+    """Program and motion pointer of a task; the second is where the first is, here."""
+    task = find_task(office, asked.names["task"], asked)
+    place = place_of(task)
+    if place is None:
+        return show(Item("pcp-info", "progpointer", {"modulemame": "", "routinename": ""}))
+    at = f"{place.span.line},{place.span.column}"
+    told = {
+        "beginposition": at,
+        "endposition": at,
+        "modulemame": place.module,
+        "routinename": place.routine,
+        "changecount": str(office.cabinet.programs.changes[task.name]),
+        "executiontype": "normal",
+    }
+    return show(Item("pcp-info", "progpointer", told), Item("pcp-info", "motionpointer", told))
+
+
+@serves(ops.COUNTER)
+def get_counter(office: "Office", asked: RwsRequest) -> Served:
+    """The program pointer once more, as the manual of RWS 1.0 has it for a task's execution."""
+    place = place_of(find_task(office, asked.names["task"], asked))
+    row, column = (place.span.line, place.span.column) if place else (0, 0)
+    told = {"module": place.module if place else "", "routine": place.routine if place else ""}
+    told |= {"startline": str(row), "startcol": str(column)}
+    return show(Item("rap-pcp", "pcp", {**told, "endline": str(row), "endcol": str(column)}))
+
+
+def _movable(office: "Office", asked: RwsRequest) -> Task:
+    office.masters.need(asked, "rapid")
+    task = find_task(office, asked.names["task"], asked)
+    if task.state == "running" or execution(office.controller) == "running":
+        raise Denied(400 if asked.is_one else 403, "E_EXEC_STATE", "the program runs", -508)
+    return task
+
+
+@serves(ops.POINTER_TO_ROUTINE)
+def pointer_to_routine(office: "Office", asked: RwsRequest) -> None:
+    """Program pointer of one task to a routine."""
+    task = _movable(office, asked)
+    try:
+        office.controller.tasks[task.name].pp_to_routine(asked.field("routine"))
+    except CannotStep as error:
+        raise Denied(400, "E_ILLEGAL_ENTRYPOINT", str(error)) from error
+
+
+@serves(ops.POINTER_TO_MAIN)
+def pointer_to_main(office: "Office", asked: RwsRequest) -> None:
+    """Program pointer of one task to main."""
+    office.controller.tasks[_movable(office, asked).name].pp_to_main()
+
+
+@serves(ops.POINTER_TO_CURSOR)
+def pointer_to_cursor(office: "Office", asked: RwsRequest) -> None:
+    """Program pointer of one task to a statement of the routine in which it stands."""
+    task = _movable(office, asked)
+    asked.field("module")
+    field = asked.kind("line", "begin-position-row")
+    row = whole(field, asked.field(field))
+    try:
+        office.controller.tasks[task.name].pp_to_statement(row)
+    except CannotStep as error:
+        raise Denied(400, "E_ILLEGAL_ENTRYPOINT", str(error)) from error
+
+
+@serves(ops.ACTIVATION_RECORD)
+def get_frame(office: "Office", asked: RwsRequest) -> Served:
+    """One frame of the stack, from the innermost on; 400 where there is none [VC 6.16]."""
+    task = find_task(office, asked.names["task"], asked)
+    frames = task.stack()[::-1]
+    number = whole("stackframe", asked.query.get("stackframe", "1"), 1, len(frames))
+    place = frames[number - 1]
+    row, column = str(place.span.line), str(place.span.column)
+    told = {
+        "execlevel": "Normal",
+        "beg-row": row,
+        "beg-col": column,
+        "end-row": row,
+        "end-col": column,
+        "stack-url": f"RAPID/{task.name}/%{number}",
+        "routine-url": f"RAPID/{task.name}/{place.module}/{place.routine}",
+    }
+    return show(Item("rap-stackframe", "stackframe", told))
+
+
+@serves(ops.ROUTINES)
+def get_routines(office: "Office", asked: RwsRequest) -> Served:
+    """Procedures of a task without parameters: what could be called as a service routine."""
+    task = find_task(office, asked.names["task"], asked)
+    name, url = (
+        asked.kind("routine-name", "routine_name"),
+        asked.kind("url-to-routine", "url_to_routine"),
+    )
+    found = [
+        Item(
+            "rap-task-routine",
+            node.name,
+            {name: node.name, url: f"RAPID/{task.name}/{module.name}/{node.name}"},
+        )
+        for module in task.program.modules.values()
+        for node in module.tree.routines
+        if node.kind == "PROC" and not node.parameters and node.scope != "LOCAL"
+    ]
+    return show(*found, collection=True)

@@ -1,0 +1,136 @@
+"""Signals: read, set, looked for. Their access level says who may set them."""
+
+from typing import TYPE_CHECKING
+
+from rapidgen.machine.io import Signal
+from rapidgen.servers.rws.messages import Denied, RwsRequest, Served, show
+from rapidgen.servers.rws.pagination import page
+from rapidgen.servers.rws.routing import serves
+from rapidgen.wire.rws import operations as ops
+from rapidgen.wire.rws.bodies import Item
+
+if TYPE_CHECKING:
+    from rapidgen.servers.rws.context import Office
+
+_WRITABLE = ("all",)
+"""Access levels that let a remote client write: `Default` is RAPID and local manual [VC 6.16]."""
+
+
+def value_of(signal: Signal) -> str:
+    """A signal's value as text."""
+    return f"{signal.value:g}" if signal.spec.type[0] == "A" else str(int(signal.value))
+
+
+def title_of(signal: Signal) -> str:
+    """Network, device and name, or the name of a signal without a device."""
+    device = signal.spec.device
+    return f"{network_of(device)}/{device}/{signal.name}" if device else signal.name
+
+
+def network_of(device: str) -> str:
+    """Networks are not modelled: DRV_1 and PANEL are Local, the rest stands on one of its own."""
+    return "Local" if device.upper().startswith(("DRV_", "PANEL")) else "Virtual1"
+
+
+def find(office: "Office", path: str) -> Signal:
+    """The signal at the end of a path. Denied: there is none, or not on that device."""
+    parts = path.split("/")
+    signal = office.controller.io.get(parts[-1])
+    if signal is None or len(parts) not in (1, 3):
+        raise Denied(404, "E_UNRESOLVED_URL", f"no signal {path}")
+    device = signal.spec.device
+    if len(parts) == 3 and device and parts[1].lower() != device.lower():
+        raise Denied(404, "E_UNRESOLVED_URL", f"no signal {path}")
+    return signal
+
+
+def item(signal: Signal, kind: str, asked: RwsRequest) -> Item:
+    """A signal as an item."""
+    told = {
+        "name": signal.name,
+        "type": signal.spec.type,
+        "category": "",
+        "lvalue": value_of(signal),
+        "lstate": "not simulated",
+    }
+    if not asked.is_one:
+        told["write-access"] = (
+            "Rapid|LocalManual|LocalAuto|RemoteAuto"
+            if _is_writable(signal)
+            else "Rapid|LocalManual"
+        )
+    return Item(kind, title_of(signal), told)
+
+
+def _is_writable(signal: Signal) -> bool:
+    return signal.spec.access.lower() in _WRITABLE
+
+
+@serves(ops.SIGNALS)
+def get_signals(office: "Office", asked: RwsRequest) -> Served:
+    """All signals: whole in RWS 1.0, by the hundred in 2.0 [VC 7.21]."""
+    found = office.controller.io.signals.values()
+    return page(asked, [item(s, "ios-signal-li", asked) for s in found], 100, "signals")
+
+
+@serves(ops.SIGNAL)
+def get_signal(office: "Office", asked: RwsRequest) -> Served:
+    """One signal."""
+    signal = find(office, asked.names["signal"])
+    return show(item(signal, asked.kind("ios-signal", "ios-signal-li"), asked))
+
+
+@serves(ops.SET_SIGNAL)
+def set_signal(office: "Office", asked: RwsRequest) -> None:
+    """Set a signal, or pulse or invert it."""
+    signal = find(office, asked.names["signal"])
+    mode = asked.form.get("mode", "value")
+    if office.strict and not _is_writable(signal):
+        raise Denied(403, "E_REJECT", f"access level of {signal.name}", -2)
+    io = office.controller.io
+    try:
+        if mode in ("invert", "toggle"):
+            io.set(signal, 1 - signal.value)
+        elif mode == "pulse":
+            io.pulse(signal, float(asked.form.get("ActivePulse", "200")) / 1000)
+        elif mode in ("value", "delay"):
+            delay = float(asked.form.get("Delay", "0")) / 1000 if mode == "delay" else 0.0
+            io.set(signal, float(asked.field("lvalue")), delay=delay)
+        else:
+            raise Denied(400, "E_INVALIDARG", f"mode {mode}")
+    except ValueError as error:
+        raise Denied(400, "E_INVALIDARG", str(error)) from error
+
+
+@serves(ops.SEARCH_SIGNALS)
+def search(office: "Office", asked: RwsRequest) -> Served:
+    """Signals whose name holds a text, of a type, of a device [VC 7.21]."""
+    wanted = {k: asked.form.get(k, "").lower() for k in ("name", "type", "device")}
+    found = [s for s in office.controller.io.signals.values() if _fits(s, wanted)]
+    return page(asked, [item(s, "ios-signal-li", asked) for s in found], 100, "signals")
+
+
+@serves(ops.SEARCH_SIGNALS_TWICE)
+def search_twice(office: "Office", asked: RwsRequest) -> Served:
+    """Signals that fit up to two sets of criteria, both of them [VC 6.16, VC 7.21]."""
+    found = list(office.controller.io.signals.values())
+    for one in ("", "1", "2"):
+        wanted = {k: asked.form.get(f"{k}{one}", "").lower() for k in ("name", "type", "device")}
+        found = [s for s in found if _fits(s, wanted)]
+    return page(asked, [item(s, "ios-signal-li", asked) for s in found], 100, "signals")
+
+
+def _fits(signal: Signal, wanted: dict[str, str]) -> bool:
+    return (
+        wanted["name"] in signal.name.lower()
+        and wanted["type"] in ("", signal.spec.type.lower())
+        and wanted["device"] in ("", signal.spec.device.lower())
+    )
+
+
+@serves(ops.SIGNAL_CONFIG)
+def get_config(office: "Office", asked: RwsRequest) -> Served:
+    """What EIO.cfg says of a signal."""
+    spec = find(office, asked.names["signal"]).spec
+    told = {"name": spec.name, "type": spec.type, "device": spec.device, "access": spec.access}
+    return show(Item("ios-signal-config-general", spec.name, told))

@@ -1,0 +1,210 @@
+"""RAPID data: read, written, described, looked for."""
+
+import re
+import warnings
+from collections.abc import Iterator
+from copy import deepcopy
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from rapidgen.controller.views import TaskView
+from rapidgen.rapid.syntax import nodes as n
+from rapidgen.runtime.compiler.predefined import find_type
+from rapidgen.runtime.errors import RapidError
+from rapidgen.runtime.text import NotALiteral, literal_text, parse_value
+from rapidgen.runtime.values import Type, Value
+from rapidgen.servers.rws.handlers.tasks import find_task
+from rapidgen.servers.rws.messages import Denied, RwsRequest, Served, show
+from rapidgen.servers.rws.routing import serves
+from rapidgen.wire.rws import operations as ops
+from rapidgen.wire.rws.bodies import Item
+
+if TYPE_CHECKING:
+    from rapidgen.servers.rws.context import Office
+
+_ELEMENT = re.compile(r"(\w+)\{\s*(\d{1,9}(?:\s*,\s*\d{1,9})*)\s*\}")
+_KINDS = {"PERS": ("per", "pers"), "VAR": ("var", "var"), "CONST": ("con", "constant")}
+_SLOW = re.compile(r"\)[*+{]|(?:[*+{].*){4}", re.DOTALL)
+"""Patterns that could take for ever: repeated groups, more than three repetitions."""
+LARGEST = 16_000
+"""Characters of a value that is given whole [mem: the limit itself is not known]."""
+
+
+@dataclass(frozen=True, slots=True)
+class Datum:
+    """A datum of a task, or an element of one."""
+
+    task: TaskView
+    name: str
+    type: Type
+    dims: tuple[int, ...]
+    element: tuple[int, ...] = ()
+
+    @property
+    def value(self) -> Value:
+        """Its present value."""
+        value = self.task[self.name]
+        for i in self.element:
+            value = value[i]
+        return value
+
+
+def find(office: "Office", path: str, asked: RwsRequest) -> Datum:
+    """The datum of `TASK/MODULE/NAME` or `TASK/NAME`. Denied: there is none."""
+    parts = path.split("/")
+    if len(parts) not in (2, 3):
+        raise _unknown(asked, path)
+    task = office.controller.tasks[find_task(office, parts[0], asked).name]
+    match = _ELEMENT.fullmatch(parts[-1])
+    own = match[1] if match else parts[-1]
+    name = ":".join((*parts[1:-1], own))
+    try:
+        type_, dims = task.type_of(name)
+    except KeyError as error:
+        raise _unknown(asked, path) from error
+    if not type_.is_value:
+        raise Denied(400, "E_INVALIDARG", f"{type_.name} is no value type")
+    if match is None:
+        return Datum(task, name, type_, dims)
+    element = tuple(int(i) for i in match[2].split(","))
+    if len(element) > len(dims) or any(
+        not 1 <= i <= most for i, most in zip(element, dims, strict=False)
+    ):
+        raise _unknown(asked, path)
+    return Datum(task, name, type_, dims[len(element) :], element)
+
+
+def _unknown(asked: RwsRequest, path: str) -> Denied:
+    if asked.is_one:
+        return Denied(400, "E_UNEXPECTED", f"no symbol {path}", -517)
+    return Denied(404, "E_NO_SUCH_SYMBOL", f"no symbol {path}", -517)
+
+
+@serves(ops.SYMBOL)
+def get_symbol(office: "Office", asked: RwsRequest) -> Served:
+    """The value as a RAPID literal."""
+    found = find(office, asked.names["symbol"], asked)
+    text = literal_text(found.value, found.type)
+    name = asked.names["symbol"].rpartition("/")[2]
+    if len(text) > LARGEST:
+        link = "/rw/retcode?code=-1073445865"
+        return show(Item("rap-data", name, {}, {"error": link}))
+    return show(Item("rap-data", name, {"value": text}))
+
+
+@serves(ops.SET_SYMBOL)
+def set_symbol(office: "Office", asked: RwsRequest) -> None:
+    """Give a datum a value: at once, wherever it is read."""
+    if asked.is_one:
+        office.masters.need_mode(asked.session)  # RobotWare 6 takes mastership by itself
+    else:
+        office.masters.need(asked, "rapid")
+    found = find(office, asked.names["symbol"], asked)
+    text = asked.field("value")
+    try:
+        value = parse_value(text, found.type, found.dims, escaped=True)
+        if found.element:
+            whole = deepcopy(found.task[found.name])
+            inner = whole
+            for i in found.element[:-1]:
+                inner = inner[i]
+            inner[found.element[-1]] = value
+            value = whole
+        found.task[found.name] = value
+    except KeyError as error:
+        raise Denied(403, "E_REJECT", f"{found.name} is read only", -2) from error
+    except NotALiteral as error:
+        raise Denied(400, "E_INVALIDARG", f"no value of {found.type.name}: {text}") from error
+    except RapidError as error:
+        raise Denied(400, "E_INVALIDARG", error.name) from error
+
+
+@serves(ops.VALIDATE_VALUE)
+def validate(office: "Office", asked: RwsRequest) -> None:
+    """Whether a text is a value of a type: 204, or 400."""
+    find_task(office, asked.names.get("task") or asked.field("task"), asked)
+    name, text = asked.field(asked.kind("datatype", "dattyp")), asked.field("value")
+    found = find_type(name.lower())
+    try:
+        if found is None or not found.is_value:
+            raise Denied(400, "E_INVALIDARG", f"no type {name}")
+        parse_value(text, found, escaped=True)
+    except NotALiteral as error:
+        raise Denied(400, "E_INVALIDARG", f"no value of {name}: {text}") from error
+
+
+@serves(ops.SYMBOL_PROPERTIES)
+def get_properties(office: "Office", asked: RwsRequest) -> Served:
+    """What a datum is."""
+    path = asked.names["symbol"]
+    found = find(office, path, asked)
+    for item, _ in _data(found.task, ""):
+        if item.fields["name"].lower() == path.rpartition("/")[2].lower():
+            return show(Item(item.kind, item.title, item.fields))
+    raise _unknown(asked, path)
+
+
+@serves(ops.SEARCH_SYMBOLS)
+def search(office: "Office", asked: RwsRequest) -> Served:
+    """Data of a task or a module by kind, type and a pattern of the name."""
+    form = asked.form
+    if not asked.is_one and "task" in form:
+        raise Denied(400, "E_INVALIDARG", "task")  # [VC 7.21]
+    parts = form.get("blockurl", "RAPID").split("/")
+    if parts[0].upper() != "RAPID" or len(parts) > 3:
+        raise Denied(400, "E_INVALIDARG", "blockurl")
+    tasks = list(office.controller.tasks.values())
+    if len(parts) > 1:
+        tasks = [office.controller.tasks[find_task(office, parts[1], asked).name]]
+    module = parts[2] if len(parts) > 2 else ""
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # of `[[`, which Python would like to be told from sets
+            pattern = re.compile(form.get("regexp") or ".*", re.IGNORECASE)
+    except (re.error, OverflowError, RecursionError) as error:
+        raise Denied(400, "E_INVALIDARG", "regexp") from error
+    if _SLOW.search(pattern.pattern):
+        raise Denied(400, "E_INVALIDARG", "regexp: groups that repeat, or too many repetitions")
+    kind, type_name = form.get("symtyp", "any").lower(), form.get("dattyp", "").lower()
+    found = [
+        Item(f"{item.kind}-li", item.title, item.fields)
+        for task in tasks
+        for item, own in _data(task, module)
+        if kind in ("any", "", own)
+        and type_name in ("", item.fields["dattyp"].lower())
+        and pattern.fullmatch(item.fields["name"])
+    ]
+    return show(*found, collection=True)
+
+
+def _data(task: TaskView, only: str) -> Iterator[tuple[Item, str]]:
+    """Data of the modules of a task, each with its kind."""
+    for module in task.rapid.program.modules.values():
+        if only and module.name.lower() != only.lower():
+            continue
+        for key, node in module.declarations.items():
+            try:
+                type_, dims = task.type_of(f"{module.name}:{key}")
+            except KeyError:
+                continue
+            short, long = _KINDS[node.kind]
+            url = f"RAPID/{task.name}/{module.name}/{node.name}"
+            yield Item(f"rap-symprop{long}", url, _told(url, node, type_, dims, short)), short
+
+
+def _told(
+    url: str, node: n.DataDeclaration, type_: Type, dims: tuple[int, ...], kind: str
+) -> dict[str, str]:
+    return {
+        "symburl": url,
+        "name": node.name,
+        "symtyp": kind,
+        "named": "true",
+        "dattyp": type_.name,
+        "ndim": str(len(dims)),
+        "dim": " ".join(map(str, dims)),
+        "local": "true" if node.scope == "LOCAL" else "false",
+        "rdonly": "true" if node.kind == "CONST" else "false",
+        "taskvar": "false",
+        "typurl": f"RAPID/{type_.name}",
+    }

@@ -1,0 +1,205 @@
+"""The controller itself: identity, system, clock, variables, restart, jobs."""
+
+from typing import TYPE_CHECKING
+
+from rapidgen.machine.calendar import date_time
+from rapidgen.servers.rws.default_cfg import OPTIONS
+from rapidgen.servers.rws.messages import Denied, RwsRequest, Served, show
+from rapidgen.servers.rws.routing import serves
+from rapidgen.wire.rws import operations as ops
+from rapidgen.wire.rws.bodies import Generation, Item
+
+if TYPE_CHECKING:
+    from rapidgen.servers.rws.context import Office
+
+_VARIABLES = {"$HOME": "HOME", "$TEMP": "TEMP", "$RAMDISK": "RAMDISK", "$BACKUP": "BACKUP"}
+_MODES = ("restart", "istart", "pstart", "bstart")
+
+
+def version(office: "Office") -> tuple[int, int]:
+    """RobotWare's release, of the generation that is spoken."""
+    major, minor = office.controller.system.robotware
+    least = {Generation.ONE: 6, Generation.TWO: 7, Generation.EIGHT: 8}[office.generation]
+    return (major, minor) if major == least else (least, 0)
+
+
+@serves(ops.CONTROLLER, ops.IDENTITY)
+def identity(office: "Office", asked: RwsRequest) -> Served:
+    """Who this controller is; it says that it is a virtual one."""
+    told = {
+        "ctrl-name": office.controller.system.name,
+        "ctrl-id": office.cabinet.id,
+        "ctrl-type": "Virtual Controller",
+        "ctrl-mac": "",
+    }
+    return show(Item("ctrl-identity-info", "identity", told))
+
+
+@serves(ops.SYSTEM)
+def get_system(office: "Office", asked: RwsRequest) -> Served:
+    """Name and RobotWare."""
+    (major, minor), name = version(office), office.controller.system.name
+    if asked.is_one:
+        told = {
+            "name": name,
+            "rwversion": f"{major}.{minor:02}.0.0",
+            "sysid": office.cabinet.id,
+            "starttm": "",
+            "rwversionname": f"{major}.{minor:02}.00.00",
+        }
+        return show(Item("sys-system-li", "system", told), *_options("sys-option-li"))
+    told = {
+        "major": str(major),
+        "minor": str(minor),
+        "build": "0",
+        "name": name,
+        "rwversion": f"{major}.{minor}.0+0",
+        "rwversionname": f"{major}.{minor}.0",
+        "sysid": office.cabinet.id,
+    }
+    return show(Item("sys-system", "system", told))
+
+
+def _options(kind: str) -> list[Item]:
+    return [Item(kind, str(i), {"option": option}) for i, option in enumerate(OPTIONS, 1)]
+
+
+@serves(ops.OPTIONS)
+def get_options(office: "Office", asked: RwsRequest) -> Served:
+    """What is installed."""
+    return show(*_options("sys-option"), collection=True)
+
+
+@serves(ops.PRODUCTS)
+def get_products(office: "Office", asked: RwsRequest) -> Served:
+    """Products: RobotWare alone."""
+    major, minor = version(office)
+    told = {"version": f"{major}.{minor}", "version-name": f"{major}.{minor}.0"}
+    return show(Item("sys-product-li", "RobotWare", told), collection=True)
+
+
+@serves(ops.ROBOT_TYPE)
+def get_robot_type(office: "Office", asked: RwsRequest) -> Served:
+    """The robot's type, where a backup tells it."""
+    types = office.controller.system.robot_types
+    return show(Item("sys-robottype", "robottype", {"robot-type": types[0][1] if types else ""}))
+
+
+@serves(ops.CLOCK)
+def get_clock(office: "Office", asked: RwsRequest) -> Served:
+    """Date and time."""
+    now = date_time(office.controller.scheduler)
+    told = {"datetime": now.strftime("%Y-%m-%d T %H:%M:%S")}
+    return show(Item("ctrl-clock-info", "clock", told))
+
+
+@serves(ops.VARIABLE)
+def get_variable(office: "Office", asked: RwsRequest) -> Served:
+    """Where a variable points to: here to the volume of that name."""
+    name = asked.names["variable"]
+    folder = _VARIABLES.get(name.upper())
+    if folder is None:
+        raise Denied(404, "E_UNRESOLVED_URL", name)
+    return show(Item("ctrl-env", name, {"_value": folder, "value": folder}))
+
+
+@serves(ops.RESTART, ops.RESTART_AT_CTRL)
+def restart(office: "Office", asked: RwsRequest) -> None:
+    """A warm start: everybody is logged out. Other kinds are not offered here."""
+    office.masters.need(asked, "cfg")
+    mode = asked.field("restart-mode", (*_MODES, "xstart", "shutdown"))
+    if mode != "restart":
+        raise Denied(403, "E_REJECT", f"{mode}: only warm starts here", -2)
+    office.cabinet.ask_restart()
+
+
+@serves(ops.PROGRESS)
+def get_progress(office: "Office", asked: RwsRequest) -> Served:
+    """How far a job is: all are done at once here."""
+    code = office.progress.get(asked.names["id"])
+    if code is None:
+        raise Denied(404, "E_UNRESOLVED_URL", asked.path)
+    return show(Item("progress", asked.names["id"], {"state": "ready", "code": str(code)}))
+
+
+@serves(ops.LICENSE)
+def get_license(office: "Office", asked: RwsRequest) -> Served:
+    """A virtual controller has none."""
+    return show(Item("sys-license", "license", {"license": "virtual controller"}))
+
+
+@serves(ops.ENERGY)
+def get_energy(office: "Office", asked: RwsRequest) -> Served:
+    """Energy is not modelled: the state -1 says that no value is valid [RWS manual].
+
+    Fields and axes as in a body of a RobotWare 6 that an exporter of metrics has in its tests.
+    """
+    now = date_time(office.controller.scheduler).strftime("%Y-%m-%d T %H:%M:%S")
+    told = {"state": "-1", "energy-state": "blocked", "change-count": "0"}
+    told |= {"time-stamp": now, "reset-time": now, "interval-length": "3600"}
+    told |= {"interval-energy": "0", "accumulated-energy": "0"}
+    none = {"interval-energy": "0"}
+    units = (
+        Item(
+            "sys-energy-mec-li",
+            group.config.mechanical_unit,
+            within=tuple(
+                Item("sys-energy-axis-li", str(i), none)
+                for i, _ in enumerate(group.config.joints, 1)
+            ),
+        )
+        for group in office.controller.motion.groups.values()
+    )
+    kind = asked.kind("sys-energy-state-li", "sys-energy-state")
+    return show(Item(kind, "energy-state", told, within=tuple(units)))
+
+
+@serves(ops.VISION)
+def get_vision(office: "Office", asked: RwsRequest) -> Served:
+    """No camera is connected."""
+    return show(Item("number-of-cameras-li", "cameras", {"number-of-cameras": "0"}))
+
+
+@serves(ops.TIME_ZONE)
+def get_time_zone(office: "Office", asked: RwsRequest) -> Served:
+    """The controller's clock knows no zone here: it is UTC's."""
+    return show(Item("ctrl-timezone", "timezone", {"timezone": "UTC"}))
+
+
+@serves(ops.SET_CLOCK)
+def set_clock(office: "Office", asked: RwsRequest) -> None:
+    """The clock is the simulation's: it cannot be put."""
+    raise Denied(403, "E_REJECT", "the clock of a virtual controller is its machine's", -2)
+
+
+@serves(ops.RESTART_COUNT)
+def restart_count(office: "Office", asked: RwsRequest) -> Served:
+    """How often it has restarted."""
+    told = {"restart-count": str(office.cabinet.restarts)}
+    return show(Item("ctrl-restart-count", "restartcount", told))
+
+
+@serves(ops.VIRTUAL_TIME)
+def virtual_time(office: "Office", asked: RwsRequest) -> Served:
+    """Virtual time in ms."""
+    told = {"vtcounter": str(round(office.cabinet.now * 1000))}
+    return show(Item("ctrl-vttime", "vttime", told))
+
+
+@serves(ops.VIRTUAL_STATE)
+def virtual_state(office: "Office", asked: RwsRequest) -> Served:
+    """Virtual time runs."""
+    return show(Item("ctrl-vtstate", "vtstate", {"vtcurrstate": "running"}))
+
+
+@serves(ops.VIRTUAL_SPEED)
+def virtual_speed(office: "Office", asked: RwsRequest) -> Served:
+    """How fast virtual time is, in percent of the real one."""
+    told = {"vtcurrspeed": f"{100 * office.controller.scheduler.speed:g}"}
+    return show(Item("ctrl-vtspeed", "vtspeed", told))
+
+
+@serves(ops.SAFETY_MODE)
+def safety_mode(office: "Office", asked: RwsRequest) -> Served:
+    """No safety controller is modelled."""
+    return show(Item("safetymodestatus", "mode", {"safetymode": "DEACTIVATED"}))

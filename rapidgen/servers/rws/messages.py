@@ -1,0 +1,111 @@
+"""What comes in, what goes out, and how something is refused."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from rapidgen.servers.rws.sessions import Session
+from rapidgen.wire.rws.bodies import Body, Generation, Item
+from rapidgen.wire.rws.codes import CODES
+
+
+@dataclass(frozen=True, slots=True)
+class Received:
+    """A request as it came. `connection` numbers the TCP connection that it came over.
+
+    Names of headers are in lower case.
+    """
+
+    method: str
+    target: str
+    headers: Mapping[str, str] = field(default_factory=dict)
+    body: bytes = b""
+    connection: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class HttpReply:
+    """An answer as it goes out. Several headers may have one name (cookies)."""
+
+    status: int
+    headers: tuple[tuple[str, str], ...] = ()
+    body: bytes = b""
+
+    def header(self, name: str) -> str:
+        """The first header of a name, or an empty text."""
+        return next((v for k, v in self.headers if k.lower() == name.lower()), "")
+
+
+@dataclass(frozen=True, slots=True)
+class RwsRequest:
+    """A request that has been let in, taken apart. `names` are the path's own."""
+
+    generation: Generation
+    session: Session
+    path: str
+    suffix: str
+    names: Mapping[str, str]
+    query: Mapping[str, str]
+    pairs: tuple[tuple[str, str], ...] = ()
+    body: bytes = b""
+    content_type: str = ""
+    host: str = ""
+
+    @property
+    def form(self) -> dict[str, str]:
+        """The form's fields; of several with one name the last."""
+        return dict(self.pairs)
+
+    @property
+    def is_one(self) -> bool:
+        """Whether RWS 1.0 is spoken."""
+        return self.generation is Generation.ONE
+
+    def field(self, name: str, choices: tuple[str, ...] = ()) -> str:
+        """A field that has to be there. Denied: it is not, or is none of the choices."""
+        value = self.form.get(name)
+        if value is None or (choices and value not in choices):
+            raise Denied(400, "E_INVALIDARG", f"{name}: {value}")
+        return value
+
+    def kind(self, one: str, two: str) -> str:
+        """A class by generation."""
+        return one if self.is_one else two
+
+
+@dataclass(frozen=True, slots=True)
+class Served:
+    """What a handler gives: a body, bytes of a file, or nothing (204)."""
+
+    status: int = 204
+    body: Body | None = None
+    data: bytes | None = None
+    headers: tuple[tuple[str, str], ...] = ()
+
+
+class Denied(Exception):
+    """A request is refused with ABB's code; `icode` is a hint behind the words."""
+
+    def __init__(self, status: int, name: str, text: str = "", icode: int = -1) -> None:
+        super().__init__(f"{status} {name} {text}")
+        self.status = status
+        self.code = CODES[name]
+        self.text = text or name
+        self.icode = icode
+
+    @property
+    def message(self) -> str:
+        """As controllers write it: words, then both codes."""
+        return f"rapidgen[1] {self.text} code:{self.code} icode:{self.icode}"
+
+
+def whole(name: str, text: str, least: int = 0, most: int = 999_999_999) -> int:
+    """A whole number of a request. Denied: it is none, or is out of its range."""
+    if text.isdecimal() and len(text) < 10 and least <= int(text) <= most:
+        return int(text)
+    raise Denied(400, "E_INVALIDARG", f"{name}: {text}")
+
+
+def show(*items: Item, title: str = "rw", collection: bool = False, following: str = "") -> Served:
+    """An answer with these items."""
+    body = Body(items, title=title, collection=collection, next=following)
+    return Served(200, body)

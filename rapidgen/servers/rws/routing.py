@@ -1,0 +1,78 @@
+"""Which handler serves which operation: `@serves(...)` puts it into the one table."""
+
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cache
+from typing import TYPE_CHECKING
+
+from rapidgen.servers.rws.messages import RwsRequest, Served
+from rapidgen.wire.rws.bodies import Generation
+from rapidgen.wire.rws.operations import Route, RwsOperation
+
+if TYPE_CHECKING:
+    from rapidgen.servers.rws.context import Office
+
+Handler = Callable[["Office", RwsRequest], Served | None]
+_TABLE: list[tuple[RwsOperation, Handler]] = []
+
+
+def serves(*operations: RwsOperation) -> Callable[[Handler], Handler]:
+    """The decorated function carries these operations out."""
+
+    def put(handler: Handler) -> Handler:
+        _TABLE.extend((operation, handler) for operation in operations)
+        return handler
+
+    return put
+
+
+def served() -> tuple[tuple[RwsOperation, Handler], ...]:
+    """All operations that are served, and what carries each out."""
+    return tuple(_TABLE)
+
+
+@dataclass(frozen=True, slots=True)
+class _Row:
+    pattern: re.Pattern[str]
+    route: Route
+    handler: Handler
+    operation: RwsOperation
+
+
+@dataclass(frozen=True, slots=True)
+class Lookup:
+    """What a path leads to: a handler and its operation, or the methods that there would be."""
+
+    handler: Handler | None
+    names: Mapping[str, str]
+    allowed: tuple[str, ...] = ()
+    operation: RwsOperation | None = None
+
+
+@cache
+def _rows(generation: Generation) -> tuple[_Row, ...]:
+    routes = [(operation.route(generation), operation, handler) for operation, handler in _TABLE]
+    rows = [_Row(r.pattern, r, handler, operation) for r, operation, handler in routes if r]
+    # What names more of its path goes first: `/ctrl/identity` before `/ctrl/{variable}`.
+    return tuple(sorted(rows, key=_vagueness))
+
+
+def _vagueness(row: _Row) -> tuple[int, bool, int, bool]:
+    path = row.route.path
+    return path.count("{"), "*" in path, -len(path), not row.route.selector
+
+
+def find(generation: Generation, method: str, path: str, query: Mapping[str, str]) -> Lookup:
+    """The handler of a request. With none, `allowed` empty is 404, else 405."""
+    action = f"action={query['action']}" if query.get("action") else ""
+    asked = (action,) if action else (f"resource={query.get('resource', '')}", "")
+    allowed: list[str] = []
+    for row in _rows(generation):
+        match = row.pattern.fullmatch(path)
+        if match is None:
+            continue
+        if row.route.method == method and row.route.selector in asked:
+            return Lookup(row.handler, match.groupdict(), operation=row.operation)
+        allowed.append(row.route.method)
+    return Lookup(None, {}, tuple(dict.fromkeys(allowed)))

@@ -1,0 +1,196 @@
+"""Subscriptions: groups of resources, watched at their priority, told over a websocket.
+
+Priority 0 is 5 s, 1 is 200 ms, 2 at once and only for signals and persistents [RWS manual].
+Events are XHTML in either generation; a signal's event repeats the text that was subscribed.
+"""
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+
+from rapidgen.machine.scheduler import Scheduler, Timer
+from rapidgen.servers.rws.messages import Denied, RwsRequest
+from rapidgen.servers.rws.sessions import Session
+from rapidgen.wire.rws.bodies import Generation, Item
+from rapidgen.wire.rws.events import WantedResource, write_events
+
+_PERIODS = {0: 5_000_000_000, 1: 200_000_000, 2: 0}
+MOST_RESOURCES, MOST_GROUPS, MOST_HIGH = 1000, 2, 64
+MOST_SOCKETS = 19
+"""Sessions that may hold a websocket [RWS 2.0 manual]."""
+Send = Callable[[bytes], None]
+
+
+Told = Callable[[Item | None], None]
+"""Told that something changed; with the event where only that one knows it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Watched:
+    """One resource: `item()` is its event now, `watch(told)` begins to watch and gives the end."""
+
+    item: Callable[[], Item]
+    watch: Callable[[Told], Callable[[], None]]
+    fast: bool = False
+    has_state: bool = True
+
+
+@dataclass(slots=True, eq=False)
+class _Watch:
+    """One resource of a group."""
+
+    wanted: WantedResource
+    seen: Watched
+    timer: Timer | None = None
+    end: Callable[[], None] = lambda: None
+
+
+@dataclass(slots=True, eq=False)
+class EventGroup:
+    """One subscription. `send` is there while somebody listens."""
+
+    number: int
+    session: Session
+    watches: list[_Watch] = field(default_factory=list)
+    send: Send | None = None
+    hang_up: Callable[[], None] = lambda: None
+    spent: bool = False
+    """RWS 2.0: its websocket was there once, and cannot be had again."""
+    waiting: list[Item] = field(default_factory=list)
+    """Events before somebody listens."""
+
+
+class Groups:
+    """All subscriptions of a face."""
+
+    def __init__(
+        self,
+        generation: Generation,
+        scheduler: Callable[[], Scheduler],
+        watched: Callable[[RwsRequest, WantedResource], Watched],
+    ) -> None:
+        """`watched` finds a resource, or refuses it."""
+        self._generation = generation
+        self._scheduler = scheduler
+        self._watched = watched
+        self._groups: dict[str, EventGroup] = {}
+        self._made = 0
+
+    def find(self, number: str, session: Session) -> EventGroup:
+        """A group of a session. Denied: it has none of that number."""
+        group = self._groups.get(number)
+        if group is None or group.session is not session:
+            raise Denied(404, "E_UNRESOLVED_URL", f"no subscription {number}")
+        return group
+
+    def of(self, session: Session) -> list[EventGroup]:
+        """Groups of a session."""
+        return [group for group in self._groups.values() if group.session is session]
+
+    def begin(self, asked: RwsRequest, wanted: Iterable[WantedResource]) -> EventGroup:
+        """A new group. Denied: too many, or something that cannot be watched."""
+        if len(self.of(asked.session)) >= MOST_GROUPS:
+            raise Denied(503, "E_MAX_LIMIT_REACHED", "two groups are the most")
+        self._made += 1
+        group = EventGroup(self._made, asked.session)
+        self.add(asked, group, wanted)
+        self._groups[str(group.number)] = group
+        asked.session.on_end.append(lambda: self.end(group))
+        return group
+
+    def add(self, asked: RwsRequest, group: EventGroup, wanted: Iterable[WantedResource]) -> None:
+        """More resources for a group, all or none. Denied."""
+        found = [_Watch(one, self._watched(asked, one)) for one in wanted]
+        every = [*group.watches, *found]
+        high = sum(w.wanted.priority == 2 for w in every)
+        if len(every) > MOST_RESOURCES or high > MOST_HIGH:
+            raise Denied(503, "E_MAX_LIMIT_REACHED", "too many resources")
+        if any(w.wanted.priority == 2 and not w.seen.fast for w in found):
+            raise Denied(400, "E_INVALIDARG", "high priority is for signals and persistents")
+        for watch in found:
+            group.watches.append(watch)
+            watch.end = watch.seen.watch(self._changed(group, watch))
+
+    def remove(self, group: EventGroup, resource: str) -> None:
+        """One resource less; the last one ends the group. Denied: it has no such one."""
+        for watch in group.watches:
+            if watch.wanted.resource == resource:
+                self._end_watch(watch)
+                group.watches.remove(watch)
+                if not group.watches:
+                    self.end(group)
+                return
+        raise Denied(400, "E_INVALIDARG", f"no resource {resource}")
+
+    def initial(self, group: EventGroup) -> list[Item]:
+        """What everything of a group is now."""
+        return [w.seen.item() for w in group.watches if w.seen.has_state]
+
+    def end(self, group: EventGroup) -> None:
+        """Watch no more."""
+        if self._groups.pop(str(group.number), None) is None:
+            return
+        for watch in group.watches:
+            self._end_watch(watch)
+        group.hang_up()
+
+    def end_all(self) -> None:
+        """A restart: nobody is told anything any more."""
+        for group in tuple(self._groups.values()):
+            self.end(group)
+
+    @staticmethod
+    def _end_watch(watch: _Watch) -> None:
+        watch.end()
+        if watch.timer is not None:
+            watch.timer.cancel()
+
+    # -- events ----------------------------------------------------------------------------------
+
+    def listen(self, group: EventGroup, send: Send, hang_up: Callable[[], None]) -> None:
+        """Somebody listens from now on. Denied: RWS 2.0 gives a poll URL once."""
+        if group.spent and self._generation is not Generation.ONE:
+            raise Denied(404, "E_UNRESOLVED_URL", "used already")
+        listening = sum(g.send is not None for g in self._groups.values())
+        if listening >= MOST_SOCKETS:
+            raise Denied(503, "E_MAX_LIMIT_REACHED", "19 websockets are the most")
+        group.send, group.hang_up, group.spent = send, hang_up, True
+        for item in group.waiting:
+            self._tell(group, item)
+        group.waiting.clear()
+
+    def leave(self, number: str, send: Send) -> None:
+        """`send` hears no more of a group; RWS 2.0 has no second time."""
+        group = self._groups.get(number)
+        if group is None or group.send is not send:
+            return
+        group.send, group.hang_up = None, lambda: None
+        if self._generation is not Generation.ONE:
+            self.end(group)
+
+    def _changed(self, group: EventGroup, watch: _Watch) -> Callable[[Item | None], None]:
+        """What is called at a change, with its event where a later look would miss it."""
+
+        def now(item: Item) -> None:
+            if group.send is None:
+                group.waiting.append(item)
+                del group.waiting[:-MOST_RESOURCES]
+            else:
+                self._tell(group, item)
+
+        def later() -> None:
+            watch.timer = None
+            now(watch.seen.item())
+
+        def changed(item: Item | None) -> None:
+            period = _PERIODS[watch.wanted.priority]
+            if item is not None or not period:
+                now(item or watch.seen.item())
+            elif watch.timer is None:
+                watch.timer = self._scheduler().after(period, later)
+
+        return changed
+
+    def _tell(self, group: EventGroup, item: Item) -> None:
+        """One message an event: a public client looks for one in each."""
+        assert group.send is not None
+        group.send(write_events([item]))

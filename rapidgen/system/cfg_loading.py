@@ -1,0 +1,210 @@
+"""A cfg file is loaded onto a controller in mode "add", as strictly as controllers answer.
+
+Events are those that a controller gave: 120003 (digits of the header), 120006 (an instance that
+exists), 71391 (a system input or output) [real 6.03]. Where a controller refuses without a known
+event, or nobody has tried, the strictest reading is taken and marked [mem].
+"""
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+
+from rapidgen.diagnostics import Diagnostic, Severity, Span, error
+from rapidgen.system.base.releases import DOMAINS
+from rapidgen.system.cfg import CfgText, Instance
+from rapidgen.system.cfg_schema import sections
+from rapidgen.system.controller_cfg import ControllerCfg
+from rapidgen.system.instance_rules import Place, faults_of
+
+# What makes two instances the same one, where it is not the name. [mem] The same file, routine
+# or signal may stand in several instances (RARO, VInRoS): the rest tells them apart.
+_IDENTITY = {
+    "CAB_TASK_MODULES": ("File", "Task"),
+    "CAB_EXEC_HOOKS": ("Routine", "Shelf", "Task"),
+    "SYSSIG_OUT": ("Signal", "Name"),
+    "SYSSIG_IN": ("Signal", "Name", "Action"),
+    "EIO_CROSS": ("Name", "Res"),
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Addition:
+    """A file to be loaded. `optional`: it may be refused whole, and the rest stays."""
+
+    file: CfgText
+    optional: bool = False
+    replace: bool = False
+    """Mode "replace": instances that exist are taken out first."""
+    ascii: bool = True
+    """Whether its text is ASCII."""
+
+
+@dataclass(frozen=True, slots=True)
+class Loaded:
+    """The controller with what it took, and what it said."""
+
+    cfg: ControllerCfg
+    faults: tuple[Diagnostic, ...] = ()
+    """Of files that had to be taken: nothing was loaded."""
+    notes: tuple[Diagnostic, ...] = ()
+    """Of optional files, which were left out whole."""
+
+
+def add(base: ControllerCfg, files: Iterable[Addition], *, open_words: bool = False) -> Loaded:
+    """Load the files onto a controller, those that may be refused after the others.
+
+    `open_words`: statuses whose spelling on RobotWare 7 nobody has shown are taken.
+    """
+    given = tuple(files)
+    needed = [addition for addition in given if not addition.optional]
+    cfg, faults = _loaded(base, needed, open_words)
+    if faults:
+        return Loaded(base, faults)
+    notes: list[Diagnostic] = []
+    for addition in given:
+        if addition.optional:
+            cfg, found = _loaded(cfg, [addition], open_words)
+            notes += _left_out(addition.file, found)
+    return Loaded(cfg, (), tuple(notes))
+
+
+def faults_within(cfg: ControllerCfg, *, open_words: bool = False) -> tuple[Diagnostic, ...]:
+    """The same rules for what a controller has already; it loaded, so these are notes."""
+    found: list[Diagnostic] = []
+    for text in cfg.domains:
+        found += _header(cfg, text)
+        for section in text.sections:
+            for instance in section.instances:
+                place = Place(cfg, text, section.name, instance, open_words)
+                found += faults_of(place)
+    return tuple(map(_note, found))
+
+
+def _loaded(
+    base: ControllerCfg, files: Iterable[Addition], open_words: bool
+) -> tuple[ControllerCfg, tuple[Diagnostic, ...]]:
+    """The files together: one may name what another brings."""
+    cfg = base
+    faults: list[Diagnostic] = []
+    for addition in files:
+        text = addition.file
+        faults += _header(base, text)
+        if not addition.ascii:
+            faults.append(_not_ascii(text))
+        existing = list(_existing(cfg, text))
+        if addition.replace:
+            cfg = cfg.without(text.domain, [old for _, _, old in existing])
+        else:
+            faults += [_exists(text, name, new, old) for name, new, old in existing]
+        faults += [_exists(text, name, new, old) for name, new, old in _twice(text)]
+        cfg = cfg.plus(text)
+    known = sections(base.robotware[0], multimove=bool(base.unit_groups))
+    for addition in files:
+        text = addition.file
+        for section in text.sections:
+            allowed = known.get((text.domain, section.name))
+            for instance in section.instances:
+                place = Place(cfg, text, section.name, instance, open_words)
+                if allowed is None:
+                    faults.append(place.unknown_section())
+                    break
+                faults += place.unknown_attributes(allowed)
+                faults += faults_of(place)
+    return (base, tuple(faults)) if faults else (cfg, ())
+
+
+def _header(base: ControllerCfg, text: CfgText) -> Iterator[Diagnostic]:
+    if text.domain not in DOMAINS:
+        yield error(
+            "RG723",
+            Span(text.path, 1, 1),
+            f"a controller has no domain {text.domain} [mem]",
+            f"the domains are {', '.join(DOMAINS)}",
+        )
+        return
+    wanted = base.domain(text.domain).version
+    # ABB's own examples on a 7.6 (DAP) name no digits at all.
+    if text.version is not None and wanted is not None and text.version != wanted:
+        yield error(
+            "RG720",
+            Span(text.path, 1, 1),
+            f"event 120003: {text.domain} is written for {_digits(text.version)}",
+            "build for the release of this controller: controller.robotware, or --backup",
+            label=f"this controller (RobotWare {_release(base)}) wants {_digits(wanted)}",
+        )
+
+
+def _digits(version: tuple[int, int]) -> str:
+    return f"{version[0]}:{version[1]}"
+
+
+def _release(cfg: ControllerCfg) -> str:
+    return f"{cfg.robotware[0]}.{cfg.robotware[1]:02d}"
+
+
+def _not_ascii(text: CfgText) -> Diagnostic:
+    return error(
+        "RG723",
+        Span(text.path, 1, 1),
+        "the file holds characters beyond ASCII [mem]",
+        "write it with letters that every controller reads",
+    )
+
+
+def _existing(cfg: ControllerCfg, text: CfgText) -> Iterator[tuple[str, Instance, Instance]]:
+    """(section, instance of the file, the one that exists)"""
+    for section in text.sections:
+        there = {
+            identity(section.name, old): old for old in cfg.instances(text.domain, section.name)
+        }
+        for new in section.instances:
+            old = there.get(identity(section.name, new))
+            if old is not None:
+                yield section.name, new, old
+
+
+def _twice(text: CfgText) -> Iterator[tuple[str, Instance, Instance]]:
+    there: dict[tuple[str, ...], Instance] = {}
+    for section in text.sections:
+        for instance in section.instances:
+            key = (section.name, *identity(section.name, instance))
+            if key in there:
+                yield section.name, instance, there[key]
+            there.setdefault(key, instance)
+
+
+def identity(section: str, instance: Instance) -> tuple[str, ...]:
+    """What tells an instance from the others of its section, without case."""
+    return tuple(instance.text(n).casefold() for n in _IDENTITY.get(section, ("Name",)))
+
+
+def _exists(text: CfgText, section: str, new: Instance, old: Instance) -> Diagnostic:
+    name = " ".join(part for part in identity_text(section, new) if part)
+    return error(
+        "RG721",
+        Span(text.path, max(new.line, 1), 1),
+        f"event 120006: {section} '{name}' exists",
+        "leave out what the controller has: build with --backup, or give it a new name",
+        label=f"the controller has it (line {old.line} of its {text.domain})",
+    )
+
+
+def identity_text(section: str, instance: Instance) -> tuple[str, ...]:
+    """`identity` as it is written."""
+    return tuple(instance.text(n) for n in _IDENTITY.get(section, ("Name",)))
+
+
+def _left_out(text: CfgText, found: Sequence[Diagnostic]) -> Iterator[Diagnostic]:
+    if found:
+        first = found[0]
+        yield error(
+            first.code,
+            Span(text.path, 1, 1),
+            f"counts as refused, whole: {first.message}",
+            "nothing: the driver does without; only the controller can tell",
+            notes=tuple(f"line {d.span.line}: {d.message}" for d in found[1:] if d.span),
+            severity=Severity.WARNING,
+        )
+
+
+def _note(found: Diagnostic) -> Diagnostic:
+    return replace(found, severity=Severity.WARNING)

@@ -1,0 +1,141 @@
+"""An emergency stop or a power failure while an axis runs at four fifths of its speed or more.
+
+The brakes stop each axis by itself, so that the robot comes to rest off its path, which a
+controller may refuse to go on with (ERR_PATHDIST). One seed decides where the robot begins, which
+way it is sent, when it is stopped, and which task runs when. What must hold:
+
+- a robot that has come to rest stays there, also when the program is started again;
+- then a new trajectory from where it stands is taken and executed to its last point.
+"""
+
+import random
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from rapidgen.verification.model import Broken
+from rapidgen.verification.position_checks import Point, Position
+from rapidgen.verification.raw_connection import RawLink
+from rapidgen.verification.testbench import FAILURES, Bench
+
+FAST = 0.8
+"""Share of an axis' speed limit."""
+STEP = 0.004
+"""s between two looks at the axes' speeds."""
+BRAKES = (0.5, 1.0, 2.0)
+"""What the brakes may do, in units of the axes' acceleration: no figure is public."""
+ATTEMPTS = 20
+"""Trajectories until one runs as fast as that."""
+
+
+@dataclass(frozen=True, slots=True)
+class FastStop:
+    """What became of one stop at speed."""
+
+    seed: int
+    action: str
+    share: float
+    """Of the fastest axis' speed limit, when it was stopped."""
+    off_path: float
+    """m from the rest position to where the path goes on, as the controller sees it."""
+    from_main: bool
+    """The program had to be started from main: so far off was it, or the driver asked for it."""
+    finding: str
+    log: tuple[str, ...] = ()
+
+
+def fast_stop(bench: Bench, seed: int) -> FastStop:
+    """One stop at speed, on a bench on which nothing has moved yet; it draws from `seed`."""
+    bench.controller.scheduler.draw_from(seed)
+    chance = random.Random(f"{seed} fast stop")
+    action = chance.choice(("e-stop", "power-loss"))
+    motion = bench.controller.motion
+    motion.settings = replace(motion.settings, quick_factor=chance.choice(BRAKES))
+    share, off_path, from_main, finding = 0.0, 0.0, False, ""
+    try:
+        link, share = _at_speed(bench, chance)
+        bench.controller.perform(action)
+        bench.wait_until_standing(10)
+        off_path, _ = bench.motion_group.off_path
+        from_main = _start_again(bench, chance)
+        _goes_on(bench, chance, link if action == "e-stop" else None)
+        bench.healthy()
+    except FAILURES as error:
+        finding = f"{action} at {share:.0%}, {off_path * 1000:.1f} mm off the path: {error}"
+    return FastStop(
+        seed, action, share, off_path, from_main, finding, bench.log() if finding else ()
+    )
+
+
+def _at_speed(bench: Bench, chance: random.Random) -> tuple[RawLink, float]:
+    """The robot on a way on which an axis runs fast, and how fast."""
+    link = bench.motion()
+    for _ in range(ATTEMPTS):
+        bench.motion_group.jump(_anywhere(bench, chance))
+        bench.run(0.1)
+        points = _way(bench, chance)
+        bench.sets_off(link, points)
+        bench.run(chance.uniform(0, sum(seconds for _, seconds in points[1:])))
+        while not bench.standing:
+            before = bench.position
+            bench.run(STEP)
+            share = _share(bench, before, bench.position)
+            if share >= FAST:
+                return link, share
+        bench.run(1)
+    raise Broken(f"no axis ran at {FAST:.0%} of its speed in {ATTEMPTS} trajectories")
+
+
+def _anywhere(bench: Bench, chance: random.Random) -> Position:
+    return tuple(
+        joint.lower + chance.uniform(0.05, 0.95) * (joint.upper - joint.lower)
+        for joint in bench.group.joints
+    )
+
+
+def _way(bench: Bench, chance: random.Random) -> list[Point]:
+    """Points from here, each as far as its quickest axis takes it at nearly its whole speed."""
+    points = [(bench.position, 10.0)]
+    for _ in range(chance.randrange(1, 4)):
+        here, there = points[-1][0], _anywhere(bench, chance)
+        seconds = max(
+            abs(b - a) / (0.97 * joint.speed) + joint.speed / joint.acceleration
+            for a, b, joint in zip(here, there, bench.group.joints, strict=True)
+        )
+        points.append((there, max(seconds, 1.1 * bench.tcp_seconds(here, there))))
+    return points
+
+
+def _share(bench: Bench, before: Sequence[float], after: Sequence[float]) -> float:
+    """How fast the fastest axis is, of its limit."""
+    joints = zip(bench.group.joints, before, after, strict=True)
+    return max(abs(b - a) / STEP / joint.speed for joint, a, b in joints)
+
+
+def _start_again(bench: Bench, chance: random.Random) -> bool:
+    """What an operator does; whether it took PP to main."""
+    last = bench.last_event
+    bench.run(chance.uniform(0.2, 4))
+    bench.start_again()
+    refused = bench.controller.task(bench.group.task).state != "running"
+    why = "the program was started, and nobody has asked for motion"
+    if not refused:
+        # The supervisor says so 2 s behind the start.
+        bench.stays(chance.uniform(2.2, 4), why)
+        refused = any("from main" in str(event) for event in bench.controller.log.since(last))
+    if refused:
+        for action in ("stop", "pp-to-main"):
+            bench.controller.perform(action)
+        bench.start_again()
+        bench.stays(chance.uniform(2, 4), why)
+    return refused
+
+
+def _goes_on(bench: Bench, chance: random.Random, link: RawLink | None) -> None:
+    """A new trajectory from here is executed, over the old connection or a new one."""
+    if link is not None and (link.lost or chance.random() < 0.5):
+        link.close(then=1.5)
+        link = None
+    points = bench.wave(4)
+    since = bench.now
+    (link or bench.motion()).send(bench.download(points))
+    bench.arrives(points, since, 15)

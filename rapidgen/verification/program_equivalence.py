@@ -1,0 +1,108 @@
+"""Random motion programs: each moves as the same one does that is written in RAPID.
+
+A name, `program/17`, decides everything: how many moves, which, how fast, through which zones.
+"""
+
+import random
+from dataclasses import replace
+from typing import TextIO
+
+from rapidgen.config.model import RobotConfig
+from rapidgen.controller.tracing import Trace
+from rapidgen.diagnostics import refusal
+from rapidgen.system.model import System
+from rapidgen.verification.bench_pool import Boot
+from rapidgen.verification.model import Finding
+from rapidgen.verification.raw_programs import Programmer, RawOrder, called, in_rapid, orders
+from rapidgen.verification.schedule_exploration import Explored, Recording
+from rapidgen.verification.settings import Setting
+from rapidgen.verification.suite.programs import Unlike, one_like_rapid
+from rapidgen.verification.testbench import FAILURES, Bench
+
+LONGEST = 12
+"""Moves of a program at most; two at least."""
+PROGRAMS = Setting()
+"""Under which they run."""
+_MS = 1_000_000
+LOOKS = ((20 * _MS, 0), (_MS, 0), (_MS, 1), (_MS, 2), (_MS, 3))
+"""(ns between two positions, how rotations are rounded): a program that seems to go another way is
+looked at again, until it holds. Chords of 20 ms cut corners by up to 0.5 mm; and where the robot's
+law could as well begin to brake 0.1 s earlier, 1e-8 in a rotation makes two of one program."""
+
+
+def name_of(seed: int) -> str:
+    """What the program of a seed is called."""
+    return f"program/{seed}"
+
+
+def takes_programs(config: RobotConfig) -> None:
+    """Refuse a driver that takes none. Raises DiagnosticError RG810."""
+    if config.profile != "full":
+        mend = "take --programs away, or build it with `profile: full`"
+        raise refusal("RG810", None, f"the driver of {config.name} takes no programs", mend)
+
+
+def liken(
+    config: RobotConfig,
+    system: System,
+    name: str,
+    trace: TextIO | None = None,
+    record: Recording | None = None,
+    boot: Boot = Bench,
+) -> Explored:
+    """Run a random program, and the same one in RAPID: path within 0.01 mm, time within 0.5 %.
+
+    The story is the program in RAPID. `trace` and `record` as for `explore`: of the last look.
+    """
+    seen = trace is not None or record is not None
+    tried = Explored(name, "", None)
+    for sample, rounding in LOOKS[-1:] if seen else LOOKS:
+        tried, unlike = _look(config, system, name, sample, rounding, trace, record, boot)
+        if not unlike:
+            break
+    return tried
+
+
+def _look(
+    config: RobotConfig,
+    system: System,
+    name: str,
+    sample: int,
+    rounding: int,
+    trace: TextIO | None,
+    record: Recording | None,
+    boot: Boot,
+) -> tuple[Explored, bool]:
+    """The same, once, and whether it is the likeness that did not hold."""
+    chance = random.Random(name)
+    finding, unlike = None, False
+    setting = replace(PROGRAMS, tracing=trace is not None)
+    with boot(config, system, setting) as bench:
+        bench.sample = sample
+        if trace is not None:
+            Trace(bench.controller, trace)
+        program = orders(bench, chance.randint(2, LONGEST), chance)
+        plan = in_rapid(bench, program)
+        end = record(bench.controller) if record is not None else None
+        try:
+            other = boot(config, called(config, bench.group.task), setting)
+            other.sample = sample
+            hand = [_rounded(order, rounding) for order in program]
+            one_like_rapid(Programmer(bench), bench, program, other, hand)
+            bench.healthy()
+        except FAILURES as error:
+            finding = Finding(name, str(error), plan, bench.log())
+            unlike = isinstance(error, Unlike)
+        finally:
+            if end is not None:
+                end()
+    return Explored(name, plan, finding), unlike
+
+
+def _rounded(order: RawOrder, rounding: int) -> RawOrder:
+    """The same move: a rotation's parts may be multiplied by anything."""
+    if order.pose is None or not rounding:
+        return order
+    place, rotation = order.pose
+    a, b, c, d = (part * (1 - rounding * 3e-7) for part in rotation)
+    return replace(order, pose=(place, (a, b, c, d)))

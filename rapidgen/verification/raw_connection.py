@@ -1,0 +1,217 @@
+"""Client connections to a bench's controller: bytes out, bytes in."""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, TypeVar
+
+from rapidgen.machine.network.interface import Endpoint, NetworkFault
+from rapidgen.verification.messages import (
+    JOINT_TRAJ_PT,
+    MAX_JOINTS,
+    RawComm,
+    RawContent,
+    RawFrame,
+    RawSpecial,
+    RawTrajectoryPoint,
+    Splitter,
+    decode,
+    encode,
+)
+from rapidgen.verification.model import Broken
+from rapidgen.verification.position_checks import Point, Position
+
+if TYPE_CHECKING:
+    from rapidgen.verification.testbench import Bench
+
+C = TypeVar("C")
+
+
+class RawLink:
+    """One client connection, as bytes and frames. Frames are taken, with their time, as they come.
+
+    `reading` False: a client that never reads.
+    """
+
+    def __init__(
+        self, bench: "Bench", port: int, *, reading: bool = True, address: str = "127.0.0.1"
+    ) -> None:
+        self._bench = bench
+        self._network = bench.controller.network
+        self._splitter = Splitter()
+        self.frames: list[tuple[float, RawFrame]] = []
+        self.sent = 0
+        self.lost = False
+        self._taken = 0
+        self._said: Splitter | None = Splitter()
+        self._trajectory: list[Point] = []
+        self.endpoint: Endpoint = self._network.connect(address, port)
+        if reading:
+            self.read_on()
+        bench.until(lambda: self.endpoint.connected, 5, f"port {port} accepts a connection")
+
+    def read_on(self) -> None:
+        """Read from now on, what has come so far first."""
+        self.endpoint.changed.add(self._receive)
+        if self.endpoint.connected:
+            self._receive()
+
+    def stop_reading(self) -> None:
+        """Leave what comes from now on where it is."""
+        self.endpoint.changed.remove(self._receive)
+
+    def send(self, data: bytes) -> None:
+        """Write all of `data`, letting time pass while the controller has no room."""
+        while data and not self.lost:
+            try:
+                taken = self._network.send(self.endpoint, data)
+            except NetworkFault:
+                self.lost = True
+                return
+            self.sent += taken
+            self._listen(data[:taken])
+            data = data[taken:]
+            if data:
+                self._bench.run(0.01)
+
+    def at_once(self, data: bytes) -> None:
+        """Write a few bytes without letting time pass, as at a statement of the driver."""
+        if not self.lost:
+            try:
+                self.sent += self._network.send(self.endpoint, data)
+            except NetworkFault:
+                self.lost = True
+
+    def _listen(self, data: bytes) -> None:
+        """Keep what a well-formed download asks for, for the plots."""
+        if self._said is None:
+            return
+        try:
+            for frame in self._said.feed(data):
+                if frame.number == JOINT_TRAJ_PT:
+                    content = decode(frame)
+                    if isinstance(content, RawTrajectoryPoint):
+                        self._keep(content)
+        except Broken:
+            self._said = None
+
+    def _keep(self, point: RawTrajectoryPoint) -> None:
+        if point.sequence == RawSpecial.BEGIN:
+            self._trajectory = []
+        joints = tuple(point.joints[: len(self._bench.group.joints)])
+        self._trajectory.append((joints, point.duration))
+        if point.sequence == RawSpecial.END:
+            self._bench.commanded.append((self._bench.now, self._trajectory))
+            self._trajectory = []
+
+    def read(self) -> list[RawFrame]:
+        """Frames that have arrived since the last call."""
+        found = [frame for _, frame in self.frames[self._taken :]]
+        self._taken = len(self.frames)
+        return found
+
+    def forget(self) -> None:
+        """Drop the frames so far."""
+        self.frames.clear()
+        self._taken = 0
+
+    def _receive(self) -> None:
+        while not self.lost:
+            try:
+                data = self._network.receive(self.endpoint, 65_536)
+            except NetworkFault:
+                self.lost = True
+                return
+            if data is None:
+                return
+            if not data:
+                self.lost = True
+                return
+            now = self._bench.now
+            self.frames += [(now, frame) for frame in self._splitter.feed(data)]
+
+    def expect_reply(self, seconds: float, what: str) -> RawFrame:
+        """The next frame that was not read yet, within `seconds`."""
+        self._bench.until(lambda: len(self.frames) > self._taken, seconds, what)
+        self._taken += 1
+        return self.frames[self._taken - 1][1]
+
+    def expect(self, kind: type[C], seconds: float, what: str) -> C:
+        """The next message of a kind that was not read yet; others before it are passed over."""
+        found: list[C] = []
+
+        def arrived() -> bool:
+            while not found and len(self.frames) > self._taken:
+                self._taken += 1
+                content = decode(self.frames[self._taken - 1][1])
+                if isinstance(content, kind):
+                    found.append(content)
+            return bool(found)
+
+        self._bench.until(arrived, seconds, what)
+        return found[0]
+
+    def told(self, kind: type[C], since: float = 0.0) -> list[tuple[float, C]]:
+        """All messages of a kind that came from `since` on, and when."""
+        found = [(when, decode(frame)) for when, frame in self.frames if when >= since]
+        return [(when, content) for when, content in found if isinstance(content, kind)]
+
+    def ask(self, content: RawContent, seconds: float = 2) -> RawContent:
+        """Send a request; the reply to it."""
+        data = encode(content, RawComm.REQUEST)
+        self.send(data)
+        number = int.from_bytes(data[4:8], "little")
+        return self.reply(number, seconds)
+
+    def reply(self, number: int, seconds: float = 2, what: str = "") -> RawContent:
+        """The next reply of a type; what comes before it is passed over."""
+        found: list[RawFrame] = []
+
+        def arrived() -> bool:
+            while not found and len(self.frames) > self._taken:
+                self._taken += 1
+                frame = self.frames[self._taken - 1][1]
+                if (frame.number, frame.comm) == (number, RawComm.REPLY):
+                    found.append(frame)
+            return bool(found)
+
+        self._bench.until(arrived, seconds, what or f"a reply of type {number} arrives")
+        return decode(found[0])
+
+    def stop(self, seconds: float = 2, what: str = "STOP is answered") -> RawContent:
+        """Send STOP; the reply to it."""
+        self.send(STOP)
+        return self.reply(JOINT_TRAJ_PT, seconds, what)
+
+    def wait_until_lost(self, seconds: float, what: str) -> None:
+        """Wait for the controller to end the connection."""
+        self._bench.until(lambda: self.lost, seconds, what)
+
+    def close(self, *, abort: bool = False, then: float | None = None) -> None:
+        """End the connection (FIN), or reset it (RST), and let `then` s pass."""
+        self._network.close(self.endpoint, abort=abort)
+        self.lost = True
+        if then is not None:
+            self._bench.run(then)
+
+
+def point_frame(
+    number: int, count: int, joints: Position, duration: float, comm: RawComm = RawComm.TOPIC
+) -> bytes:
+    """Point `number` (from 0) of `count`, numbered as the ROS-Industrial node does."""
+    if number == 0:
+        sequence = int(RawSpecial.BEGIN)
+    elif number == count - 1:
+        sequence = int(RawSpecial.END)
+    else:
+        sequence = number
+    return raw_point(sequence, joints, duration, comm)
+
+
+def raw_point(
+    sequence: int, joints: Sequence[float], duration: float, comm: RawComm = RawComm.TOPIC
+) -> bytes:
+    """A point with any sequence number."""
+    padded = (*joints, *[0.0] * (MAX_JOINTS - len(joints)))
+    return encode(RawTrajectoryPoint(sequence, padded, 0.0, duration), comm)
+
+
+STOP = raw_point(int(RawSpecial.STOP), (), 0.0, RawComm.REQUEST)

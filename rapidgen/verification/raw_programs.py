@@ -1,0 +1,264 @@
+"""A raw client that sends programs, and the same programs written in RAPID by hand."""
+
+import random
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import lru_cache
+
+from rapidgen.axes.frames import Pose
+from rapidgen.config.model import RobotConfig
+from rapidgen.controller.cell import in_its_cell
+from rapidgen.generate import build, make_system
+from rapidgen.motion.moves import Carrier
+from rapidgen.runtime.builtins.motion.targets import rob_target
+from rapidgen.runtime.robot_data import NO_OFFSETS
+from rapidgen.runtime.values import Value
+from rapidgen.system.model import ModuleFile, System
+from rapidgen.verification import messages
+from rapidgen.verification.batches import millionths, words_frame
+from rapidgen.verification.messages import (
+    PROGRAM,
+    RawInstruction,
+    RawModal,
+    RawReason,
+    RawStreamFlag,
+)
+from rapidgen.verification.model import Broken
+from rapidgen.verification.position_checks import Position
+from rapidgen.verification.raw_connection import RawLink
+from rapidgen.verification.testbench import Bench
+
+BEGIN, END, WHOLE = RawStreamFlag.BEGIN, RawStreamFlag.END, RawStreamFlag.WHOLE
+ALL = BEGIN | END | WHOLE
+_KINDS = (RawInstruction.MOVE_J, RawInstruction.MOVE_L, RawInstruction.MOVE_ABSJ)
+HAND = "hand", "hand.mod"
+"""The module that makes the same moves: its name, its file."""
+_WORDS = 245
+"""Words of instructions that fit into one message."""
+_NAMES = {
+    RawInstruction.MOVE_ABSJ: "MoveAbsJ",
+    RawInstruction.MOVE_J: "MoveJ",
+    RawInstruction.MOVE_L: "MoveL",
+    RawInstruction.MOVE_C: "MoveC",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class RawOrder:
+    """A move: the joints at its end (rad, m), the pose that they reach, `via` on a circle. `speed`
+    (m/s), `turn` of the tool and of rotary external axes (rad/s), `linear` of the other ones (m/s)
+    and `zone` (m, rad; None: a stop point) stand in every instruction; `frames` are
+    the numbers of tool and work object, `marks` signals on the way: number, value, kind, place."""
+
+    kind: RawInstruction
+    joints: Position
+    pose: Pose | None
+    via: Pose | None = None
+    speed: float = 0.15
+    zone: float | None = 0.005
+    frames: tuple[int, int] | None = None
+    marks: tuple[tuple[float, ...], ...] = ()
+    turn: float = 2.0
+    linear: float = 1.0
+
+    @property
+    def speeds(self) -> tuple[float, ...]:
+        """speeddata: TCP, orientation, linear and rotary external axes."""
+        return self.speed, self.turn, self.linear, self.turn
+
+    @property
+    def zones(self) -> tuple[float, ...]:
+        """zonedata behind finep."""
+        size = self.zone or 0.0
+        return size, 1.5 * size, 1.5 * size, 3 * size, 1.5 * size, 3 * size
+
+    @property
+    def words(self) -> list[int]:
+        """As they go onto the wire."""
+        first = self.kind | RawModal.SPEED | RawModal.ZONE
+        values = [*self.speeds, float(self.zone is None), *self.zones]
+        if self.frames is not None:
+            first |= RawModal.FRAMES
+            values += self.frames
+        if self.marks:
+            first |= RawModal.SIGNALS
+            values += [len(self.marks), *(value for mark in self.marks for value in mark)]
+        for pose in (self.via, self.pose):
+            if pose is not None:
+                values += [*pose[0], *pose[1]]
+        return [int(first), *millionths([*values, *self.joints])]
+
+
+class Programmer:
+    """One program after the other over one connection to the motion server."""
+
+    def __init__(self, bench: Bench, link: RawLink | None = None) -> None:
+        self.bench = bench
+        self.link = link if link is not None else bench.motion()
+        self.number = 0
+
+    def send(
+        self, orders: Sequence[RawOrder], flags: RawStreamFlag = ALL, start: Position | None = None
+    ) -> messages.RawContent:
+        """A program in messages of some instructions; the last reply, or the first refusal."""
+        self.number += 1
+        words, own, at = millionths(self.bench.position if start is None else start), flags, 0
+        for number, order in enumerate(orders, 1):
+            words += order.words
+            last = number == len(orders)
+            if not last and len(words) + len(orders[number].words) <= _WORDS:
+                continue
+            told = self.say(words, number - at, own if last else own & ~END, first=at)
+            words, own, at = [], flags & ~BEGIN, number
+            if isinstance(told, messages.RawPointsRefused):
+                break
+        return told
+
+    def say(
+        self, words: Sequence[int], count: int, flags: RawStreamFlag, first: int = 0
+    ) -> messages.RawContent:
+        """A batch of any words; its reply."""
+        self.link.send(words_frame(self.number, first, count, words, flags, number=PROGRAM))
+        return self.link.reply(PROGRAM, 5)
+
+    def takes(self, what: str, orders: Sequence[RawOrder], flags: RawStreamFlag = ALL) -> int:
+        """Send a program; Broken unless it is taken. Its number among the trajectories."""
+        told = self.send(orders, flags)
+        if not isinstance(told, messages.RawPointsAccepted) or told.accepted != len(orders):
+            raise Broken(f"{what}: {len(orders)} instructions are right, the reply is {told}")
+        return told.trajectory
+
+    def refused(self, told: messages.RawContent, reason: RawReason, index: int, what: str) -> None:
+        """Broken unless a reply is a refusal for that reason, at that instruction."""
+        if not isinstance(told, messages.RawPointsRefused):
+            raise Broken(f"{what}: wanted {reason.name}, the reply is {told}")
+        if (told.reason, told.point) != (reason, index):
+            raise Broken(f"{what}: wanted {reason.name} at {index}, the reply is {told}")
+
+
+def orders(bench: Bench, count: int, chance: random.Random) -> list[RawOrder]:
+    """Moves in the neighbourhood of a place that no robot finds singular, the last a stop point."""
+    middle = bent(bench)
+    found = [RawOrder(RawInstruction.MOVE_ABSJ, middle, None, zone=None)]
+    poses = computes(bench)
+    for number in range(1, count):
+        joints = near(bench, middle, chance)
+        kind = chance.choice(_KINDS) if poses else RawInstruction.MOVE_ABSJ
+        pose = None if kind is RawInstruction.MOVE_ABSJ else reached(bench, joints)
+        zone = chance.choice((0.002, 0.005, 0.01)) if number + 1 < count else None
+        found.append(RawOrder(kind, joints, pose, None, chance.choice((0.1, 0.15)), zone))
+    return found
+
+
+def computes(bench: Bench) -> bool:
+    """Whether the controller tells the motion server what pose joints reach."""
+    known = bench.motion_group.kinematics is not None
+    return known and bench.setting.dialect.calc_in_background
+
+
+def kinds_with_marks(bench: Bench) -> tuple[RawInstruction, ...]:
+    """On the way of which moves signals may be set; a SCARA's joint moves are made to joints."""
+    joint_moves = (RawInstruction.MOVE_J, RawInstruction.MOVE_ABSJ)
+    lines = (RawInstruction.MOVE_L, RawInstruction.MOVE_C)
+    return lines if bench.motion_group.map.two_sided else (*joint_moves, *lines)
+
+
+def bent(bench: Bench) -> Position:
+    """A place with every turning axis somewhat off its zero, within its limits."""
+    return tuple(
+        (joint.lower + joint.upper) / 2
+        if joint.kind == "prismatic"
+        else max(joint.lower, min(joint.upper, 0.35)) * 0.9
+        for joint in bench.group.joints
+    )
+
+
+def near(bench: Bench, middle: Position, chance: random.Random) -> Position:
+    """A place some centimetres away."""
+    joints = zip(bench.group.joints, middle, strict=True)
+    return tuple(
+        round(
+            value + chance.uniform(-1, 1) * (0.08 if joint.kind == "prismatic" else 0.15),
+            6,
+        )
+        for joint, value in joints
+    )
+
+
+def target_of(bench: Bench, joints: Position) -> Value:
+    """The robtarget of joints, as the controller has it."""
+    group, tool, wobj = bench.motion_group, bench.group.tool.frame, bench.group.work_object
+    assert group.kinematics is not None
+    carrier = Carrier(
+        tool=(tool.position, tool.orientation),
+        object=(wobj.user_frame.position, wobj.user_frame.orientation),
+    )
+    return rob_target(group, joints, carrier, NO_OFFSETS)
+
+
+def reached(bench: Bench, joints: Position) -> Pose:
+    """The pose of joints, in m, as the wire has it."""
+    target = target_of(bench, joints)
+    t, q = target.trans, target.rot
+    return (
+        (round(t.x / 1000, 6), round(t.y / 1000, 6), round(t.z / 1000, 6)),
+        (round(q.q1, 6), round(q.q2, 6), round(q.q3, 6), round(q.q4, 6)),
+    )
+
+
+@lru_cache(maxsize=4)
+def called(config: RobotConfig, name: str) -> System:
+    """The controller of a driver within a program of the user's, which does nothing in a task."""
+    config = replace(config, call_main=False)
+    system = make_system(config, build(config))
+    hand = ModuleFile(*HAND, _hand("").encode())
+    tasks = tuple(
+        replace(task, modules=(*task.modules, hand)) if task.name == name else task
+        for task in system.tasks
+    )
+    return in_its_cell(replace(system, tasks=tasks), config)
+
+
+def by_hand(bench: Bench, program: Sequence[RawOrder]) -> None:
+    """Let the program of a controller that is `called` make these moves, in RAPID's own words."""
+    module = ModuleFile(*HAND, in_rapid(bench, program).encode())
+    bench.replace_module(bench.group.task, module)
+
+
+def in_rapid(bench: Bench, program: Sequence[RawOrder]) -> str:
+    """A module whose `main` makes these moves."""
+    moves = (_statement(bench, order) for order in program)
+    # Time to put the robot where it begins.
+    return _hand("".join(f"        {line}\n" for line in ("WaitTime 1;", *moves, "Stop;")))
+
+
+def _hand(body: str) -> str:
+    return f"MODULE hand\n    PROC main()\n{body}    ENDPROC\nENDMODULE\n"
+
+
+def _statement(bench: Bench, order: RawOrder) -> str:
+    degrees = 57.29577951308232
+    tcp, turn, linear, rotary = order.speeds
+    speed = _list((tcp * 1000, turn * degrees, linear * 1000, rotary * degrees))
+    a, b, c, d, e, f = order.zones
+    sizes = (a * 1000, b * 1000, c * 1000, d * degrees, e * 1000, f * degrees)
+    zone = "fine" if order.zone is None else f"[FALSE,{_list(sizes)[1:]}"
+    tail = f"{speed},{zone},{bench.group.tool.name}\\WObj:={bench.group.work_object.name};"
+    robot, external = bench.motion_group.map.to_rapid(order.joints)
+    by_joints = order.kind is RawInstruction.MOVE_J and bench.motion_group.map.two_sided
+    if order.pose is None or by_joints:
+        return f"MoveAbsJ [{_list(robot)},{_list(external)}]\\NoEOffs,{tail}"
+    target = target_of(bench, order.joints)
+    places = [_target(pose, target) for pose in (order.via, order.pose) if pose is not None]
+    return f"{_NAMES[order.kind]} {','.join(places)},{tail}"
+
+
+def _target(pose: Pose, like: Value) -> str:
+    place = _list([1000 * value for value in pose[0]])
+    conf, external = like.robconf, like.extax
+    turned = _list((conf.cf1, conf.cf4, conf.cf6, conf.cfx))
+    return f"[{place},{_list(pose[1])},{turned},{_list(external.values())}]"
+
+
+def _list(values: Sequence[float]) -> str:
+    return "[" + ",".join(f"{value:.9G}" for value in values) + "]"

@@ -1,0 +1,160 @@
+"""Schedules x stops x faults: does what was executed stay a prefix of what was asked?
+
+One seed decides everything: which task runs when, what the clients do and when, what happens
+to the network and to the controller. The oracle looks at the robot alone, so it judges any driver
+that speaks simple_message on the group's motion port:
+
+- a robot that stands moves only after a whole trajectory has been sent to it;
+- while it moves, it is on the way through the points of the newest trajectories;
+- once STOP has stopped it, it gets no move of the old trajectory any more;
+- a trajectory that nothing disturbed is executed to its last point, or not at all;
+- afterwards, whatever happened, a good client moves the robot.
+"""
+
+import random
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from typing import TextIO
+
+from rapidgen.config.model import RobotConfig
+from rapidgen.controller.controller import VirtualController
+from rapidgen.controller.faults import FaultPlan
+from rapidgen.controller.tracing import Trace
+from rapidgen.machine.network.fault_rules import Direction, NetworkRule
+from rapidgen.system.model import System
+from rapidgen.verification.bench_pool import Boot
+from rapidgen.verification.history import PAIRED, STEPS, History
+from rapidgen.verification.interleaving_coverage import Pair, Pairs, Spots, spots
+from rapidgen.verification.model import Finding
+from rapidgen.verification.raw_connection import STOP
+from rapidgen.verification.schedule import DriverLine, Ground, Plan, drawn, named
+from rapidgen.verification.settings import Setting
+from rapidgen.verification.testbench import FAILURES, Bench
+
+Recording = Callable[[VirtualController], Callable[[], None]]
+"""Begins a recording of a controller; what it returns ends it."""
+SAMPLE = 20_000_000
+"""ns between two looks at a robot that moves: it is judged by centimetres."""
+
+
+@dataclass(frozen=True, slots=True)
+class Explored:
+    """What one schedule did; `finding` when it broke the invariant."""
+
+    schedule: str
+    plan: str
+    finding: Finding | None
+    pairs: tuple[Pair, ...] = ()
+    """Which statements of tasks followed which (`encounters.py`)."""
+
+
+def explore(
+    config: RobotConfig,
+    system: System,
+    schedule: str,
+    *,
+    only: Sequence[str] = (),
+    silence: float = 4.0,
+    trace: TextIO | None = None,
+    record: Recording | None = None,
+    boot: Boot = Bench,
+) -> Explored:
+    """Run one schedule; the same one gives the same history.
+
+    `only` names the steps that a history is made of (default: all of STEPS). `silence`: s
+    after which a new client may expect to be served. `trace` gets a line for each statement
+    of RAPID and for each step of the history; `record` begins a recording of the controller and
+    gives what ends it. Neither changes what happens. Raises DiagnosticError RG807.
+    """
+    name = named(schedule)
+    ground = ground_of(config, system)
+    if only:
+        ground = replace(ground, steps=tuple(only))
+    if ground.fault and name.seed % 2 == 0:
+        fault = f"while nothing disturbs it: {ground.fault}"
+        return Explored(schedule, "", Finding(schedule, fault, "", ()))
+    plan = drawn(name, ground)
+    with boot(config, system, setting_of(config, plan)) as bench:
+        bench.sample = SAMPLE
+        if plan.order == "priorities":
+            bench.controller.scheduler.schedule = "priorities"
+        pairs = Pairs(bench.controller, spots_of(system))
+        if trace is not None:
+            Trace(bench.controller, trace)
+        walk = History(bench, plan, silence, trace)
+        finding = None
+        end = record(bench.controller) if record is not None else None
+        try:
+            walk.go()
+            bench.healthy()
+        except FAILURES as error:
+            finding = Finding(schedule, str(error), "\n".join(walk.plan), bench.log())
+        finally:
+            if end is not None:
+                end()
+    return Explored(schedule, "\n".join(walk.plan), finding, pairs.found())
+
+
+def setting_of(config: RobotConfig, plan: Plan) -> Setting:
+    """What a schedule's controller is booted with."""
+    chance = random.Random(f"{plan.seed} network")
+    return Setting(
+        seed=chance.randrange(1 << 30),
+        random_schedule=plan.order != "turns",
+        switch_at_pers=plan.order in ("pers", "priorities"),
+        tracing=True,
+        faults=FaultPlan(network=_weather(config, plan, chance)),
+    )
+
+
+def _weather(config: RobotConfig, plan: Plan, chance: random.Random) -> tuple[NetworkRule, ...]:
+    """How the network is: mostly good, else late, in pieces, or in lumps, in one direction."""
+    directions: tuple[Direction, ...] = ("in", "out")
+    direction = chance.choice(directions)
+    port = config.groups[0].ports.motion
+    if plan.network == "delay":
+        return (NetworkRule("delay", port, direction, seconds=chance.uniform(0.001, 0.2)),)
+    if plan.network == "merge":
+        return (NetworkRule("merge", port, direction, seconds=chance.uniform(0.005, 0.1)),)
+    if plan.network == "split":
+        size = chance.choice((1, 3, 17, 67, 68, 69, 500))
+        return (NetworkRule("split", port, direction, bytes=size, seconds=size * 2e-6),)
+    return ()
+
+
+@lru_cache(maxsize=4)
+def spots_of(system: System) -> Spots:
+    """Where a driver's tasks meet."""
+    return spots(system)
+
+
+@lru_cache(maxsize=4)
+def ground_of(config: RobotConfig, system: System) -> Ground:
+    """The steps of histories with a driver, and what it executes while it works and is stopped."""
+    group = config.groups[0]
+    bench = Bench(config, system, Setting(coverage=True))
+    try:
+        bench.run(0.5)
+        streams = group.ports.control and group.ports.control in bench.controller.network.listeners
+        steps = tuple(name for name in STEPS if streams or name not in PAIRED)
+        link = bench.motion()
+        for _ in range(2):
+            link.send(bench.download(bench.wave(8, duration=0.3)))
+            bench.run(1.5)
+        link.send(STOP)
+        bench.run(1)
+        reached = bench.lines()
+    except FAILURES as error:
+        return Ground(tuple(name for name in STEPS if name not in PAIRED), fault=str(error))
+    finally:
+        bench.close()
+    shared = spots_of(system).lines
+    places = tuple(
+        DriverLine(task.name, module.name, line, (module.path, line) in shared)
+        for task in system.tasks
+        for module in task.modules
+        for line, hits in sorted(reached.get(module.path, {}).items())
+        if hits
+    )
+    return Ground(steps, places, group.task)

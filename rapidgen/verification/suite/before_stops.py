@@ -1,0 +1,114 @@
+"""What was received before a stop, in whole or in part, does not move the robot after Start."""
+
+from rapidgen.verification.case import Theme
+from rapidgen.verification.messages import RawTrajectoryState
+from rapidgen.verification.model import Broken
+from rapidgen.verification.position_checks import distance
+from rapidgen.verification.raw_connection import RawLink
+from rapidgen.verification.stream import BEGIN, END, Streamer
+from rapidgen.verification.testbench import Bench
+
+case = Theme("controller")
+
+_SHORT = 0.002
+"""s of a stop that is over before a task that looks ten times a second has seen it."""
+
+_BRAKING = 0.02
+"""rad or m that an axis may go on until it stands; the whole order takes it farther."""
+
+
+def _order(bench: Bench, way: str, link: RawLink) -> bytes:
+    """A whole trajectory, in one piece or as a stream."""
+    points = bench.wave(6)
+    if way == "stream":
+        return Streamer(bench, link).frame(points, BEGIN | END)
+    return bench.download(points)
+
+
+def _stopped_shortly(bench: Bench, action: str) -> None:
+    bench.controller.perform(action)
+    bench.run(_SHORT)
+    bench.start_again()
+
+
+def _ways(bench: Bench) -> tuple[str, ...]:
+    return ("download", "stream") if bench.streams else ("download",)
+
+
+@case("order-before-stop", "an order on the wire just before a short stop", "R7a")
+def _order_before_stop(bench: Bench) -> None:
+    """It is over before the supervisor has looked; a motion that has begun ends where it is.
+
+    Start may set a path in motion for the moment that an event routine needs to drop it.
+    """
+    for way in _ways(bench):
+        for action in ("stop", "e-stop", "motors-off"):
+            for ms in (0, 1, 3, 8, 20, 50):
+                link = bench.motion()
+                bench.run(0.15)
+                order = _order(bench, way, link)
+                link.send(order)
+                bench.run(ms * 1e-3)
+                what = f"a {way} {ms} ms before {action}, and Start"
+                place = bench.position
+                _stopped_shortly(bench, action)
+                bench.rests(3, 2, what)
+                if distance(bench.position, place) > _BRAKING:
+                    raise Broken(f"{what}: the robot went {distance(bench.position, place):.3f}")
+                link.close(then=1.2)
+    bench.moves_through(bench.motion(), bench.wave(3))
+
+
+@case(
+    "part-before-stop",
+    "an order of which a part came before a short stop",
+    "R7a",
+    background=True,
+)
+def _part_before_stop(bench: Bench) -> None:
+    """Wherever it is cut, also inside a message; the next order is executed."""
+    for way in _ways(bench):
+        watcher = bench.watcher()
+        for share in (0.0, 0.01, 0.4, 0.99):
+            link = bench.motion()
+            bench.run(0.15)
+            order = _order(bench, way, link)
+            cut = max(1, round(share * len(order)))
+            link.send(order[:cut])
+            bench.run(0.05)
+            _stopped_shortly(bench, "stop")
+            bench.run(0.3)
+            link.send(order[cut:])
+            what = f"{cut} of {len(order)} bytes of a {way} before a stop, the others after Start"
+            bench.stays(2.5, what)
+            told = bench.progress(watcher)
+            if told.state != RawTrajectoryState.REFUSED:
+                raise Broken(f"{what}: PROGRESS says {told}")
+            bench.moves_through(link, bench.wave(3))
+            link.close(then=1.2)
+        watcher.close()
+
+
+@case("waiting-before-stop", "an order that waits behind a silent client", "R7a, R12")
+def _waiting_before_stop(bench: Bench) -> None:
+    """It has been received, but not read, when the stop comes."""
+    for way in _ways(bench):
+        for action in ("stop", "e-stop"):
+            for stopped in (_SHORT, 1.0):
+                silent = bench.motion()
+                bench.run(0.2)
+                order = _order(bench, way, silent)
+                waiting = [bench.motion() for _ in range(2)]
+                for link in waiting:
+                    link.send(order)
+                bench.run(0.01)
+                bench.controller.perform(action)
+                bench.run(stopped)
+                bench.start_again()
+                bench.stays(4, f"a {way} waited behind a silent client at {action}")
+                silent.close()
+                bench.stays(3, f"a {way} waited behind a client at {action}, which then left")
+                for link in waiting:
+                    link.close()
+                bench.run(1.5)
+    bench.moves_through(bench.motion(), bench.wave(3))

@@ -1,0 +1,127 @@
+"""What a configuration can ask for: slower rather than refused, a slow TCP, some clients alone."""
+
+from rapidgen.verification import messages
+from rapidgen.verification.case import Theme
+from rapidgen.verification.model import Broken, NothingToProve
+from rapidgen.verification.position_checks import Point, changed, distance
+from rapidgen.verification.raw_connection import STOP, raw_point
+from rapidgen.verification.stream import BEGIN, END, Streamer
+from rapidgen.verification.testbench import Bench
+
+case = Theme("edges")
+links = Theme("links")
+reading = Theme("reading")
+
+
+def _quick(bench: Bench) -> list[Point]:
+    """To a place, and back, in less time than the first axis needs."""
+    joint, here = bench.group.joints[0], bench.position
+    step = min(1.0, 0.5 * max(joint.upper - here[0], here[0] - joint.lower))
+    if joint.upper - here[0] < here[0] - joint.lower:
+        step = -step
+    seconds = 0.3 * abs(step) / joint.speed
+    there = changed(here, 0, here[0] + step)
+    return [(here, 1.0), (there, seconds), (changed(here, 0, here[0] + 0.9 * step), 1.0)]
+
+
+@case("slowed-down", "what is too fast is slowed down where told so", "R10")
+def _slowed_down(bench: Bench) -> None:
+    if bench.config.trajectory.too_fast != "slow_down":
+        raise NothingToProve("`too_fast` refuses")
+    for streaming in (False, True) if bench.streams else (False,):
+        points, last, since = _quick(bench), bench.last_event, bench.now
+        if streaming:
+            stream = Streamer(bench)
+            stream.takes("a stream that is too fast", points, BEGIN | END)
+        else:
+            bench.motion().send(bench.download(points))
+        bench.arrives(points, since, 20)
+        if not any("slowed down" in str(e) for e in bench.controller.log.since(last)):
+            raise Broken("a trajectory was slowed down, the event log does not say so")
+        bench.run(1.5)
+
+
+@links("strangers", "addresses that the configuration does not name are not served")
+def _strangers(bench: Bench) -> None:
+    """Nor do they take anybody's place."""
+    if not bench.config.allowed_clients:
+        raise NothingToProve("`allowed_clients` names none")
+    ports, known = bench.group.ports, [bench.state() for _ in range(3)]
+    bench.run(0.5)
+    for port in (ports.motion, ports.state, ports.control):
+        stranger = bench.stranger(port) if port else None
+        if stranger is None:
+            continue
+        stranger.send(bench.download(bench.wave(4)))
+        bench.stays(1, "a stranger has asked for it")
+        if not stranger.lost or stranger.read():
+            raise Broken(f"a stranger is served on port {port}")
+    if any(link.lost for link in known):
+        raise Broken("strangers take the place of others")
+    bench.moves_through(bench.motion(), bench.wave(3))
+
+
+@links("stalls", "a client that stalls inside of a message is dropped where told so", "R12")
+def _stalls(bench: Bench) -> None:
+    seconds = bench.config.receive_timeout
+    link = bench.motion()
+    link.send(raw_point(-1, bench.position, 1.0)[:40])
+    bench.run(seconds - 0.5 if seconds else 60)
+    if link.lost:
+        raise Broken("a client that takes its time is dropped")
+    if seconds:
+        link.wait_until_lost(2, "a client that stalls inside of a message is dropped")
+    else:
+        link.close()
+    bench.moves_through(bench.motion(), bench.wave(3))
+
+
+@links("control-silent", "a control client that does not read harms nobody", "R13", needs="control")
+def _control_silent(bench: Bench) -> None:
+    silent, link = bench.control(), bench.motion()
+    bench.run(0.2)
+    silent.stop_reading()
+    for _ in range(3):
+        bench.sets_off(link, bench.wave(12), 0.3)
+        link.send(STOP)
+        if link.reply(messages.JOINT_TRAJ_PT) != messages.RawAcknowledged():
+            raise Broken("STOP is not confirmed while a control client does not read")
+        bench.wait_until_standing(3)
+        bench.run(0.5)
+        bench.moves_through(link, bench.wave(3))
+
+
+@reading("braking", "a robot that brakes is in motion, one that has stopped is not", "R16")
+def _braking(bench: Bench) -> None:
+    state, link = bench.state(), bench.motion()
+    period = bench.config.state_period
+    for _ in range(3):
+        bench.sets_off(link, bench.wave(12, size=0.3), 0.6)
+        link.send(STOP)
+        since = bench.now
+        bench.wait_until_standing(3)
+        stood = bench.now - 0.1
+        bench.run(4 * period + bench.setting.motion.settle)
+        for when, status in state.told(messages.RawStatus, since):
+            if when < stood - 0.005 and not status.in_motion:
+                raise Broken(f"at {when:.3f} s the robot brakes, STATUS says {status}")
+        if state.told(messages.RawStatus, since)[-1][1].in_motion:
+            raise Broken("the robot stands, STATUS says that it is in motion")
+
+
+@reading("there-and-back", "a movement back and forth between two STATUS is in one of them", "R16")
+def _there_and_back(bench: Bench) -> None:
+    """It ends where it began: no axis has moved since the message before."""
+    state, link = bench.state(), bench.motion()
+    bench.run(2 * bench.config.state_period)
+    for _ in range(3):
+        bench.status(state)
+        here, since = bench.position, bench.now
+        away = bench.wave(2, duration=0.15, size=0.002)[1][0]
+        link.send(bench.download([(here, 1.0), (away, 0.15), (here, 0.15)]))
+        bench.run(0.6 + 2 * bench.config.state_period + 2 * bench.setting.motion.settle)
+        if distance(bench.position, here) > 1e-4:
+            raise Broken("a movement there and back does not end where it began")
+        moved = [status.in_motion for _, status in state.told(messages.RawStatus, since)]
+        if 1 not in moved or moved[-1]:
+            raise Broken(f"a movement there and back: STATUS says {moved}")

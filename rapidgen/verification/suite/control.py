@@ -1,0 +1,486 @@
+"""The control connection: stop, pause, speed and heartbeats, which no point delays."""
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+
+from rapidgen.verification import messages
+from rapidgen.verification.case import Theme
+from rapidgen.verification.instruction_hooks import Instruction, fails, watched_orders, wrapped
+from rapidgen.verification.messages import RawComm, RawReason, RawStreamFlag, RawTrajectoryState
+from rapidgen.verification.model import Broken
+from rapidgen.verification.position_checks import distance
+from rapidgen.verification.raw_connection import STOP, RawLink
+from rapidgen.verification.stream import BEGIN, END, Streamer
+from rapidgen.verification.suite.motion_task import patience
+from rapidgen.verification.suite.streams import way
+from rapidgen.verification.testbench import HELLO, Bench
+
+case = Theme("controlling", needs="control")
+
+_TRAJ = messages.JOINT_TRAJ_PT
+
+
+def stop(link: RawLink, seconds: float = 1) -> None:
+    """STOP over this connection; Broken unless it is confirmed in time."""
+    if not isinstance(link.stop(seconds), messages.RawAcknowledged):
+        raise Broken("STOP on the control port is not confirmed")
+
+
+def stopped(link: RawLink, trajectory: int) -> None:
+    """Wait for STOPPED of this trajectory; that of one before may come first."""
+    while link.expect(messages.RawStopped, 3, "STOPPED arrives").trajectory != trajectory:
+        pass
+
+
+def not_done(told: object, reason: RawReason, what: str) -> None:
+    """Broken unless a reply says that it was not done, for that reason."""
+    if told != messages.RawNotDone(reason):
+        raise Broken(f"{what}: wanted {reason.name}, the reply is {told}")
+
+
+def done(told: object, what: str) -> None:
+    """Broken unless a reply is a plain success."""
+    if not isinstance(told, messages.RawAcknowledged):
+        raise Broken(f"{what}: the reply is {told}")
+
+
+@case("control-stop", "STOP over the control port, and where the robot stands", "R5")
+def _stops(bench: Bench) -> None:
+    """STOP there ends a download that is executed, and says where the robot then stands."""
+    control, watcher = bench.control(), bench.watcher()
+    stop(control)
+    for delay in (0.0, 0.02, 0.7):
+        link, since, points = bench.motion(), bench.now, bench.wave(12)
+        bench.sets_off(link, points, delay)
+        asked = bench.now
+        control.read()
+        stop(control)
+        bench.wait_until_standing(3)
+        if bench.now - asked > 1.5:
+            raise Broken(f"the robot stood {bench.now - asked:.2f} s after STOP")
+        bench.followed([p for p, _ in points], since=since)
+        told = control.expect(messages.RawStopped, 2, "STOPPED arrives")
+        progress = bench.progress(watcher)
+        here = (*bench.position, *[0.0] * (messages.MAX_JOINTS - len(bench.position)))
+        # Axes that follow late are measured on their last millimetres.
+        near = 5e-3 if bench.setting.motion.servo_lag else 1e-4
+        if max(abs(a - b) for a, b in zip(told.joints, here, strict=True)) > near:
+            raise Broken(f"the robot stands at {here}, STOPPED says {told.joints}")
+        if (told.trajectory, told.reached, told.reason) != (
+            progress.trajectory,
+            progress.reached,
+            RawReason.STOPPED,
+        ):
+            raise Broken(f"STOPPED says {told}, PROGRESS {progress}")
+        bench.stays(2, "it was stopped over the control port")
+        bench.moves_through(link, bench.wave(3))
+        link.close(then=1.5)
+
+
+@case("stop-under-load", "STOP is answered whatever lies before the motion server", "R5")
+def _stop_under_load(bench: Bench) -> None:
+    """However much lies before the motion server, STOP is answered at once."""
+    control = bench.control()
+    # Others that have to be told everything, and a client that beats.
+    for _ in range(3):
+        bench.state().send(messages.encode(HELLO._replace(subscribe=49), RawComm.REQUEST))
+    control.ask(messages.RawHeartbeat(5))
+    orders = watched_orders(bench)
+    costs = bench.controller.costs
+    # What lies between the request and the trap is the controller's; what is left the driver's.
+    for delay in (0.002, 0.01, 0.02, 0.03):
+        trap = round(delay * 10**9)
+        bench.controller.costs = replace(costs, interrupt_delay=(trap, trap))
+        stream = Streamer(bench)
+        points = way(bench, 200)
+        stream.put(points[:20], BEGIN)
+        bench.wait_until_moving()
+        # Questions without points: each is read, checked and answered.
+        question = stream.frame((), RawStreamFlag(0))
+        stream.link.send(question * 400)
+        asked = bench.now
+        stop(control)
+        # Some controllers let a program go on behind StopMove only when the robot has settled.
+        settled = bench.setting.motion.settle if bench.setting.motion.stop_waits else 0
+        if bench.now - asked > 0.3 + settled:
+            raise Broken(f"under load STOP is answered after {bench.now - asked:.2f} s")
+        late = next(o.time for o in orders if o.time >= asked and o.instruction == "StopMove")
+        most = delay + 0.01 * bench.setting.slowness
+        if late - asked > most and not bench.setting.random_schedule:
+            raise Broken(
+                f"under load the robot is told to stop after {late - asked:.3f} s, not {most:.3f} s"
+            )
+        bench.rests(3, 1, "it was stopped under load")
+        stream.link.close(then=2)
+    bench.moves_through(bench.motion(), bench.wave(3))
+
+
+@case("control-any-moment", "STOP over the control port at every moment", "R7b")
+def _stop_at_any_moment(bench: Bench) -> None:
+    """From before the hand-over until well into the motion, over both ports."""
+    control, link = bench.control(), bench.motion()
+    for step in range(30):
+        points = bench.wave(6, duration=0.2)
+        link.send(bench.download(points))
+        bench.run(step * 0.004)
+        stop(control)
+        if step % 3 == 0:
+            link.stop()
+        bench.wait_until_standing(5)
+        bench.run(0.3)
+        link.stop()
+        bench.stays(0.4, f"STOP came {step * 4} ms behind a trajectory")
+    bench.moves_through(link, bench.wave(4))
+
+
+@case("pause", "a pause on the path")
+def _pauses(bench: Bench) -> None:
+    """It stands on its path, and goes on from there to the end, in order."""
+    control, watcher = bench.control(), bench.watcher()
+    not_done(control.ask(messages.RawPause(1)), RawReason.IDLE, "a pause of nothing")
+    not_done(control.ask(messages.RawPause(0)), RawReason.IDLE, "an end of no pause")
+    link, since, points = bench.motion(), bench.now, bench.wave(14)
+    bench.sets_off(link, points)
+    for _ in range(3):
+        bench.run(0.8)
+        done(control.ask(messages.RawPause(1)), "PAUSE")
+        bench.rests(3, 4, "it is paused")
+        told, status = bench.progress(watcher), bench.status(watcher)
+        if told.state != RawTrajectoryState.PAUSED or told.reason:
+            raise Broken(f"a trajectory is paused, PROGRESS says {told}")
+        if (status.in_motion, status.in_error) != (0, 0):
+            raise Broken(f"a trajectory is paused, STATUS says {status}")
+        done(control.ask(messages.RawPause(1)), "PAUSE again")
+        done(control.ask(messages.RawPause(0)), "the end of PAUSE")
+        bench.wait_until_moving(2)
+        done(control.ask(messages.RawPause(0)), "the end of no pause, on the way")
+    bench.wait_until_at(points[-1][0], 30)
+    bench.followed([p for p, _ in points], since=since)
+    for wrong in (2, -1, 7):
+        not_done(control.ask(messages.RawPause(wrong)), RawReason.BAD_VALUE, f"PAUSE {wrong}")
+
+
+@case("pause-ends", "what halts a motion halts a paused one", "R6", background=True)
+def _pause_ends(bench: Bench) -> None:
+    """What halts a motion halts a paused one; nothing of it goes on."""
+    for action in ("STOP", "control STOP", "e-stop", "motors-off", "stop", "leaves", "another"):
+        control, link = bench.control(), bench.motion()
+        bench.sets_off(link, bench.wave(14), 0.5)
+        done(control.ask(messages.RawPause(1)), "PAUSE")
+        bench.wait_until_standing(3)
+        if action == "STOP":
+            link.stop()
+        elif action == "control STOP":
+            stop(control)
+        elif action == "leaves":
+            link.close()
+        elif action == "another":
+            link.send(bench.download(bench.wave(4)))
+            bench.run(6)
+        else:
+            bench.controller.perform(action)
+        bench.run(0.5)
+        told = control.ask(messages.RawPause(0))
+        if isinstance(told, messages.RawAcknowledged) and action != "another":
+            raise Broken(f"after {action} an end of the pause is taken: {told}")
+        bench.rests(5, 3, f"it was paused, then came {action}")
+        bench.start_again()
+        bench.stays(3, f"it was paused, then came {action} and a start of the program")
+        control.close()
+        link.close(then=2)
+        bench.moves_through(bench.motion(), bench.wave(3))
+        bench.run(1.5)
+
+
+@case("nobody-answers", "a motion task that does not answer", background=True)
+def _nobody_answers(bench: Bench) -> None:
+    """Whoever asks something of a motion task that does not run is told so, soon."""
+    control, link = bench.control(), bench.motion()
+    bench.sets_off(link, bench.wave(12))
+    bench.controller.perform("stop")
+    bench.run(0.5)
+    asked = bench.now
+    told = control.ask(messages.RawSpeed(50))
+    if not isinstance(told, messages.RawNotDone) or bench.now - asked > 1.5:
+        raise Broken(f"SPEED is answered by {told} after {bench.now - asked:.2f} s")
+    bench.controller.perform("start")
+    bench.stays(3, "the program was stopped and started")
+    bench.moves_through(link, bench.wave(3))
+    # In a long move: short ones get their time for the speed, and need no SpeedRefresh.
+    bench.sets_off(link, bench.wave(12, duration=1.0), 0.3)
+    ends = fails(bench, "ROS_motion", "SpeedRefresh", "ERR_SPEED_REFRESH_LIM", 1000)
+    not_done(control.ask(messages.RawSpeed(50)), RawReason.INTERNAL, "SPEED that is not set")
+    ends()
+    done(control.ask(messages.RawSpeed(50)), "SPEED")
+
+
+@case("one-stops", "one background task alone stops and starts the robot", "R7b")
+def _one_stops(bench: Bench) -> None:
+    """ABB's manual is remembered to allow StopMove and StartMove from one background task only."""
+    control, link = bench.control(), bench.motion()
+    used: set[str] = set()
+
+    def watched(name: str) -> Callable[[Instruction], Instruction]:
+        def wrap(as_before: Instruction) -> Instruction:
+            def call(*arguments: object) -> object:
+                used.add(name)
+                return as_before(*arguments)
+
+            return call
+
+        return wrap
+
+    tasks = bench.controller.rapid_tasks
+    for name, task in tasks.items():
+        for instruction in ("StopMove", "StartMove", "StopMoveReset"):
+            wrapped(task, instruction, watched(name))
+    for port in (control, link):
+        bench.sets_off(link, bench.wave(12), 0.3)
+        stop(port)
+        bench.rests(3, 1, "it was stopped")
+    bench.sets_off(link, bench.wave(12), 0.3)
+    done(control.ask(messages.RawPause(1)), "PAUSE")
+    done(control.ask(messages.RawPause(0)), "the end of a pause")
+    control.ask(messages.RawHeartbeat(0.25))
+    bench.wait_until_standing(3)
+    bench.moves_through(link, bench.wave(3))
+    beside = [name for name in used if not tasks[name].spec.motion]
+    if beside != [bench.task("ROS_supervisor")]:
+        raise Broken(f"the robot is stopped and started by {beside}")
+
+
+@case("heartbeats", "a missing heartbeat stops the robot", "R12")
+def _heartbeats(bench: Bench) -> None:
+    """While they come nothing happens; when one is missing the robot stops."""
+    watcher = bench.watcher()
+    for before in (False, True):
+        control, link = bench.control(), bench.motion()
+        beat = messages.RawHeartbeat(0.5)
+        if before:
+            control.ask(beat)
+        points = bench.wave(30)
+        bench.sets_off(link, points)
+        told = control.ask(beat)
+        for _ in range(12):
+            bench.run(0.3)
+            told = control.ask(beat)
+            if not isinstance(told, messages.RawHeartbeatReply):
+                raise Broken(f"HEARTBEAT is answered by {told}")
+            if told.trajectory != bench.progress(watcher).trajectory:
+                raise Broken(f"HEARTBEAT is answered for another trajectory: {told}")
+            if bench.standing or told.state != RawTrajectoryState.MOVING:
+                raise Broken(f"the robot does not move although heartbeats come: {told}")
+        last = bench.now
+        told_stop = control.expect(messages.RawStopped, 3, "without a heartbeat the robot stops")
+        bench.wait_until_standing(3)
+        if not 0.45 < bench.now - last < 2.5 or told_stop.reason != RawReason.CLIENT_LOST:
+            raise Broken(f"{bench.now - last:.2f} s after the last heartbeat: {told_stop}")
+        bench.stays(3, "a heartbeat is missing")
+        # It is missed once.
+        bench.moves_through(link, bench.wave(6))
+        bench.sets_off(link, bench.wave(30))
+        control.ask(beat)
+        # Some controllers let the supervisor go on only when the robot has settled.
+        stopped(control, bench.progress(watcher).trajectory)
+        told = control.ask(messages.RawHeartbeat(0))
+        if (
+            not isinstance(told, messages.RawHeartbeatReply)
+            or told.state != RawTrajectoryState.FAILED
+        ):
+            raise Broken(f"a heartbeat after one was missing is answered by {told}")
+        bench.moves_through(link, bench.wave(10))
+        if not isinstance(control.ask(messages.RawHeartbeat(3600)), messages.RawHeartbeatReply):
+            raise Broken("an hour between heartbeats is refused")
+        for wrong in (-1.0, 3601.0, 1e5, math.nan, math.inf):
+            not_done(control.ask(messages.RawHeartbeat(wrong)), RawReason.BAD_VALUE, f"{wrong:g} s")
+        link.close()
+        control.close(then=2)
+
+
+@case("heartbeat-in-time", "the stop for a missing heartbeat comes in time", "R12")
+def _heartbeat_in_time(bench: Bench) -> None:
+    """The stop for a missing heartbeat comes when it was due, not when somebody looks next."""
+    control, link = bench.control(), bench.motion()
+    orders = watched_orders(bench)
+    for seconds in (0.25, 0.53):
+        bench.sets_off(link, bench.wave(20))
+        control.ask(messages.RawHeartbeat(seconds))
+        last = bench.now
+        bench.wait_until_standing(3)
+        stops = [o.time for o in orders if o.instruction == "StopMove" and o.time > last]
+        if not stops or not seconds - 0.02 <= stops[0] - last <= seconds + 0.06:
+            raise Broken(f"heartbeats of {seconds} s: the last at {last:.3f} s, stops {stops}")
+        control.ask(messages.RawHeartbeat(0))
+        bench.moves_through(link, bench.wave(4))
+        # Axes may follow late.
+        bench.wait_until_standing()
+
+
+@case("awaits-heartbeat", "a server that awaits a heartbeat leaves the other tasks their time")
+def _awaits(bench: Bench) -> None:
+    """It looks for bytes ten times a second, and once more where the heartbeat is due."""
+    control, looks = bench.control(), []
+
+    def counted(as_before: Instruction) -> Instruction:
+        def counting(*arguments: object) -> object:
+            looks.append(bench.now)
+            return as_before(*arguments)
+
+        return counting
+
+    wrapped(bench.rapid_task("ROS_control"), "SocketReceive", counted)
+    for seconds in (5, 0.7):
+        control.ask(messages.RawHeartbeat(seconds))
+        looks.clear()
+        bench.run(0.65)
+        if not 5 <= len(looks) <= 9:
+            raise Broken(f"in 0.65 s it looked {len(looks)} times for a heartbeat of {seconds} s")
+    control.ask(messages.RawHeartbeat(0))
+
+
+@case("control-fails", "instructions of the control server that report errors", "R3")
+def _instructions_fail(bench: Bench) -> None:
+    """Whatever the control server's instructions report, the next client can stop the robot."""
+    for instruction, error in (
+        ("SocketReceive", "ERR_SOCK_CLOSED"),
+        ("SocketSend", "ERR_SOCK_CLOSED"),
+        ("SocketAccept", "ERR_SOCK_CLOSED"),
+        ("UnpackRawBytes", "ERR_OUTOFBND"),
+        ("CopyRawBytes", "ERR_OUTOFBND"),
+    ):
+        control, link = bench.control(), bench.motion()
+        points = bench.wave(30)
+        bench.sets_off(link, points)
+        recovers = fails(bench, "ROS_control", instruction, error)
+        control.send(messages.encode(HELLO, RawComm.REQUEST))
+        bench.run(0.3)
+        control.send(STOP)
+        bench.run(1)
+        recovers()
+        bench.healthy()
+        control = bench.control()
+        bench.run(0.3)
+        stop(control, 2)
+        bench.rests(3, 1, f"it was stopped; {instruction} of the control server has failed")
+        bench.moves_through(link, bench.wave(3))
+        control.close()
+        link.close(then=1.3)
+    for content in _REQUESTS:
+        control = bench.control()
+        # What is read behind length, type and kind is the request's own.
+        recovers = fails(bench, "ROS_control", "UnpackRawBytes", "ERR_OUTOFBND", after=3)
+        control.send(content)
+        control.wait_until_lost(2, "a request that cannot be read drops its client")
+        recovers()
+        bench.healthy()
+        stop(bench.control(), 2)
+
+
+_REQUESTS = (
+    STOP,
+    *(
+        messages.encode(content, RawComm.REQUEST)
+        for content in (messages.RawPause(1), messages.RawSpeed(50), messages.RawHeartbeat(1.0))
+    ),
+)
+
+
+@case("first-start", "a driver that starts for the first time orders nothing", background=True)
+def _first_start(bench: Bench) -> None:
+    """Its persistents say 0 then, also where 0 would mean a pause or a trajectory."""
+    heard = watched_orders(bench)
+    bench.run(2)
+    if heard:
+        raise Broken(f"nobody has asked for anything, the driver orders {heard[0]}")
+
+
+@case("supervisor-gone", "a supervisor that does not answer", "R7b", background=True)
+def _supervisor_is_gone(bench: Bench) -> None:
+    """Should the supervisor not answer nothing moves, and nobody is told that it was done."""
+    with bench.beside(bench.system) as other:
+        control, link, state = other.control(), other.motion(), other.state()
+        other.run(1)
+        if not other.status(state).motion_possible:
+            raise Broken("no motion is possible, before anything has happened")
+        fails(other, "ROS_supervisor", "OpMode", "ERR_OUTOFBND")
+        other.run(1.5 + 2 * other.config.state_period)
+        if other.status(state).motion_possible:
+            raise Broken("the supervisor has ended, STATUS says that motion is possible")
+        link.send(other.download(other.wave(8)))
+        other.stays(3, "the supervisor does not answer")
+        for asked in (control, link):
+            asked.send(STOP)
+            told = asked.reply(_TRAJ, 3)
+            if not isinstance(told, messages.RawFailure):
+                raise Broken(f"the supervisor does not answer, STOP is answered by {told}")
+        not_done(control.ask(messages.RawPause(1), 3), RawReason.INTERNAL, "PAUSE")
+        other.stays(1, "the supervisor does not answer")
+    with bench.beside(bench.system) as other:
+        control, link = other.control(), other.motion()
+        other.sets_off(link, other.wave(30))
+        fails(other, "ROS_supervisor", "OpMode", "ERR_OUTOFBND")
+        other.run(0.5)
+        control.stop(3)
+        other.rests(1, 3, "it was stopped, the supervisor does not answer")
+
+
+@case("old-end", "STOPPED tells what ends, not what has ended")
+def _old_end(bench: Bench) -> None:
+    """A client that comes later is not told of what ended before; a cut tells joint and place."""
+    link = bench.motion()
+    bench.sets_off(link, bench.wave(12))
+    link.stop()
+    bench.wait_until_standing(3)
+    bench.run(patience(bench))
+    control = bench.control()
+    bench.run(1)
+    if any(f.number == messages.STOPPED for f in control.read()):
+        raise Broken("a client is told of a trajectory that had ended before it came")
+    link.close(then=1.2)
+    stream = Streamer(bench)
+    points = way(bench, 20)
+    stream.put(points, BEGIN)
+    bench.wait_until_moving()
+    joint = bench.group.joints[1]
+    here = points[-1][0]
+    stream.put([((here[0], joint.upper + 0.1, *here[2:]), 30.0)])
+    stream.refused(RawReason.JOINT_LIMIT, "joint 2 is outside its limits")
+    told = control.expect(messages.RawStopped, 10, "STOPPED arrives")
+    if (told.reached, told.reason) != (20, RawReason.JOINT_LIMIT):
+        raise Broken(f"a stream was cut behind 20 points, STOPPED says {told}")
+    # Axes that follow late are not quite there yet.
+    near = 1e-3 + 0.2 * bench.setting.motion.servo_lag
+    if distance(told.joints[: len(here)], here) > near or any(told.joints[len(here) :]):
+        raise Broken(f"the stream ended at {here}, STOPPED says {told.joints}")
+
+
+@case("stream-control", "pause, speed and STOP of a stream")
+def _stream_over_control(bench: Bench) -> None:
+    """Pause, speed and STOP of a stream."""
+    control = bench.control()
+    stream, since = Streamer(bench), bench.now
+    points = way(bench, 90)
+    stream.put(points[:25], BEGIN)
+    bench.wait_until_moving()
+    done(control.ask(messages.RawSpeed(60)), "SPEED of a stream")
+    bench.run(0.7)
+    done(control.ask(messages.RawPause(1)), "PAUSE of a stream")
+    bench.wait_until_standing(3)
+    stream.takes("points while the stream is paused", points[25:50])
+    bench.stays(3, "the stream is paused")
+    done(control.ask(messages.RawPause(0)), "the end of a pause")
+    stream.takes("points behind a pause", points[50:70])
+    stream.takes("the end of a stream behind a pause", points[70:], END)
+    bench.arrives(points, since, 60)
+    stream = Streamer(bench, stream.link, number=2)
+    stream.put(way(bench, 25), BEGIN)
+    bench.wait_until_moving()
+    bench.run(0.5)
+    control.read()
+    stop(control)
+    told = control.expect(messages.RawStopped, 2, "STOPPED arrives")
+    refusal = stream.refuses(RawReason.STOPPED, "points behind a STOP", way(bench, 3))
+    if refusal.trajectory != told.trajectory or refusal.point != told.reached:
+        raise Broken(f"STOPPED says {told}, a batch behind it is answered by {refusal}")
+    bench.rests(1, 2, "the stream was stopped")

@@ -1,0 +1,195 @@
+"""The control server's own: it stops by itself, awaits heartbeats to the moment, loses clients."""
+
+from rapidgen.verification import messages
+from rapidgen.verification.case import Theme
+from rapidgen.verification.instruction_hooks import fails, watched_orders
+from rapidgen.verification.messages import RawComm, RawReason, RawTrajectoryState
+from rapidgen.verification.model import Broken, NothingToProve
+from rapidgen.verification.raw_connection import STOP, RawLink
+from rapidgen.verification.stream import BEGIN, Streamer
+from rapidgen.verification.suite.control import not_done, stop, stopped
+from rapidgen.verification.suite.streams import way
+from rapidgen.verification.testbench import Bench
+
+case = Theme("controlling", needs="control")
+
+_TRAJ = messages.JOINT_TRAJ_PT
+_FAILED = RawTrajectoryState.FAILED
+_PING = messages.encode(messages.RawPing(), RawComm.REQUEST)
+
+
+@case("stops-alone", "STOP while the supervisor hangs", "R7b")
+def _alone(bench: Bench) -> None:
+    """Whoever asks the supervisor in vain stops the robot itself, and nobody says it is done."""
+    for port in ("control", "motion", "heartbeat", "leaves"):
+        with bench.beside(bench.system) as other:
+            _stops_alone(other, port)
+
+
+def _stops_alone(bench: Bench, port: str) -> None:
+    control, link = bench.control(), bench.motion()
+    supervisor = bench.controller.task(bench.task("ROS_supervisor"))
+    bench.sets_off(link, bench.wave(12), 0.5)
+    if port == "heartbeat":
+        control.ask(messages.RawHeartbeat(0.2))
+    orders, last = watched_orders(bench), bench.last_event
+    supervisor.stop()
+    asked = bench.now
+    chosen = control if port == "control" else link
+    if port == "leaves":
+        link.close()
+    elif port != "heartbeat":
+        chosen.send(STOP)
+    motion = bench.setting.motion
+    bench.wait_until_standing(1.3 + motion.settle + motion.servo_lag)
+    if port in ("control", "motion"):
+        told = chosen.reply(_TRAJ, 2)
+        if not isinstance(told, messages.RawFailure) or not 0.9 < bench.now - asked < 1.8:
+            raise Broken(f"STOP is answered by {told} after {bench.now - asked:.2f} s")
+    if not any(o.instruction == "StopMove" and o.free for o in orders):
+        raise Broken(f"the supervisor hangs, a stop was asked for ({port}), then {orders}")
+    # Some controllers let a program go on behind StopMove, and tell of it, only then.
+    bench.run(2 * motion.settle if motion.stop_waits else 0)
+    said = [e.title for e in bench.controller.log.since(last) if e.title.startswith("ROS")]
+    if "ROS: the supervisor does not answer" not in said:
+        raise Broken(f"the supervisor hangs, the robot was stopped, the event log says {said}")
+    for paused in (0, 1):
+        refused = control.ask(messages.RawPause(paused))
+        not_done(refused, RawReason.INTERNAL, f"the supervisor hangs, PAUSE {paused}")
+    bench.stays(1, "the robot was stopped, the supervisor hangs")
+    link = link if port != "leaves" else bench.motion()
+    supervisor.start()
+    bench.stays(3, "the supervisor goes on")
+    if bench.setting.motion.stop_owner == "kind":
+        bench.moves_through(link, bench.wave(3))
+        return
+    # There the supervisor cannot take back what a server has done.
+    said = [e.title for e in bench.controller.log.since(last)]
+    if "ROS: the robot stays stopped" not in said:
+        raise Broken(f"a server's stop cannot be taken back, the event log says {said}")
+    link.send(bench.download(bench.wave(3)))
+    bench.stays(4, "a server's stop cannot be taken back")
+
+
+@case("cannot-stop-alone", "a server that cannot stop the robot, either")
+def _cannot(bench: Bench) -> None:
+    """Where its StopMove is refused the event log says so, and another task stops the robot."""
+    control, link = bench.control(), bench.motion()
+    supervisor = bench.controller.task(bench.task("ROS_supervisor"))
+    bench.sets_off(link, bench.wave(12), 0.5)
+    last = bench.last_event
+    fails(bench, "ROS_control", "StopMove", "ERR_PATH_STOP")
+    supervisor.stop()
+    control.send(STOP)
+    told = control.reply(_TRAJ, 2)
+    # Where the motion server came first, this one has not tried.
+    texts = " ".join(str(event) for event in bench.controller.log.since(last))
+    known = "could not stop the robot" in texts or "The robot was stopped by" in texts
+    if not isinstance(told, messages.RawFailure) or not known:
+        raise Broken(f"a server cannot stop the robot, {told}, the event log says {texts}")
+    bench.wait_until_standing(1 + bench.setting.motion.settle + bench.setting.motion.servo_lag)
+    supervisor.start()
+    bench.rests(3, 1, "the supervisor goes on, and was asked to stop")
+    if bench.setting.motion.stop_owner != "kind":
+        # There the supervisor cannot take back the stop of a server.
+        return
+    bench.moves_through(link, bench.wave(3))
+
+
+@case("beats", "heartbeats to the moment", "R12")
+def _beats(bench: Bench) -> None:
+    """To the moment, and missed once; none is awaited behind a HEARTBEAT of 0."""
+    control, link = bench.control(), bench.motion()
+    told = control.ask(messages.RawHeartbeat(0))
+    if not isinstance(told, messages.RawHeartbeatReply) or told.state != RawTrajectoryState.NONE:
+        raise Broken(f"a heartbeat at rest is answered by {told}")
+    points = bench.wave(12)
+    bench.sets_off(link, points)
+    for seconds in (0.3, 0.0):
+        control.ask(messages.RawHeartbeat(seconds))
+    bench.wait_until_at(points[-1][0], 10)
+    orders = watched_orders(bench)
+    for seconds in (0.25, 1.03):
+        bench.sets_off(link, bench.wave(12))
+        orders.clear()
+        control.ask(messages.RawHeartbeat(0.1))
+        beating = control.ask(messages.RawHeartbeat(seconds))
+        last = bench.now
+        bench.run(seconds - 0.01)
+        for _ in range(8):
+            control.send(_PING)
+            bench.run(0.001)
+        bench.wait_until_standing(3)
+        stops = [o.time for o in orders if o.instruction == "StopMove"]
+        late = bench.setting.latest_interrupt + 0.01 * bench.setting.slowness
+        if not stops or not seconds - 0.02 <= stops[0] - last <= seconds + late:
+            raise Broken(f"heartbeats of {seconds} s: the last at {last:.3f} s, stops {stops}")
+        if seconds > 1:
+            if not isinstance(beating, messages.RawHeartbeatReply):
+                raise Broken(f"HEARTBEAT is answered by {beating}")
+            # Some controllers let the supervisor go on only when the robot has settled.
+            stopped(control, beating.trajectory)
+            told = control.ask(messages.RawHeartbeat(0.2))
+            if not isinstance(told, messages.RawHeartbeatReply) or told.state != _FAILED:
+                raise Broken(f"a heartbeat after one was missing is answered by {told}")
+            control.ask(messages.RawHeartbeat(0))
+        bench.moves_through(link, bench.wave(5))
+
+
+@case("beating-clients", "clients that beat, and are lost in each way", "R12")
+def _leave(bench: Bench) -> None:
+    """Each of several clients that beat leaves, is replaced, or is dropped: the robot stops."""
+    link, control = bench.motion(), bench.control()
+    for how in ("leaves", "is replaced", "is reset", "has not beaten", "is dropped", "leaves"):
+        points = bench.wave(6, duration=0.25)
+        bench.sets_off(link, points)
+        if how != "has not beaten":
+            control.ask(messages.RawHeartbeat(0.6))
+        bench.run(0.2)
+        next_one: RawLink | None = None
+        if how == "is replaced":
+            next_one = bench.control()
+        elif how == "is dropped":
+            # By an error in serving it.
+            fails(bench, "ROS_control", "CopyRawBytes", "ERR_OUTOFBND")
+            control.send(_PING)
+        else:
+            control.close(abort=how == "is reset")
+        if how == "has not beaten":
+            bench.wait_until_at(points[-1][0], 5)
+        else:
+            bench.rests(0.3 + 0.05 * bench.setting.slowness, 0.3, f"a client that beats {how}")
+        if not control.lost:
+            raise Broken(f"a control client that {how} keeps its connection")
+        control = next_one if next_one is not None else bench.control()
+        # Whoever comes next has asked for no heartbeats.
+        bench.moves_through(link, bench.wave(6, duration=0.25))
+
+
+@case("stops-before", "STOP before a stream moves")
+def _not_begun(bench: Bench) -> None:
+    """A stream that has points but did not begin to move is stopped: no point was reached."""
+    if bench.config.trajectory.preload <= 0:
+        raise NothingToProve("streams begin at once, `preload` is 0")
+    control, watcher = bench.control(), bench.watcher()
+    stream = Streamer(bench)
+    stream.put(way(bench, 1), BEGIN)
+    number = stream.accepted("the first points").trajectory
+    stop(control)
+    told = control.expect(messages.RawStopped, 2, "STOPPED arrives")
+    here = (*bench.position, *[0.0] * (messages.MAX_JOINTS - len(bench.position)))
+    if (
+        told[:3] != (number, 0, RawReason.STOPPED)
+        or max(abs(a - b) for a, b in zip(told.joints, here, strict=True)) > 1e-5
+    ):
+        raise Broken(f"a stream was stopped before it moved, STOPPED says {told}")
+    stream.refuses(RawReason.STOPPED, "points behind STOP", way(bench, 2))
+    bench.run(0.3)
+    progress = bench.progress(watcher)
+    if (progress.trajectory, progress.state, progress.reason) != (
+        number,
+        RawTrajectoryState.STOPPED,
+        RawReason.STOPPED,
+    ):
+        raise Broken(f"a stream was stopped before it moved, PROGRESS says {progress}")
+    bench.stays(0.5, "the stream was stopped before it moved")

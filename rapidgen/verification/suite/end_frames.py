@@ -1,0 +1,303 @@
+"""The end frame: what is handed over, when, and what then moves in which time."""
+
+import math
+from itertools import pairwise
+
+from rapidgen.verification import messages
+from rapidgen.verification.case import Theme
+from rapidgen.verification.messages import RawReason, RawSpecial, RawTrajectoryState
+from rapidgen.verification.model import Broken, NothingToProve
+from rapidgen.verification.position_checks import (
+    SETTLED,
+    Point,
+    Position,
+    changed,
+    distance,
+    inward,
+)
+from rapidgen.verification.suite.points import Table
+from rapidgen.verification.testbench import CEILING, Bench
+
+case = Theme("taking")
+
+_BEGIN, _END = int(RawSpecial.BEGIN), int(RawSpecial.END)
+_TAKEN = messages.RawAcknowledged()
+_NO_START = messages.RawRefused(RawReason.NO_START, 0, 0)
+
+
+def _inward(bench: Bench, steps: Position) -> Position:
+    """Each axis by its step, to the side where there is more room."""
+    return tuple(
+        inward(joint, here, step)
+        for joint, here, step in zip(bench.group.joints, bench.position, steps, strict=True)
+    )
+
+
+def _approach(bench: Bench, steps: Position) -> float:
+    """s that the way to a first point gets at approach speed."""
+    policy, joints = bench.config.trajectory, bench.group.joints
+    by_axis = (s / (policy.approach_speed * j.speed) for s, j in zip(steps, joints, strict=True))
+    return max(policy.min_segment, *by_axis)
+
+
+def _from_rest(bench: Bench, steps: Position) -> float:
+    """s that the axes take from rest to rest whatever they are given: half the way each ramp."""
+    joints = zip(steps, bench.group.joints, strict=True)
+    ramps = (2 * math.sqrt(step / joint.acceleration) for step, joint in joints)
+    return max(ramps) + bench.setting.motion.ramp_time
+
+
+def _slack(bench: Bench) -> float:
+    """s that a motion may begin later, or last longer, than it was asked to."""
+    return 0.03 + 0.02 * bench.setting.slowness
+
+
+def _in_time(bench: Bench, what: str, seen: float, wanted: float, possible: float = 0.0) -> None:
+    """Broken unless something took as long as wanted, or as is possible where that is longer."""
+    motion = bench.setting.motion
+    late = _slack(bench) + motion.settle + motion.servo_lag
+    if not 0.95 * wanted - 0.02 <= seen <= max(wanted, possible) + late:
+        raise Broken(f"{what} took {seen:.3f} s, not {wanted:.3f} s")
+
+
+def _times(bench: Bench, since: float, place: Position) -> tuple[float, float]:
+    """When the robot first came to a place, and when it left it (now: it has not)."""
+    track = [(t, p) for t, p in bench.track if t >= since]
+    arrived = next((i for i, (_, p) in enumerate(track) if distance(p, place) < SETTLED), None)
+    if arrived is None:
+        raise Broken(f"the robot was not at {place}")
+    for (left, _), (_, after) in pairwise(track[arrived:]):
+        if distance(after, place) >= SETTLED:
+            return track[arrived][0], left
+    return track[arrived][0], bench.now
+
+
+def _done(bench: Bench, table: Table, count: int, seconds: float) -> None:
+    """Broken unless PROGRESS says within that time that all points are executed."""
+    wanted = (table.number, RawTrajectoryState.DONE, count, count, count, 0, -1, 0)
+    table.watcher.read()
+    more = 2.5 * bench.config.state_period + 2 * bench.setting.motion.settle
+    until, told = bench.now + seconds + more, None
+    while bench.now < until:
+        told = table.watcher.expect(messages.RawProgress, 2, "a PROGRESS arrives")
+        if told == wanted:
+            return
+    raise Broken(f"{count} points are executed, PROGRESS says {told}")
+
+
+@case("one-place", "one point, sent twice, in its time", "R8")
+def _one_place(bench: Bench) -> None:
+    """One point, sent twice: in the time given, or at approach speed, whichever takes longer."""
+    table, joints = Table(bench), bench.group.joints
+    for part, given in ((0.9, 0.05), (0.9, 0.8), (0.5, 0.05), (0.0, 0.4)):
+        steps = tuple(part * bench.start_tolerance(joint) for joint in joints)
+        there = _inward(bench, steps)
+        needed = _approach(bench, steps) if any(steps) else 0.0
+        # From rest to rest, and the TCP below its ceiling.
+        needed = max(needed, 2 * bench.tcp_seconds(bench.position, there))
+        table.row(_BEGIN, there, given, _TAKEN)
+        table.accepted(there, given)
+        since = bench.now
+        table.ask()
+        if bench.now - since > 0.2:
+            raise Broken(f"the end frame was answered after {bench.now - since:.2f} s")
+        bench.wait_until_at(there, 5)
+        if needed:
+            took = bench.now - since
+            possible = _from_rest(bench, steps)
+            _in_time(bench, "a point that was sent twice", took, max(needed, given), possible)
+        # It is a place to go to, not one to stay at.
+        _done(bench, table, 2, 0.1 if needed else given + 0.1)
+
+
+@case("start-and-ways", "where a trajectory may begin; ways and stays in their time", "R8, R10")
+def _start(bench: Bench) -> None:
+    """How far from the robot a first point may be; the ways and stays behind it in their time."""
+    table, joints = Table(bench), bench.group.joints
+    near = tuple(map(bench.start_tolerance, joints))
+    # Where no axis is at zero.
+    there = _inward(bench, tuple(4 * n for n in near))
+    table.row(_BEGIN, bench.position, 0.1, _TAKEN)
+    table.accepted(there, bench.seconds_to(there))
+    table.ask()
+    bench.wait_until_at(there, 5)
+    bench.wait_until_standing()
+    if min(near) > 0:
+        beyond = _inward(bench, tuple(1.03 * n for n in near))
+        for axis in range(len(joints)):
+            far = messages.RawRefused(RawReason.START_TOO_FAR, 0, axis + 1)
+            start = (*there[:axis], *beyond[axis:])
+            table.row(_BEGIN, start, 9.0, _TAKEN)
+            table.row(_END, there, 9.0, far)
+            alone = changed(there, axis, beyond[axis])
+            table.row(_BEGIN, alone, 9.0, _TAKEN)
+            table.row(1, alone, 9.0, _TAKEN)
+            table.row(_END, there, 9.0, far)
+        table.number += 1
+        table.row(1, there, 9.0, _NO_START)
+        table.ask()
+        bench.stays(0.1, "the first point was too far")
+    _ways(bench, table, near)
+
+
+def _ways(bench: Bench, table: Table, near: Position) -> None:
+    policy = bench.config.trajectory
+    short = max(0.3, 1.05 * policy.min_segment)
+    for last in (True, False):
+        here = bench.position
+        start = _inward(bench, tuple(-0.97 * n for n in near))
+        one, two, three = (p for p, _ in bench.wave(4, duration=short, size=0.03)[1:])
+        points: list[Point] = [(start, 9.0), (one, short), (one, 0.5), (two, short)]
+        points += [(three, short + 0.1), (three, 0.4)][: 2 if last else 1]
+        for number, (place, seconds) in enumerate(points[:-1]):
+            table.row(number or _BEGIN, place, seconds, _TAKEN)
+        table.accepted(*points[-1])
+        since = bench.now
+        table.ask()
+        bench.wait_until_at(points[-1][0], 10)
+        _done(bench, table, len(points), 0.4 if last else 0.0)
+        finished = bench.now
+        if bench.setting.motion.servo_lag or bench.group.tcp_speed_limit < CEILING:
+            # A robot that follows late does not quite get to a place where it does not stay; below
+            # a ceiling of the TCP ways from and to rest may take longer.
+            continue
+        begun = _times(bench, since, here)[1]
+        at_start = _times(bench, since, start)[0]
+        if min(near) > 0:
+            needed = _approach(bench, tuple(0.97 * n for n in near))
+            _in_time(bench, "the way to the first point", at_start - begun, needed)
+        arrived, left = _times(bench, at_start, one)
+        _in_time(bench, "the first way", arrived - at_start, short)
+        _in_time(bench, "a stay", left - arrived, 0.5)
+        ended = _times(bench, left, three)[0]
+        _in_time(bench, "the ways behind a stay", ended - left, 2 * short + 0.1)
+        if last and finished < ended + 0.3:
+            raise Broken("a stay at the end was left out")
+
+
+@case("not-now", "an end frame while no motion is possible, or another one moves", "R7a")
+def _not_now(bench: Bench) -> None:
+    """What has stopped or stops the robot meanwhile is the reason; a halt is waited for."""
+    table, here = Table(bench), bench.position
+
+    def refused(reason: RawReason) -> None:
+        table.row(_END, here, 9.0, messages.RawRefused(reason, -1, 0))
+        table.number += 1
+        table.row(1, here, 9.0, _NO_START)
+        table.ask()
+
+    if bench.group.ports.control:
+        control = bench.control()
+        for _ in range(2):
+            table.row(_BEGIN, here, 9.0, _TAKEN)
+            table.row(1, here, 9.0, _TAKEN)
+            table.ask()
+            table.stop(control)
+            refused(RawReason.STOPPED)
+    stops = (("stop", RawReason.NOT_EXECUTING), ("e-stop", RawReason.EMERGENCY_STOP))
+    # While commissioning the driver stops with the program, and nobody answers.
+    for action, reason in () if bench.config.commissioning else stops:
+        table.row(_BEGIN, here, 9.0, _TAKEN)
+        table.ask()
+        bench.controller.perform(action)
+        # Sooner than anybody looks by himself.
+        bench.run(0.01)
+        refused(reason)
+        bench.start_again()
+        bench.run(0.5)
+    bench.stays(0.2, "nothing was handed over")
+    _while_moving(bench, table)
+
+
+def _while_moving(bench: Bench, table: Table) -> None:
+    """The one under way ends; its halt is waited for, no longer than it takes."""
+    joint, here = bench.group.joints[0], bench.position
+    step = 0.8 * max(joint.upper - here[0], here[0] - joint.lower)
+    away = _inward(bench, (step, *[0.0] * (len(here) - 1)))
+    # A TCP with a ceiling of its own is slower than the axis.
+    slower = 1.1 if bench.group.tcp_speed_limit >= 5 else 14
+    seconds = slower * step / joint.speed
+    table.row(_BEGIN, here, 9.0, _TAKEN)
+    table.accepted(away, seconds)
+    table.ask()
+    bench.wait_until_moving()
+    bench.run(0.6 * seconds)
+    # The new one begins elsewhere.
+    far = messages.RawRefused(RawReason.START_TOO_FAR, 0, 1)
+    for number, wanted in ((_BEGIN, _TAKEN), (_END, far)):
+        table.row(number, here, 0.2, wanted)
+    since = bench.now
+    table.ask()
+    halted = bench.now
+    if not since + 0.02 < halted < since + 0.9 + bench.setting.motion.settle:
+        raise Broken(f"a trajectory under way was halted in {halted - since:.3f} s")
+    bench.wait_until_standing(5)
+    bench.followed([here, away], since=since - 0.6 * seconds)
+    bench.moves_through(table.link, bench.way_to(here))
+
+
+def _long(bench: Bench, count: int) -> list[Point]:
+    """`count` points in little time; more of them than the ring takes at once."""
+    seconds = max(0.1, 1.02 * bench.config.trajectory.min_segment)
+    return [(p, seconds) for p, _ in bench.wave(count, duration=seconds, size=0.02)]
+
+
+@case("fed", "more points than the ring takes", "R1")
+def _fed(bench: Bench) -> None:
+    """More points than the ring takes are all executed, in time, and the server goes on reading."""
+    policy = bench.config.trajectory
+    if policy.capacity < policy.ring + 25:
+        raise NothingToProve("a whole trajectory has room in the ring")
+    table, points, since = Table(bench), _long(bench, policy.ring + 25), bench.now
+    table.number += 1
+    table.link.send(bench.download(points))
+    bench.wait_until_moving(1)
+    for silence in (0.1, 0.1, 1.25):
+        bench.run(silence)
+        if not isinstance(table.link.ask(messages.RawPing(), 0.05), messages.RawAcknowledged):
+            raise Broken("PING is not confirmed while a trajectory is fed")
+    asked = sum(d for _, d in points[1:])
+    bench.wait_until_at(points[-1][0], asked + 5)
+    # How closely axes follow dense points depends on their accelerations.
+    if bench.now - since > 1.4 * asked + 1:
+        raise Broken(f"{asked:.2f} s of {len(points)} points took {bench.now - since:.2f} s")
+    _done(bench, table, len(points), 0.1)
+    bench.executed(points, since)
+
+
+@case("ends-while-fed", "the end of a trajectory that is still fed", "R5", background=True)
+def _ends_while_fed(bench: Bench) -> None:
+    """Nothing of what had not found room yet is ever executed."""
+    policy = bench.config.trajectory
+    if policy.capacity < policy.ring + 60:
+        raise NothingToProve("a whole trajectory has room in the ring")
+    table, points = Table(bench), _long(bench, policy.ring + 60)
+    link, data = table.link, bench.download(points)
+    for action in ("STOP", "stop", "another"):
+        since, start = bench.now, bench.position
+        # From wherever it stood to where the way begins.
+        table.number += 2
+        link.send(bench.download(bench.way_to(points[0][0])))
+        bench.wait_until_at(points[0][0], 5)
+        bench.wait_until_standing()
+        link.send(data)
+        bench.wait_until_moving(2)
+        bench.run(0.7)
+        if action == "STOP":
+            table.stop()
+        elif action == "another":
+            break
+        else:
+            bench.controller.perform(action)
+        bench.wait_until_standing(3)
+        bench.followed([start, *(p for p, _ in points)], since=since)
+        bench.controller.perform("start")
+        bench.stays(1, f"a long trajectory was ended by {action}")
+    goal = changed(points[0][0], 0, inward(bench.group.joints[0], points[0][0][0], 0.3))
+    far = messages.RawRefused(RawReason.START_TOO_FAR, 0, 1)
+    for sequence, wanted in ((_BEGIN, _TAKEN), (_END, far)):
+        table.row(sequence, goal, 0.3, wanted)
+    table.ask()
+    # Axes may follow late.
+    bench.wait_until_standing(1)
+    bench.stays(0.3, "the one before was superseded")

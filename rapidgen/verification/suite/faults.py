@@ -1,0 +1,259 @@
+"""What goes wrong in cells: stops at any statement, stale data, half files, two robots at once."""
+
+import random
+from dataclasses import replace
+from itertools import pairwise
+
+from rapidgen.diagnostics import DiagnosticError
+from rapidgen.runtime.values import PersistentCell
+from rapidgen.system.model import ModuleFile, System
+from rapidgen.verification.case import Theme
+from rapidgen.verification.messages import RawTrajectoryState
+from rapidgen.verification.model import Broken, NothingToProve
+from rapidgen.verification.position_checks import Point, distance
+from rapidgen.verification.raw_connection import STOP
+from rapidgen.verification.testbench import Bench, with_module
+
+case = Theme("faults")
+
+
+@case("stop-and-more", "STOP and a new trajectory in one packet", "R5")
+def _stop_and_more_in_one_packet(bench: Bench) -> None:
+    link = bench.motion()
+    for delay in (0.0, 0.4):
+        first, second = bench.wave(8), bench.wave(5)
+        link.send(bench.download(first))
+        bench.run(delay)
+        # It begins where the robot stands before it has moved at all.
+        link.send(STOP + bench.download(second))
+        link.expect_reply(3, "STOP with a trajectory behind it is answered")
+        bench.run(6)
+        bench.wait_until_standing(20)
+        at_end = distance(bench.position, second[-1][0]) < 1e-3
+        if not delay and not at_end:
+            raise Broken("a trajectory in the packet of a STOP is not executed")
+        bench.stays(2, "all that was sent is over")
+        bench.moves_through(link, bench.wave(3))
+
+
+@case("loop", "a way through its own end", "C6")
+def _loop(bench: Bench) -> None:
+    """A way that passes its own end is not over there."""
+    watcher, link = bench.watcher(), bench.motion()
+    out = bench.wave(5)
+    points: list[Point] = [*out, *((p, 0.4) for p, _ in reversed(out[:-1]))]
+    points += [(p, 0.4) for p, _ in out[1:3]]
+    since = bench.now
+    bench.sets_off(link, points)
+    # The first move may be under way before anybody could tell.
+    while bench.progress(watcher).state in (
+        RawTrajectoryState.RECEIVING,
+        RawTrajectoryState.MOVING,
+    ):
+        if bench.now - since > 20:
+            raise Broken("a loop does not end")
+    if bench.now - since < sum(d for _, d in points[1:]) - 0.5:
+        raise Broken("a loop is told to be done before it is")
+    bench.wait_until_at(points[-1][0], 5)
+    bench.followed([p for p, _ in points], since=since)
+    moved = [p for t, p in bench.track if t >= since]
+    if min(distance(p, out[-1][0]) for p in moved) > 0.05:
+        raise Broken("the far end of a loop was left out")
+
+
+@case("close-points", "zones wider than segments, points at no distance", "R9")
+def _close_points(bench: Bench) -> None:
+    """Zones wider than segments, and points at no distance worth a move."""
+    link = bench.motion()
+    shortest = max(0.15, 1.05 * bench.config.trajectory.min_segment)
+    for size in (2e-3, 1e-4, 1e-6):
+        here = bench.position
+        points: list[Point] = [(here, 10.0)]
+        for number in range(1, 20):
+            step = size * number
+            away = (
+                h + (step if j.upper - h > h - j.lower else -step)
+                for h, j in zip(here, bench.group.joints, strict=True)
+            )
+            points.append((tuple(away), shortest))
+        since = bench.now
+        link.send(bench.download(points))
+        bench.wait_until_at(points[-1][0], 30)
+        bench.followed([p for p, _ in points], since=since, corner=2 * size + 1e-4)
+        bench.run(3)
+        took = max(t for t, _ in bench.track) - since
+        if took > 20 * shortest + 3:
+            raise Broken(f"{19 * shortest:.1f} s of short segments took {took:.1f} s")
+        bench.moves_through(link, bench.wave(3))
+
+
+@case("override", "a speed override of 50 %")
+def _override(bench: Bench) -> None:
+    """Half the speed: the same way, in twice the time."""
+    group = bench.motion_group
+    link = bench.motion()
+    taken = []
+    for override in (1.0, 0.5):
+        group.override = override
+        points, since = bench.wave(6), bench.now
+        bench.moves_through(link, points)
+        taken.append(bench.now - since)
+    group.override = 1.0
+    if not 1.6 * taken[0] - 0.5 < taken[1] < 2.4 * taken[0] + 0.5:
+        raise Broken(f"at 50 % {taken[0]:.2f} s became {taken[1]:.2f} s")
+
+
+@case("manual-speed", "a trajectory in manual mode", background=True)
+def _manual_mode(bench: Bench) -> None:
+    """In manual mode, with the program started by hand, a trajectory is followed more slowly."""
+    bench.run(0.5)
+    bench.controller.perform("manual")
+    for action in ("motors-on", "start"):
+        bench.controller.perform(action)
+    bench.run(1)
+    state, link = bench.state(), bench.motion()
+    if bench.status(state).motion_possible != 1:
+        raise Broken("in manual mode, motors on, program running, no motion is possible")
+    bench.moves_through(link, bench.wave(5, duration=1.0))
+
+
+def _garbled(value: object, chance: random.Random) -> object:
+    if isinstance(value, bool):
+        return chance.random() < 0.5
+    if isinstance(value, int | float):
+        return chance.randrange(0, 300)
+    return value
+
+
+@case("stale-data", "whatever persistent data hold at the start", "R7a", once=True)
+def _stale_data(bench: Bench) -> None:
+    """Whatever PERS hold at the start, of a lock, a ring or a counter: nothing moves by itself."""
+    chance = random.Random(bench.setting.seed)
+    for _ in range(6):
+        with bench.beside(bench.system) as other:
+            cells = other.controller.shared.cells.values()
+            for cell in cells:
+                _fill(cell, other, chance)
+            before = other.position
+            other.run(4)
+            if distance(before, other.position) > 1e-4:
+                raise Broken("the robot moved at the start, by what its data happened to hold")
+            link = other.motion()
+            other.moves_through(link, other.wave(4))
+            other.sets_off(link, other.wave(8))
+            link.stop()
+            other.wait_until_standing(5)
+            other.moves_through(link, other.wave(3))
+            other.healthy()
+
+
+def _fill(cell: PersistentCell, bench: Bench, chance: random.Random) -> None:
+    if "ring" in cell.name.lower() and cell.dims:
+        for point in cell.v.values():
+            point.session, point.index = chance.randrange(0, 300), chance.randrange(1, 9)
+            point.duration = 1.0
+            for n, axis in enumerate(("rax_1", "rax_2", "rax_3")):
+                setattr(point.target.robax, axis, float(5 * n + chance.randrange(0, 5)))
+    elif not cell.dims and cell.name.lower().startswith("ros_"):
+        cell.set(_garbled(cell.v, chance))
+
+
+@case("half-files", "a module that was cut on its way", once=True)
+def _half_files(bench: Bench) -> None:
+    """A module that was cut on its way: its task does not load, or nothing moves."""
+    for share in (0.3, 0.7, 0.95):
+        for path, data in sorted(_files(bench).items()):
+            half = data[: int(share * len(data))]
+            _moves_nothing(bench, with_module(bench.system, path, half), f"half of {path}")
+
+
+@case("second-main", "another module with a main")
+def _second_main(bench: Bench) -> None:
+    """A module with a main of its own before ours: that one runs, and nothing is taken."""
+    text = b"MODULE other\n    PROC main()\n        WaitTime 1;\n    ENDPROC\nENDMODULE\n"
+    extra = ModuleFile("other", "HOME/other.mod", text, "HOME:/other.mod")
+    tasks = tuple(
+        replace(task, modules=(extra, *task.modules)) if task.name == bench.group.task else task
+        for task in bench.system.tasks
+    )
+    _moves_nothing(bench, replace(bench.system, tasks=tasks), "a second main")
+
+
+def _files(bench: Bench) -> dict[str, bytes]:
+    unit = bench.mechanical_unit
+    return {
+        module.path: module.data
+        for task in bench.system.tasks
+        for module in task.modules
+        if task.mechanical_unit_group == unit
+    }
+
+
+def _moves_nothing(bench: Bench, system: System, what: str) -> None:
+    try:
+        other = bench.beside(system)
+    except DiagnosticError:
+        return
+    try:
+        port = other.group.ports.motion
+        other.run(3)
+        if port in other.controller.network.listeners:
+            link = other.motion()
+            link.send(other.download(other.wave(4)))
+        other.stays(4, f"{what} was loaded")
+    finally:
+        other.close()
+
+
+@case("two-groups", "several groups at the same time", "R20")
+def _two_groups(bench: Bench) -> None:
+    """Groups move at the same time, and a STOP for one stops no other."""
+    if len(bench.config.groups) < 2:
+        raise NothingToProve("there is one group")
+    other = bench.of_group((bench.setting.group + 1) % len(bench.config.groups))
+    mine, theirs = bench.motion(), other.motion()
+    for stopping in (False, True):
+        first, second = bench.wave(8), other.wave(8)
+        mine.send(bench.download(first))
+        theirs.send(other.download(second))
+        bench.until(lambda: not bench.standing and not other.standing, 5, "both groups move")
+        if stopping:
+            mine.stop()
+            bench.wait_until_standing(3)
+            if distance(bench.position, first[-1][0]) < 1e-3:
+                raise Broken("a group went on after its STOP")
+        else:
+            bench.wait_until_at(first[-1][0])
+        other.wait_until_at(second[-1][0])
+    mine.close()
+    bench.run(1.5)
+    bench.moves_through(bench.motion(), bench.wave(3))
+
+
+@case("even-speed", "no slowing down at points of a straight way", "R9")
+def _even(bench: Bench) -> None:
+    """A robot that moves at one speed is not slowed down at its points."""
+    points = bench.wave(2)
+    start, end = points[0][0], points[1][0]
+    count, seconds = 12, max(0.25, 1.1 * bench.config.trajectory.min_segment)
+    way = [
+        tuple(a + (b - a) * n / count for a, b in zip(start, end, strict=True))
+        for n in range(count + 1)
+    ]
+    link, since = bench.motion(), bench.now
+    link.send(bench.download([(p, seconds if n else 10.0) for n, p in enumerate(way)]))
+    bench.wait_until_at(end, 30)
+    track = [(t, p) for t, p in bench.track if t >= since]
+    begun, ended = track[0][0] + 3 * seconds, track[-1][0] - 3 * seconds
+    speeds = [
+        distance(a, b) / (t2 - t1)
+        for (t1, a), (t2, b) in pairwise(track)
+        if begun < t1 and t2 < ended and t2 - t1 > 1e-3
+    ]
+    if not speeds:
+        raise Broken("on a straight way the robot hardly moved")
+    if min(speeds) < 0.5 * max(speeds):
+        raise Broken(
+            f"on a straight way the robot goes from {max(speeds):.3f} down to {min(speeds):.3f} "
+            "rad/s at its points"
+        )

@@ -1,0 +1,350 @@
+"""What the paired client is told on the state port: HELLO and PROGRESS."""
+
+import struct
+from itertools import pairwise
+
+from rapidgen import __version__
+from rapidgen.client.core.group import Group
+from rapidgen.generate.hello_reply import features
+from rapidgen.verification import batches, messages
+from rapidgen.verification.case import Theme
+from rapidgen.verification.instruction_hooks import fails
+from rapidgen.verification.messages import RawComm, RawFeature, RawReason, RawTrajectoryState
+from rapidgen.verification.model import Broken
+from rapidgen.verification.position_checks import Point
+from rapidgen.verification.raw_connection import STOP, RawLink
+from rapidgen.verification.testbench import HELLO, Bench
+
+case = Theme("paired")
+
+
+def _float32(value: float) -> float:
+    return float(struct.unpack("<f", struct.pack("<f", value))[0])
+
+
+def _padded(values: list[float]) -> tuple[float, ...]:
+    return tuple(_float32(v) for v in (*values, *[0.0] * (messages.MAX_JOINTS - len(values))))
+
+
+@case("hello", "HELLO tells limits and capacities as they were configured")
+def _hello_tells_all(bench: Bench) -> None:
+    link = bench.state()
+    told = bench.says_hello(link)
+    joints, policy = bench.group.joints, bench.config.trajectory
+    wanted: dict[str, object] = {
+        "protocol": messages.PROTOCOL_VERSION,
+        "driver": tuple(int(part) for part in __version__.split(".")[:3]),
+        "build_id": bench.system.build_id,
+        "mapping": Group.of(bench.config, bench.group).mapping,
+        "capacity": policy.capacity,
+        "joint_count": len(joints),
+        "prismatic": sum(1 << i for i, j in enumerate(joints) if j.kind == "prismatic"),
+        "state_period": _float32(bench.config.state_period),
+        "min_segment": _float32(policy.min_segment),
+        "start_tolerance": _float32(policy.start_tolerance),
+        "start_tolerance_linear": _float32(policy.start_tolerance_linear),
+        "lower": _padded([j.lower for j in joints]),
+        "upper": _padded([j.upper for j in joints]),
+        "speed": _padded([j.speed for j in joints]),
+        "features": int(features(bench.config, bench.group)),
+        "control_port": bench.group.ports.control,
+        "ring": policy.ring - 1 if bench.streams else 0,
+        "preload": _float32(policy.preload if bench.streams else 0.0),
+        "batch": batches.batch_points(len(joints)) if bench.streams else 0,
+        "signals": len(bench.config.signals) if bench.group.ports.control else 0,
+    }
+    for name, value in wanted.items():
+        if not _same(getattr(told, name), value):
+            raise Broken(f"HELLO tells {name} {getattr(told, name)}, the configuration {value}")
+    if RawFeature.PROGRESS not in RawFeature(told.features):
+        raise Broken("HELLO does not promise PROGRESS")
+    progress = bench.progress(link)
+    if progress.state not in (RawTrajectoryState.NONE, RawTrajectoryState.DONE):
+        raise Broken(f"a driver that was never asked for anything tells {progress}")
+
+
+def _same(told: object, wanted: object) -> bool:
+    """Equal, but for the last digits of what RAPID's text of a number can hold."""
+    if isinstance(told, tuple) and isinstance(wanted, tuple):
+        return len(told) == len(wanted) and all(map(_same, told, wanted))
+    if isinstance(told, float) and isinstance(wanted, float):
+        return abs(told - wanted) <= 1e-6 * max(1.0, abs(wanted))
+    return told == wanted
+
+
+@case("hello-versions", "a HELLO of another version is refused, PROGRESS only where asked for")
+def _other_versions(bench: Bench) -> None:
+    link = bench.state()
+    older = HELLO._replace(protocol=messages.PROTOCOL_VERSION - 1)
+    for _ in range(3):
+        link.send(messages.encode(older, RawComm.REQUEST))
+        told = link.expect(messages.RawHelloRefusal, 2, "an older HELLO is answered")
+        if told.protocol != messages.PROTOCOL_VERSION:
+            raise Broken(f"an older HELLO is answered by version {told.protocol}")
+    bench.run(1)
+    said = [e for e in bench.controller.log if "another version was refused" in str(e)]
+    if len(said) != 1 or f"has version {older.protocol}," not in " ".join(said[0].texts):
+        raise Broken(f"a client of version {older.protocol} was refused, the event log says {said}")
+    if any(f.number == messages.PROGRESS for f in link.read()):
+        raise Broken("PROGRESS comes although HELLO was refused")
+    link.send(messages.encode(HELLO._replace(subscribe=2), RawComm.REQUEST))
+    link.expect(messages.RawHelloReply, 2, "the next HELLO on the same link is answered")
+    bench.run(1)
+    if any(f.number == messages.PROGRESS for f in link.read()):
+        raise Broken("PROGRESS comes although it was not asked for")
+
+
+@case("hello-in-pieces", "a HELLO in pieces is answered", "R2")
+def _hello_in_pieces(bench: Bench) -> None:
+    link = bench.state()
+    data = messages.encode(HELLO, RawComm.REQUEST)
+    for size in (1, 3, len(data) - 5):
+        link.send(data[:size])
+        data = data[size:]
+        bench.run(0.4)
+    link.send(data)
+    link.expect(messages.RawHelloReply, 2, "a HELLO in pieces is answered")
+
+
+@case("state-port-junk", "what is no HELLO breaks that link and no other")
+def _state_port_takes_nothing_else(bench: Bench) -> None:
+    good = messages.encode(HELLO, RawComm.REQUEST)
+    words = struct.unpack(f"<{len(good) // 4}i", good)
+    wrong = {
+        "another length": (words[0] - 1, *words[1:]),
+        "another type": (words[0], messages.PING, *words[2:]),
+        "a topic": (*words[:2], 1, *words[3:]),
+        "a reply": (*words[:2], 3, *words[3:]),
+    }
+    messages_of = {name: struct.pack(f"<{len(w)}i", *w) for name, w in wrong.items()}
+    messages_of["a byte too many"] = good + b"\0"
+    messages_of["two at once"] = good + good
+    messages_of["garbage"] = b"\xff" * len(good)
+    for name, data in messages_of.items():
+        link = bench.state()
+        bench.status(link)
+        link.send(data)
+        link.wait_until_lost(3, f"HELLO as {name} breaks the link")
+        bench.status(bench.state(), 5)
+        bench.run(0.5)
+
+
+def _straight(bench: Bench, count: int, duration: float = 0.3) -> list[Point]:
+    """Points at equal distances on one straight line from where the robot stands."""
+    points = bench.wave(2, duration=0.3)
+    start, end = points[0][0], points[1][0]
+    return [
+        (
+            tuple(a + (b - a) * n / (count - 1) for a, b in zip(start, end, strict=True)),
+            duration if n else 10.0,
+        )
+        for n in range(count)
+    ]
+
+
+def _passed(bench: Bench, points: list[Point]) -> float:
+    """How many of the points on a straight line the robot has passed, with fractions."""
+    start, end = points[0][0], points[-1][0]
+    axis = max(range(len(start)), key=lambda i: abs(end[i] - start[i]))
+    share = (bench.position[axis] - start[axis]) / (end[axis] - start[axis])
+    return 1 + share * (len(points) - 1)
+
+
+def _newest(bench: Bench, link: RawLink) -> messages.RawProgress:
+    bench.run(2 * bench.config.state_period)
+    return bench.progress(link)
+
+
+@case("progress", "PROGRESS counts points received, planned and reached")
+def _progress_tells_the_way(bench: Bench) -> None:
+    link, motion = bench.watcher(), bench.motion()
+    before = bench.progress(link).trajectory
+    for number in range(1, 3):
+        points = _straight(bench, 12)
+        bench.sets_off(motion, points, bench.config.state_period)
+        told: list[messages.RawProgress] = []
+        while not told or told[-1].state != RawTrajectoryState.DONE:
+            told.append(bench.progress(link))
+            _is_consistent(told[-1], before + number, len(points))
+            passed = _passed(bench, points)
+            # A point counts when its successor was given to the planner: late, never early.
+            if told[-1].state == RawTrajectoryState.MOVING and not (
+                passed - 4 <= told[-1].reached <= passed + 0.5
+            ):
+                raise Broken(f"the robot has passed {passed:.1f} points, {told[-1]}")
+            if len(told) > 100:
+                raise Broken(f"the trajectory does not end: {told[-1]}")
+        counts = [(t.received, t.planned, t.reached) for t in told]
+        if any(a > b for one, two in pairwise(counts) for a, b in zip(one, two, strict=True)):
+            raise Broken(f"counts of PROGRESS go back: {counts}")
+        if told[-1] != (before + number, RawTrajectoryState.DONE, 12, 12, 12, 0, -1, 0):
+            raise Broken(f"a trajectory of 12 points is done, PROGRESS says {told[-1]}")
+        seen = {t.state for t in told}
+        if RawTrajectoryState.MOVING not in seen:
+            raise Broken("no PROGRESS says that the robot is moving")
+        bench.run(0.5)
+
+
+def _is_consistent(told: messages.RawProgress, number: int, count: int) -> None:
+    fine = (
+        told.trajectory == number
+        and told.state
+        in (RawTrajectoryState.RECEIVING, RawTrajectoryState.MOVING, RawTrajectoryState.DONE)
+        and 0 <= told.reached <= told.planned <= told.received <= count
+        and (told.reason, told.point, told.joint) == (0, -1, 0)
+    )
+    if not fine:
+        raise Broken(f"trajectory {number} of {count} points is under way, PROGRESS says {told}")
+
+
+@case("progress-download", "PROGRESS of a download and its STOP")
+def _progress_of_a_download(bench: Bench) -> None:
+    link, motion = bench.watcher(), bench.motion()
+    frames = bench.download(bench.wave(6))
+    size = messages.POINT_BYTES
+    for sent in range(1, 5):
+        motion.send(frames[(sent - 1) * size : sent * size])
+        told = _newest(bench, link)
+        if told[1:] != (RawTrajectoryState.RECEIVING, sent, 0, 0, 0, -1, 0):
+            raise Broken(f"{sent} points were sent, PROGRESS says {told}")
+    motion.stop(1)
+    told = _newest(bench, link)
+    if (told.state, told.reason) != (RawTrajectoryState.STOPPED, RawReason.STOPPED):
+        raise Broken(f"a download was stopped, PROGRESS says {told}")
+    if bench.status(link).in_error:
+        raise Broken("a download that was stopped is an error in STATUS")
+
+
+@case("progress-refused", "PROGRESS of a refusal: reason, point, joint", "R1, R10")
+def _progress_of_a_refusal(bench: Bench) -> None:
+    link, motion = bench.watcher(), bench.motion()
+    points = [(p, 30.0) for p, _ in bench.wave(6)]
+    high = bench.group.joints[1].upper + 0.5
+    points[3] = ((points[3][0][0], high, *points[3][0][2:]), 30.0)
+    motion.send(bench.download(points))
+    told = _newest(bench, link)
+    if told[1:] != (RawTrajectoryState.REFUSED, 3, 0, 0, RawReason.JOINT_LIMIT, 3, 2):
+        raise Broken(f"point 3 was refused for joint 2, PROGRESS says {told}")
+    status = bench.status(link)
+    if (status.in_error, status.error_code) != (1, 204):
+        raise Broken(f"point 3 was refused for joint 2, STATUS says {status}")
+    motion.stop(1)
+    told, status = _newest(bench, link), bench.status(link)
+    if (told.state, status.in_error, status.error_code) != (RawTrajectoryState.STOPPED, 0, 0):
+        raise Broken(f"STOP ends the report of a refusal, but {told}, {status}")
+
+
+@case(
+    "progress-ended",
+    "PROGRESS of a trajectory that ended early: why and where",
+    "R11, R14",
+    background=True,
+)
+def _progress_of_an_early_end(bench: Bench) -> None:
+    """Each event that ends a trajectory is told by its own reason, and where it ended."""
+    stopped = (RawReason.MOTORS_OFF, RawReason.PROGRAM_STOPPED)
+    for action, state, reasons in (
+        ("STOP", RawTrajectoryState.STOPPED, (RawReason.STOPPED,)),
+        # One stop comes with the next: whichever is seen first.
+        ("e-stop", RawTrajectoryState.FAILED, (RawReason.EMERGENCY_STOP, *stopped)),
+        ("motors-off", RawTrajectoryState.FAILED, stopped),
+        ("stop", RawTrajectoryState.FAILED, (RawReason.PROGRAM_STOPPED,)),
+        ("leaves", RawTrajectoryState.FAILED, (RawReason.CLIENT_LOST,)),
+    ):
+        link, motion = bench.watcher(), bench.motion()
+        points = _straight(bench, 16)
+        bench.sets_off(motion, points, 1.5)
+        if action == "STOP":
+            motion.send(STOP)
+        elif action == "leaves":
+            motion.close()
+        else:
+            bench.controller.perform(action)
+        bench.wait_until_standing(5)
+        told, passed = _newest(bench, link), _passed(bench, points)
+        if told.state != state or told.reason not in reasons or told.joint:
+            raise Broken(f"a trajectory was ended by {action}, PROGRESS says {told}")
+        if told.point != told.reached or not passed - 4 <= told.reached <= passed + 0.5:
+            raise Broken(f"{action} after {passed:.1f} points, PROGRESS says {told}")
+        status = bench.status(link)
+        failed = state is RawTrajectoryState.FAILED
+        if (status.in_error, status.error_code) != ((1, told.reason) if failed else (0, 0)):
+            raise Broken(f"a trajectory was ended by {action}, STATUS says {status}")
+        if status.in_motion:
+            raise Broken(f"the robot stands after {action}, STATUS says {status}")
+        bench.start_again()
+        bench.run(1)
+        link.close()
+        motion.close(then=1.5)
+
+
+@case("progress-superseded", "PROGRESS is of the newest trajectory")
+def _progress_of_a_successor(bench: Bench) -> None:
+    link, motion = bench.watcher(), bench.motion()
+    bench.sets_off(motion, bench.wave(30), 0.5)
+    number = bench.progress(link).trajectory
+    motion.send(bench.download(bench.wave(4))[:68])
+    told = _newest(bench, link)
+    if told[:3] != (number + 1, RawTrajectoryState.RECEIVING, 1):
+        raise Broken(f"a new trajectory has begun, PROGRESS says {told}")
+    bench.wait_until_standing(2)
+    link.read()
+    bench.run(1)
+    states = {
+        content.state
+        for frame in link.read()
+        if isinstance(content := messages.decode(frame), messages.RawProgress)
+    }
+    if states != {RawTrajectoryState.RECEIVING}:
+        raise Broken(f"half a trajectory was received, PROGRESS says {states}")
+
+
+@case("progress-in-between", "PROGRESS while another task writes what it tells")
+def _progress_in_between(bench: Bench) -> None:
+    """What another task has written of two numbers is told as one: of nothing, or of the newer."""
+    link, motion = bench.watcher(), bench.motion()
+    points = [(p, 30.0) for p, _ in bench.wave(4)]
+    far = (bench.group.joints[0].upper + 0.5, *points[2][0][1:])
+    points[2] = (far, 30.0)
+    motion.send(bench.download(points))
+    told = _newest(bench, link)
+    refusal = (RawTrajectoryState.REFUSED, 2, 0, 0, RawReason.JOINT_LIMIT, 2, 1)
+    if told[1:] != refusal:
+        raise Broken(f"point 2 was refused for joint 1, PROGRESS says {told}")
+    # A trajectory begins: nothing is known of it but its number.
+    task = bench.controller.task(bench.task("ROS_motionServer"))
+    declared = task.rapid.program.modules["ros_common"].declarations
+    names = {key.rstrip("_0123456789"): f"ROS_common:{key}" for key in declared}
+    task[names["ros_trajectory"]] = told.trajectory + 1
+    between = _newest(bench, link)
+    if between != (told.trajectory + 1, RawTrajectoryState.RECEIVING, 0, 0, 0, 0, -1, 0):
+        raise Broken(f"a trajectory begins after {told}, PROGRESS says {between}")
+    task[names["ros_trajectory"]] = told.trajectory
+    # A STOP takes back the refusal: its code is written before its state.
+    task[names["ros_refusal"]] = RawReason.STOPPED
+    between = _newest(bench, link)
+    if between[1:] != (RawTrajectoryState.STOPPED, 2, 0, 0, RawReason.STOPPED, -1, 0):
+        raise Broken(f"a STOP takes back a refusal, PROGRESS says {between}")
+    status = bench.status(link)
+    if (status.in_error, status.error_code) != (0, 0):
+        raise Broken(f"a STOP takes back a refusal, STATUS says {status}")
+    bench.moves_through(motion, bench.wave(3))
+
+
+@case("other-hellos", "a HELLO of later versions, and one that cannot be read")
+def _other_hellos(bench: Bench) -> None:
+    """Of a newer client, with wishes that nobody knows, and one that cannot be read."""
+    link, later = bench.state(), 1 << 20
+    newer = HELLO._replace(protocol=messages.PROTOCOL_VERSION + 1, subscribe=later | 1)
+    link.send(messages.encode(newer, RawComm.REQUEST))
+    link.expect(messages.RawHelloReply, 2, "a newer HELLO is answered")
+    bench.progress(link)
+    fails(bench, "ROS_stateServer", "UnpackRawBytes", "ERR_OUTOFBND")
+    link.send(messages.encode(HELLO, RawComm.REQUEST))
+    link.wait_until_lost(1, "a HELLO that cannot be read breaks the link")
+    good = messages.encode(HELLO, RawComm.REQUEST)
+    for data in (good + b"\0", good[:8] + b"\3" + good[9:], b"\x21" + good[1:]):
+        link = bench.watcher()
+        link.send(data)
+        link.wait_until_lost(1, "what is no HELLO breaks the link")
+    bench.progress(bench.watcher())

@@ -1,0 +1,332 @@
+"""Instructions that report errors, ports that are taken, counters and clocks at their ends."""
+
+import re
+from dataclasses import replace
+
+from rapidgen.generate.context import WRAP
+from rapidgen.machine.event_log import EventType
+from rapidgen.runtime.builtins.clocks import StopWatch
+from rapidgen.verification.case import Theme
+from rapidgen.verification.instruction_hooks import fails
+from rapidgen.verification.messages import (
+    STATUS,
+    RawReason,
+    RawTrajectoryState,
+    RawTriState,
+    text_of,
+)
+from rapidgen.verification.model import Broken
+from rapidgen.verification.raw_connection import STOP
+from rapidgen.verification.suite.motion_task import Meter, datum
+from rapidgen.verification.suite.off_path import STAYS_STOPPED
+from rapidgen.verification.testbench import Bench
+
+case = Theme("failing")
+
+_COUNTERS = (
+    ("head", "tail"),
+    ("trajectory", "phase_of", "session", "done", "started"),
+    ("stop_asked", "stop_done"),
+    ("look_asked", "look_done"),
+    ("control_asked", "control_done"),
+    ("pause_asked", "pause_done"),
+    ("speed_asked", "speed_done"),
+    ("abort", "abort_done"),
+    ("bell",),
+    ("interrupts", "interrupts_seen"),
+    ("dead", "halted"),
+)
+"""PERS of ROS_common that count; those of one row stand at the same value in an idle driver,
+the last row at a trajectory of long ago."""
+
+
+def _serves(bench: Bench) -> None:
+    """A trajectory, a STOP in the next one, and another trajectory."""
+    link = bench.motion()
+    bench.moves_through(link, bench.wave(3, duration=0.2))
+    bench.sets_off(link, bench.wave(8), 0.3)
+    link.stop()
+    bench.wait_until_standing(5)
+    bench.moves_through(link, bench.wave(3, duration=0.2))
+    bench.status(bench.state(), 5)
+    link.close(then=0.3)
+
+
+@case("instructions-fail", "an instruction that reports an error ends no task", "R3")
+def _instructions_fail(bench: Bench) -> None:
+    """Each instruction that a controller may refuse does so twice, at a standstill and moving."""
+    for module, instruction, error in (
+        ("ROS_motionServer", "SocketReceive", "ERR_SOCK_CLOSED"),
+        ("ROS_motionServer", "SocketPeek", "ERR_SOCK_CLOSED"),
+        ("ROS_motionServer", "SocketSend", "ERR_SOCK_CLOSED"),
+        ("ROS_motionServer", "SocketAccept", "ERR_SOCK_CLOSED"),
+        ("ROS_motionServer", "UnpackRawBytes", "ERR_OUTOFBND"),
+        ("ROS_stateServer", "SocketSend", "ERR_SOCK_CLOSED"),
+        ("ROS_stateServer", "SocketPeek", "ERR_SOCK_CLOSED"),
+        ("ROS_stateServer", "SocketAccept", "ERR_SOCK_CLOSED"),
+        ("ROS_supervisor", "StopMove", "ERR_PATH_STOP"),
+        ("ROS_supervisor", "StartMove", "ERR_PATHDIST"),
+        ("ROS_supervisor", "DOutput", "ERR_NORUNUNIT"),
+        ("ROS_stateServer", "DOutput", "ERR_NORUNUNIT"),
+        ("ROS_motion", "ClearPath", "ERR_PATH_STOP"),
+        ("ROS_motion", "WaitRob", "ERR_PATH_STOP"),
+        ("ROS_motion", "StopMove", "ERR_PATH_STOP"),
+        ("ROS_motion", "StartMove", "ERR_PATHDIST"),
+    ):
+        for moving in (False, True):
+            link = bench.motion()
+            state = bench.state()
+            if moving:
+                bench.sets_off(link, bench.wave(6))
+            recovers = fails(bench, module, instruction, error, 2)
+            bench.run(0.3)
+            link.send(STOP)
+            bench.run(2)
+            recovers()
+            bench.healthy()
+            bench.stays(1, f"it was stopped; {instruction} of {module} has failed")
+            link.close()
+            state.close(then=2.5)
+            try:
+                _serves(bench)
+            except Broken as error:
+                how = "while moving" if moving else "at a standstill"
+                raise Broken(f"{instruction} of {module} has failed {how}: {error}") from error
+
+
+@case("move-fails", "a move that fails ends its trajectory with its own reason", "R11, R14")
+def _move_fails(bench: Bench) -> None:
+    for error, reason in (
+        ("ERR_COLL_STOP", RawReason.COLLISION),
+        ("ERR_PATH_STOP", RawReason.MOTION_ERROR),
+    ):
+        watcher, link = bench.watcher(), bench.motion()
+        errors = _errors(bench)
+        points = bench.wave(10)
+        bench.sets_off(link, points, 0.9)
+        fails(bench, "ROS_motion", "MoveAbsJ", error)
+        bench.rests(5, 3, f"a move ended with {error}")
+        bench.run(0.3)
+        told, status = bench.progress(watcher), bench.status(watcher)
+        if (told.state, told.reason) != (RawTrajectoryState.FAILED, reason):
+            raise Broken(f"a move ended with {error}, PROGRESS says {told}")
+        if (status.in_error, status.error_code, status.in_motion) != (1, reason, 0):
+            raise Broken(f"a move ended with {error}, STATUS says {status}")
+        said = [text for text in _errors(bench)[len(errors) :] if text_of(reason) in text]
+        if len(said) != 1 or f"point {told.planned - 1}" not in said[0]:
+            raise Broken(f"a move to point {told.planned - 1} failed, the event log says {said}")
+        bench.moves_through(link, bench.wave(3))
+        bench.run(0.3)
+        if bench.status(watcher).in_error:
+            raise Broken("in_error stays after a good trajectory")
+        watcher.close()
+        link.close(then=1.5)
+
+
+def _errors(bench: Bench) -> list[str]:
+    return [str(e) for e in bench.controller.log if e.type is EventType.ERROR]
+
+
+@case("path-stays", "a path that cannot be cleared is not executed")
+def _path_stays(bench: Bench) -> None:
+    """Should a path not be cleared at once, or nobody know whether the robot stands: it does."""
+    for instruction, times in (
+        ("ClearPath", 1),
+        ("ClearPath", 3),
+        ("ClearPath", 5),
+        ("WaitRob", 3),
+    ):
+        link = bench.motion()
+        # What is ordered already would take for longer than a stop does.
+        bench.sets_off(link, bench.wave(6, duration=2.0), 0.5)
+        fails(bench, "ROS_motion", instruction, "ERR_PATH_STOP", times)
+        link.stop(2, "STOP is answered, whatever becomes of the path")
+        bench.rests(1, 6, f"it was stopped; {instruction} has failed {times} times")
+        bench.moves_through(link, bench.wave(4))
+        link.close(then=1.5)
+
+
+@case("far-off-once", "a stop far off the path makes no later one so", "R7b")
+def _far_off_once(bench: Bench) -> None:
+    """StopMoveReset is for a robot that stands too far from its path, and for no later stop."""
+    link = bench.motion()
+    for error, why in (
+        ("ERR_PATHDIST", "It stands too far from the path that it left."),
+        ("ERR_PATH_STOP", "Its stop cannot be taken back."),
+    ):
+        last, keeps = bench.last_event, bench.setting.motion.stop_move_reset == "keeps"
+        bench.sets_off(link, bench.wave(12), 0.3)
+        recovers = fails(bench, "ROS_supervisor", "StartMove", error, 1000)
+        link.stop()
+        bench.rests(3, 3, f"it was stopped, StartMove says {error}")
+        said = [e.texts[0] for e in bench.controller.log.since(last) if e.title == STAYS_STOPPED]
+        held = keeps or error != "ERR_PATHDIST"
+        if bool(bench.motion_group.stop_reasons) != held or said != [why] * held:
+            raise Broken(
+                f"StartMove says {error}: held by {bench.motion_group.stop_reasons}, the event "
+                f"log says {said}"
+            )
+        recovers()
+        bench.run(0.5)
+        bench.moves_through(link, bench.wave(3))
+
+
+@case("port-taken", "a port that is taken is waited for", "R18")
+def _port_taken(bench: Bench) -> None:
+    with bench.beside(bench.system, setting=bench.setting.early()) as other:
+        network = other.controller.network
+        taken = [
+            network.bind("127.0.0.1", port)
+            for port in (other.group.ports.motion, other.group.ports.state)
+        ]
+        other.run(4.5)
+        warned = [e for e in other.controller.log if "cannot be opened" in str(e)]
+        if len(warned) != 2:
+            raise Broken(f"two ports were taken for 4 s, the event log has {len(warned)} warnings")
+        for endpoint in taken:
+            network.close(endpoint)
+        other.run(1.1)
+        _serves(other)
+
+
+@case("counters-wrap", "counters begin anew behind their last value", once=True)
+def _counters_wrap(bench: Bench) -> None:
+    """The counters' last values come after years; here they are set before the start."""
+    for before in (1, 3, 5):
+        with bench.beside(bench.system) as other:
+            set_counters(other, WRAP - before)
+            watcher, link = other.watcher(), other.motion()
+            first = other.progress(watcher).trajectory
+            for _ in range(4):
+                other.moves_through(link, other.wave(6, duration=0.2))
+                _serves_stop(other)
+                link = other.motion()
+            other.run(0.3)
+            number = other.progress(watcher).trajectory
+            if number >= WRAP or (number - first) % WRAP != 8:
+                raise Broken(f"after trajectory {first} come eight others, the last is {number}")
+            other.healthy()
+
+
+@case("number-again", "a trajectory with the number of a program of years ago", needs="stream")
+def _number_again(bench: Bench) -> None:
+    """Numbers begin anew: its points are no instructions, although a program was called so."""
+    watcher, link = bench.watcher(), bench.motion()
+    task = bench.controller.task(bench.task("ROS_motion"))
+    task[datum(bench, "ros_program")] = bench.progress(watcher).trajectory + 1
+    bench.moves_through(link, bench.wave(4))
+
+
+def set_counters(bench: Bench, value: int) -> None:
+    """Give all counters a value, before anything is asked of the driver."""
+    task = bench.controller.task(bench.task("ROS_motion"))
+    declared = task.rapid.program.modules["ros_common"].declarations
+    for name in [name for row in _COUNTERS for name in row]:
+        # With several groups the names end in the group's number.
+        full = [key for key in declared if re.fullmatch(rf"ros_{name}(_\d+)?", key)]
+        for one in full:
+            task[f"ROS_common:{one}"] = value
+
+
+def _serves_stop(bench: Bench) -> None:
+    link = bench.motion()
+    bench.run(1.2)
+    bench.sets_off(link, bench.wave(6))
+    link.stop()
+    bench.wait_until_standing(5)
+    link.close(then=0.2)
+
+
+@case("clocks-end", "a clock at the end of its 49 days")
+def _clocks_at_their_end(bench: Bench) -> None:
+    """49 days without a refusal: the clock that rations warnings has ended."""
+    link = bench.motion()
+    link.send(bench.download(bench.wave(4))[68:])
+    bench.run(2)
+    program = bench.rapid_task("ROS_motionServer").program
+    for value in program.space.values():
+        if isinstance(value, StopWatch) and value.started is not None:
+            value.started -= 50 * 86_400 * 10**9
+    link.send(bench.download(bench.wave(4))[68:])
+    bench.run(2)
+    bench.healthy()
+    bench.moves_through(link, bench.wave(3))
+
+
+@case("state-for-hours", "the state schedule over the ends of its clock", once=True)
+def _state_for_hours(bench: Bench) -> None:
+    """Messages keep their schedule while clocks and counters of the server start anew."""
+    link = bench.state()
+    bench.run(1050)
+    stamps = [when for when, f in link.frames if f.number == STATUS]
+    period = bench.config.state_period
+    for i, when in enumerate(stamps):
+        if abs(when - (stamps[0] + i * period)) > period:
+            raise Broken(f"STATUS {i} came at {when:.3f} s, more than a period off")
+    if abs(len(stamps) - 1050 / period) > 3:
+        raise Broken(f"{len(stamps)} STATUS in 1050 s, wanted {1050 / period:.0f}")
+
+
+@case("nobody-costs", "a driver that nobody talks to takes little of the processor", "R19")
+def _nobody_costs(bench: Bench) -> None:
+    """Each of its tasks waits for somebody."""
+    bench.run(0.1)
+    meter = Meter(bench)
+    bench.run(0.5)
+    meter.end("while nobody is there")
+
+
+@case("idle-costs", "a driver that waits takes little of the processor", "R19")
+def _idle_costs_nothing(bench: Bench) -> None:
+    """A driver that waits leaves the controller's processor to others."""
+    link, state = bench.motion(), bench.state()
+    if bench.group.ports.control:
+        bench.control()
+    bench.run(2)
+    meter = Meter(bench)
+    bench.run(20)
+    meter.end("while nobody wants anything")
+    bench.status(state)
+    link.close()
+
+
+@case("signals-fail", "signals that cannot be read are unknown", "R15")
+def _signal_units_fail(bench: Bench) -> None:
+    """A signal whose unit is gone is unknown, not off."""
+    state = bench.state()
+    fails(bench, "ROS_stateServer", "DOutput", "ERR_NORUNUNIT", 10**6)
+    bench.run(1)
+    status = bench.status(state)
+    unknown = RawTriState.UNKNOWN
+    if (status.drives_powered, status.e_stopped, status.in_motion) != (unknown, unknown, 0):
+        raise Broken(f"no signal can be read, STATUS says {status}")
+    if status.in_error:
+        raise Broken(f"no signal can be read, STATUS calls it an error: {status}")
+
+
+@case("stopped-unseen", "a program stop that no signal shows", "R15", background=True)
+def _stopped_without_signals(bench: Bench) -> None:
+    """The supervisor cannot see that the program was stopped: the robot stays stopped."""
+    with bench.beside(replace(bench.system, signals=(), outputs=(), cross=(), events=())) as other:
+        link = other.motion()
+        other.sets_off(link, other.wave(10))
+        other.controller.perform("stop")
+        other.wait_until_standing(5)
+        watcher = other.watcher()
+        link.send(STOP)
+        other.run(3)
+        told = other.progress(watcher)
+        if (told.state, told.reason) != (RawTrajectoryState.STOPPED, RawReason.STOPPED):
+            raise Broken(f"STOP came while the motion task does not answer, PROGRESS says {told}")
+        if told.point != told.reached or not 0 < told.planned <= told.received:
+            raise Broken(f"STOP came while the motion task does not answer, PROGRESS says {told}")
+        said = [e for e in other.controller.log if "does not answer" in str(e)]
+        if len(said) != 1:
+            raise Broken(
+                f"the motion task does not answer, the event log says so {len(said)} times"
+            )
+        link.send(other.download(other.wave(4)))
+        other.stays(5, "the program is stopped")
+        other.controller.perform("start")
+        other.stays(3, "the program was started again, nobody asked for motion")
+        other.moves_through(link, other.wave(4))

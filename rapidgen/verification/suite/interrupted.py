@@ -1,0 +1,413 @@
+"""Stops at the worst moments, and a driver that lacks parts of what it usually has."""
+
+from dataclasses import replace
+from functools import partial
+
+from rapidgen.generate.context import WRAP
+from rapidgen.machine.event_log import EventType
+from rapidgen.runtime.errors import RapidError
+from rapidgen.system.model import System
+from rapidgen.verification import messages
+from rapidgen.verification.case import Theme
+from rapidgen.verification.instruction_hooks import (
+    Instruction,
+    at_call,
+    fails,
+    watched_orders,
+    wrapped,
+)
+from rapidgen.verification.messages import JOINT_TRAJ_PT, RawReason, RawTrajectoryState
+from rapidgen.verification.model import Broken
+from rapidgen.verification.position_checks import SETTLED, Position
+from rapidgen.verification.raw_connection import STOP, RawLink
+from rapidgen.verification.suite.instruction_errors import set_counters
+from rapidgen.verification.suite.motion_task import Meter, begins, datum, patience, soon, unit_of
+from rapidgen.verification.suite.off_path import STAYS_STOPPED
+from rapidgen.verification.suite.supervisor import end_as_request
+from rapidgen.verification.testbench import Bench, with_module
+
+case = Theme("interrupted")
+
+_TRAJ = JOINT_TRAJ_PT
+
+
+def _ended(bench: Bench, watcher: RawLink, reason: RawReason, what: str) -> messages.RawProgress:
+    """PROGRESS; Broken unless the newest trajectory has ended early for that reason."""
+    told = bench.progress(watcher)
+    stopped = reason is RawReason.STOPPED
+    state = RawTrajectoryState.STOPPED if stopped else RawTrajectoryState.FAILED
+    reasons = [reason]
+    if bench.setting.switch_at_pers and reason is RawReason.MOTORS_OFF:
+        # Motors that are off stop the program, too, which may be read first.
+        reasons.append(RawReason.PROGRAM_STOPPED)
+    if told.state != state or told.reason not in reasons:
+        raise Broken(f"{what}: {reason.name} is wanted, PROGRESS says {told}")
+    return told
+
+
+def _works(bench: Bench, link: RawLink) -> None:
+    """A trajectory begins soon, and comes to its end in time."""
+    unit = unit_of(bench)
+    points = bench.wave(2, duration=unit)
+    begins(bench, link, points)
+    bench.wait_until_at(points[1][0], unit + 0.3)
+    bench.run(0.1)
+
+
+@case("before-a-move", "a stop of the program just before a move", "R7a", background=True)
+def _before_a_move(bench: Bench) -> None:
+    """Stop and Start while the motion task stands just before a move: it does not begin."""
+    watcher, link, unit = bench.watcher(), bench.motion(), unit_of(bench)
+    task = bench.controller.task(bench.task("ROS_motion"))
+    for number, pause in ((1, 0.001), (2, 0.03), (3, 0.07), (3, 0.001)):
+        at_call(bench, "ROS_motion", "MoveAbsJ", number, partial(bench.controller.perform, "stop"))
+        link.send(bench.download(bench.wave(5, duration=unit)))
+        bench.until(lambda: task.state == "stopped", 3 * unit, "the program is stopped")
+        bench.wait_until_standing(1)
+        bench.run(pause)
+        bench.controller.perform("start")
+        bench.stays(patience(bench), f"the program was stopped before move {number}, and started")
+        told = _ended(bench, watcher, RawReason.PROGRAM_STOPPED, "the program was stopped")
+        if (told.planned, told.reached) != (number + 1, max(1, number - 1)):
+            raise Broken(f"the program was stopped before move {number}, PROGRESS says {told}")
+        _works(bench, link)
+
+
+@case("first-reason", "the first of two reasons counts", background=True)
+def _first_reason(bench: Bench) -> None:
+    """Of two that come together the first one counts, and the trajectory ends once."""
+    watcher, link, unit = bench.watcher(), bench.motion(), unit_of(bench)
+    last = bench.last_event
+    begins(bench, link, bench.wave(5, duration=unit))
+    bench.run(unit)
+    link.stop()
+    bench.controller.perform("stop")
+    bench.run(patience(bench))
+    _ended(bench, watcher, RawReason.STOPPED, "STOP, then a stop of the program")
+    bench.controller.perform("start")
+    bench.run(patience(bench))
+    # A move that fails just when the supervisor has asked for a halt.
+    under_way = _fails_with_a_halt(bench, "ERR_COLL_STOP")
+    link.send(bench.download(bench.wave(5, duration=unit)))
+    bench.until(lambda: bool(under_way), 2 * unit, "the second move begins")
+    link.stop()
+    bench.wait_until_standing(2)
+    bench.run(patience(bench))
+    _ended(bench, watcher, RawReason.STOPPED, "STOP, then a move that fails")
+    _works(bench, link)
+    said = [e for e in bench.controller.log.since(last) if e.type is EventType.ERROR]
+    if said:
+        raise Broken(f"a trajectory was stopped, the event log says {[str(e) for e in said]}")
+
+
+def _fails_with_a_halt(bench: Bench, error: str) -> list[float]:
+    """The second move from now fails, as soon as the motion task is asked to drop its path.
+
+    The time when it is under way is put into the list.
+    """
+    view = bench.controller.task(bench.task("ROS_motion"))
+    asked, done = datum(bench, "ros_abort"), datum(bench, "ros_abort_done")
+    under_way: list[float] = []
+    left = 2
+
+    def wrap(as_before: Instruction) -> Instruction:
+        def failing(*arguments: object) -> object:
+            nonlocal left
+            left -= 1
+            if left != 0:
+                return as_before(*arguments)
+            under_way.append(bench.now)
+            while view[asked] == view[done]:
+                view.rapid.sleep(0.001)
+            raise RapidError(error)
+
+        return failing
+
+    wrapped(bench.rapid_task("ROS_motion"), "MoveAbsJ", wrap)
+    return under_way
+
+
+@case("late-point", "a point of a stopped trajectory that comes late", "R5")
+def _late_point(bench: Bench) -> None:
+    """A point of a stopped trajectory that is announced late is dropped."""
+    watcher, link, unit = bench.watcher(), bench.motion(), unit_of(bench)
+    task = bench.controller.task(bench.task("ROS_motion"))
+    ring, head = datum(bench, "ros_ring"), datum(bench, "ros_head")
+    last = bench.last_event
+    begins(bench, link, bench.wave(5, duration=unit))
+    bench.run(1.15 * unit)
+    link.stop()
+    bench.run(patience(bench))
+    told = _ended(bench, watcher, RawReason.STOPPED, "STOP")
+    points = list(task[ring].values())
+    place = int(task[head]) % len(points)
+    points[place].session, points[place].index = told.trajectory, told.planned + 1
+    points[place].target, points[place].duration = points[1].target, 1.0
+    task[head] = task[head] + 1
+    bench.stays(1, "a point of a stopped trajectory came late")
+    _works(bench, link)
+    if any(e.type is EventType.ERROR for e in bench.controller.log.since(last)):
+        raise Broken("a point of a stopped trajectory came late, and is told as an error")
+
+
+def _beside(bench: Bench, system: System, *, early: bool = False) -> Bench:
+    """Another controller; `early`: none of its tasks has run yet."""
+    return bench.beside(system, setting=bench.setting.early() if early else None)
+
+
+def _bare(system: System, *events: str) -> System:
+    """Without signals, and with the event routines of these events alone."""
+    kept = tuple(e for e in system.events if e.event in events)
+    return replace(system, signals=(), outputs=(), cross=(), events=kept)
+
+
+def _moves(bench: Bench, link: RawLink) -> None:
+    """A trajectory is on its way from its point 1 to 2."""
+    unit = unit_of(bench)
+    begins(bench, link, bench.wave(6, duration=unit))
+    bench.run(1.6 * unit)
+
+
+@case("unseen", "stops that neither a signal nor an event routine shows", "R15", background=True)
+def _unseen(bench: Bench) -> None:
+    """No signals and no event routines: a stop is seen by the mode, or when main begins anew."""
+    with _beside(bench, _bare(bench.system)) as other:
+        watcher, link = other.watcher(), other.motion()
+        for action, reason, restarts in (
+            ("manual", RawReason.MODE_CHANGED, False),
+            ("stop", RawReason.STOPPED, False),
+            ("stop", RawReason.PROGRAM_STOPPED, True),
+        ):
+            _moves(other, link)
+            last = other.last_event
+            other.controller.perform(action)
+            other.wait_until_standing(1)
+            halted = other.now
+            if restarts:
+                other.controller.perform("pp-to-main")
+            elif reason is RawReason.STOPPED:
+                other.run(3)
+                link.send(STOP)
+                halted = other.now
+                link.reply(_TRAJ)
+            if not restarts:
+                other.run(5)
+                _ended(other, watcher, reason, f"{action} of a driver without signals")
+            said = [e.time for e in other.controller.log.since(last) if "answer" in e.title]
+            if len(said) != int(not restarts) or any(abs(t - halted - 2) > 0.2 for t in said):
+                raise Broken(f"from {halted:.2f} s on nobody answers, which is told at {said} s")
+            other.start_again()
+            other.stays(1, f"{action} of a driver without signals, then Start")
+            _ended(other, watcher, reason, f"{action} of a driver without signals, then Start")
+            other.run(patience(other))
+            _works(other, link)
+
+
+@case("stopped-alone", "event routines alone tell that the program is stopped", background=True)
+def _stopped_alone(bench: Bench) -> None:
+    """No signals: what comes before Start is refused, and nothing of it is done then."""
+    with _beside(bench, _bare(bench.system, *(e.event for e in bench.system.events))) as other:
+        for action in ("stop", "e-stop", "power-loss"):
+            other.controller.perform(action)
+            other.run(patience(other))
+            link = other.motion()
+            link.send(end_as_request(other, 3, unit_of(other)))
+            told = messages.decode(link.expect_reply(3, "the end frame is answered"))
+            # Nobody tells of an emergency stop where it calls no event routine.
+            unseen = action == "e-stop" and not other.setting.dialect.e_stop_routines
+            if told != messages.RawRefused(RawReason.NOT_EXECUTING, -1, 0) and not unseen:
+                raise Broken(f"{action} of a driver without signals, a trajectory: {told}")
+            other.start_again()
+            other.stays(patience(other), f"{action} of a driver without signals, then Start")
+            _works(other, link)
+            link.close(then=0.3)
+
+
+@case("motion-task-cannot", "the motion task cannot drop its path, or not take back its own stop")
+def _cannot(bench: Bench) -> None:
+    """The robot stays stopped, which is said once, and why; as soon as it can, all is well."""
+    link = bench.motion()
+    for instruction, title in (
+        ("ClearPath", "ROS: the motion task does not answer"),
+        ("StartMove", STAYS_STOPPED),
+    ):
+        _moves(bench, link)
+        ends = fails(bench, "ROS_motion", instruction, "ERR_PATH_STOP", 10**6)
+        if instruction == "ClearPath":
+            link.stop()
+        else:
+            bench.controller.perform("stop")
+            bench.wait_until_standing(1)
+            bench.controller.perform("start")
+        bench.wait_until_standing(1)
+        last, meter = bench.last_event, Meter(bench)
+        bench.stays(2.5, f"{instruction} of the motion task fails")
+        meter.end(f"while {instruction} of the motion task fails")
+        said = [e.title for e in bench.controller.log.since(last) if e.title.startswith("ROS")]
+        if said != [title]:
+            raise Broken(f"{instruction} of the motion task fails, the event log says {said}")
+        ends()
+        bench.run(patience(bench))
+        link = link if not link.lost else bench.motion()
+        _works(bench, link)
+
+
+def _crept(bench: Bench, here: Position, wait: float, when: str) -> None:
+    """Broken where Start let the robot move further than it must.
+
+    Start sets the path in motion, and chance decides which task is first to go on. In a `wait` of
+    the event routine an axis accelerates, and brakes as long: a t^2 at most, less with its ramps.
+    That it stops first of all is seen where no chance decides: there nothing moves.
+    """
+    if wait > soon(bench):
+        raise Broken(f"{when}: the robot is stopped after {wait:.3f} s")
+    for number, (joint, a, b) in enumerate(
+        zip(bench.group.joints, here, bench.position, strict=True), 1
+    ):
+        if abs(b - a) > joint.acceleration * wait * wait + SETTLED:
+            raise Broken(f"{when}: in {1000 * wait:.1f} ms joint {number} went on by {b - a:.5f}")
+
+
+@case("start-alone", "event routines drop the path by themselves", "R7a", background=True)
+def _start_alone(bench: Bench) -> None:
+    """Start runs an event routine, and an emergency stop does: both drop the path by themselves."""
+    with _beside(bench, _bare(bench.system, "START", "RESTART", "QSTOP")) as other:
+        watcher, link, orders = other.watcher(), other.motion(), watched_orders(other)
+        for action in ("stop", "e-stop", "stop of the supervisor"):
+            _moves(other, link)
+            if action in ("stop", "e-stop"):
+                other.controller.perform(action)
+            else:
+                # It ends, and with it the program stops.
+                fails(other, "ROS_supervisor", "OpMode", "ERR_OUTOFBND")
+            other.wait_until_standing(1)
+            other.run(patience(other))
+            if action == "e-stop" and other.setting.dialect.e_stop_routines:
+                _ended(other, watcher, RawReason.PROGRAM_STOPPED, action)
+            here, since = other.position, other.now
+            other.start_again()
+            if other.setting.random_schedule:
+                other.run(0.3)
+                stops = [order.time for order in orders if order.time >= since]
+                _crept(other, here, min(stops, default=since) - since, f"{action}, then Start")
+            other.stays(patience(other), f"{action}, then Start")
+            _ended(other, watcher, RawReason.PROGRAM_STOPPED, f"{action}, then Start")
+            if action in ("stop", "e-stop"):
+                _works(other, link)
+
+
+@case("without-routines", "no event routine, and counters that begin anew", "R7a", background=True)
+def _without_routines(bench: Bench) -> None:
+    """Signals, and no event routines: the supervisor alone ends all. Counters begin anew."""
+    with _beside(bench, replace(bench.system, events=()), early=True) as other:
+        view = other.controller.task(other.task("ROS_supervisor"))
+        set_counters(other, WRAP - 2)
+        # Requests of long ago, and a ring in the middle of which its counters begin anew.
+        view[datum(other, "ros_stop_done")] = WRAP - 4
+        for name in ("ros_head", "ros_tail"):
+            view[datum(other, name)] = WRAP - 64
+        watcher, link = other.watcher(), other.motion()
+        control = other.control() if other.group.ports.control else None
+        for number in (WRAP - 1, 0):
+            _pauses_at_its_end(other, watcher, link, control)
+            if other.progress(watcher).trajectory != number:
+                raise Broken(f"the last trajectory was {number}, {other.progress(watcher)}")
+        _refills(other, link)
+        for action, reason in (
+            ("stop", RawReason.PROGRAM_STOPPED),
+            ("e-stop", RawReason.EMERGENCY_STOP),
+            ("motors-off", RawReason.MOTORS_OFF),
+        ):
+            _moves(other, link)
+            if control is not None:
+                _pause(other, control, 1)
+            other.controller.perform(action)
+            if control is not None:
+                told = control.ask(messages.RawPause(0))
+                # Where a task's turn ends at a PERS, the supervisor may have ended it all by then.
+                reasons = (reason, RawReason.IDLE) if other.setting.switch_at_pers else (reason,)
+                if told not in [messages.RawNotDone(reason) for reason in reasons]:
+                    raise Broken(f"{action}, and right behind it the end of a pause: {told}")
+            other.wait_until_standing(1)
+            other.run(patience(other))
+            _ended(other, watcher, reason, f"{action} without event routines")
+            other.start_again()
+            other.stays(patience(other), f"{action} without event routines, then Start")
+            _works(other, link)
+        _moves(other, link)
+        other.controller.perform("power-loss")
+        other.run(6)
+        control = other.control() if control is not None else None
+        other.start_again()
+        other.stays(2, "a power failure without event routines, then Start")
+        if control is not None:
+            stopped = control.expect(messages.RawStopped, 1, "STOPPED arrives")
+            if stopped.reason != RawReason.POWER_FAILURE:
+                raise Broken(f"a power failure has ended a trajectory, STOPPED says {stopped}")
+        _works(other, other.motion())
+
+
+def _pause(bench: Bench, control: RawLink, paused: int) -> None:
+    told = control.ask(messages.RawPause(paused))
+    bench.run(0.1)
+    if told != messages.RawAcknowledged() or bench.standing != bool(paused):
+        raise Broken(f"PAUSE {paused} is answered by {told}, the robot stands: {bench.standing}")
+
+
+def _pauses_at_its_end(
+    bench: Bench, watcher: RawLink, link: RawLink, control: RawLink | None
+) -> None:
+    """A trajectory that is paused on its way, and in the stay at its end."""
+    unit = unit_of(bench)
+    way = bench.wave(2, duration=unit)
+    begins(bench, link, [*way, (way[1][0], 2 * unit)])
+    if control is not None:
+        for paused in (1, 0):
+            _pause(bench, control, paused)
+    bench.wait_until_at(way[1][0], unit + 1)
+    if control is not None:
+        _pause(bench, control, 1)
+        bench.run(2 * bench.config.state_period)
+        if bench.status(watcher).motion_possible:
+            raise Broken("a trajectory is paused, STATUS says that another one may come")
+    bench.run(2.5 * unit)
+    told, status = bench.progress(watcher), bench.status(watcher)
+    if (told.state, status.motion_possible) != (RawTrajectoryState.DONE, 1):
+        raise Broken(f"a trajectory that was paused in its last stay is over: {told}, {status}")
+
+
+def _refills(bench: Bench, link: RawLink) -> None:
+    """A trajectory that does not fit into the ring goes on behind the first points."""
+    count = bench.config.trajectory.ring + 12
+    if count > bench.config.trajectory.capacity:
+        return
+    seconds = max(0.1, 1.05 * bench.config.trajectory.min_segment)
+    bench.sets_off(link, bench.wave(count, duration=seconds, size=0.01), 20 * seconds)
+    if bench.standing:
+        raise Broken("a trajectory longer than the ring stops on its way")
+    link.stop()
+    bench.wait_until_standing(1)
+    bench.run(patience(bench))
+
+
+@case("stale-build", "a module was exchanged, and its task shows what it did")
+def _stale_build(bench: Bench) -> None:
+    """A module of another build, in a task that has shown the right one before."""
+    build = bench.system.build_id.encode()
+    path, data = next(
+        (m.path, m.data)
+        for t in bench.system.tasks
+        if t.name == bench.task("ROS_motion")
+        for m in t.modules
+        if m.name == "ROS_motion"
+    )
+    mixed = with_module(bench.system, path, data.replace(build, b"0123456789ab"))
+    with _beside(bench, mixed, early=True) as other:
+        task = other.controller.task(other.task("ROS_motion"))
+        task[datum(other, "ros_shown_motion")] = bench.system.build_id
+        watcher, link = other.watcher(), other.motion()
+        link.send(other.download(other.wave(3)))
+        other.stays(1, "modules of the motion task are of different builds")
+        told = other.progress(watcher)
+        if (told.state, told.reason) != (RawTrajectoryState.REFUSED, RawReason.BUILD_MISMATCH):
+            raise Broken(f"modules of the motion task are of different builds, {told}")

@@ -1,0 +1,218 @@
+"""What a controller says of its axes' limits: narrower, wider, the same, nothing, nonsense."""
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from rapidgen.config.model import Joint
+from rapidgen.machine.event_log import EventType
+from rapidgen.machine.system_parameters import arm_name
+from rapidgen.verification import messages
+from rapidgen.verification.case import Theme
+from rapidgen.verification.messages import RawComm, RawReason, decode
+from rapidgen.verification.model import Broken, NothingToProve
+from rapidgen.verification.position_checks import Position
+from rapidgen.verification.raw_connection import RawLink, raw_point
+from rapidgen.verification.testbench import HELLO, Bench
+
+case = Theme("limits")
+
+_SAID = {
+    "are narrower": (EventType.WARNING, "Those of the controller count."),
+    "are wider": (EventType.INFO, "Those of the configuration count."),
+    "make no sense": (EventType.ERROR, "No trajectory is taken."),
+}
+_NEAR = 0.002
+"""rad or m inside and outside of a limit: more than rounding, less than any difference here."""
+_ROUNDING = 5e-6
+"""rad or m outside of a limit that its rounding may have done: then the limit is meant."""
+_FAR = 1e6
+"""rad or m: no axis gets there."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Told:
+    """What the controller says of a joint, rad or m; None: it says nothing.
+
+    `said`: what the driver calls that in the event log, empty where there is nothing to say.
+    """
+
+    lower: float | None
+    upper: float | None
+    said: str = ""
+
+    def left(self, joint: Joint) -> tuple[float, float]:
+        """The limits in force."""
+        if self.lower is None or self.upper is None:
+            return joint.lower, joint.upper
+        return max(self.lower, joint.lower), min(self.upper, joint.upper)
+
+
+def _differences(joint: Joint) -> list[_Told]:
+    """A hundredth is a difference, less than a thousandth is none."""
+    low, high, more, less = joint.lower, joint.upper, 0.01, 0.0004
+    return [
+        _Told(low + more, high, "are narrower"),
+        _Told(low - more, high, "are wider"),
+        _Told(None, high - more),
+        _Told(low, high - more, "are narrower"),
+        _Told(low, high + more, "are wider"),
+        _Told(low + more, None),
+        _Told(low + less, high - less),
+        _Told(low + more, high + more, "are narrower"),
+        _Told(low - less, high + less),
+        _Told(low - more, high - more, "are narrower"),
+    ]
+
+
+def _nonsense(joint: Joint, lowest: float, highest: float) -> list[_Told]:
+    """Nothing is left: of the range itself, or of what it shares with `lowest` to `highest`."""
+    low, high, middle = joint.lower, joint.upper, (joint.lower + joint.upper) / 2
+    return [
+        _Told(*limits, "make no sense")
+        for limits in (
+            (high + 0.1, high + 0.2),
+            (low - 0.2, low - 0.1),
+            (middle + 0.1, middle - 0.1),
+            (middle, middle),
+            (highest, high + 0.1),
+            (low - 0.1, lowest),
+        )
+    ]
+
+
+def _hello(link: RawLink) -> messages.RawHelloReply:
+    told = link.ask(HELLO)
+    link.close()
+    if not isinstance(told, messages.RawHelloReply):
+        raise Broken(f"HELLO is answered by {told}")
+    return told
+
+
+class _Cell:
+    """A controller whose limits are set, and count from its next start on, as everywhere."""
+
+    def __init__(self, bench: Bench) -> None:
+        self._bench = bench
+        self._newest = 0
+        self.plain = _hello(bench.state())
+
+    def start(self, told: Sequence[_Told]) -> None:
+        """Start with other limits; Broken unless the event log tells just what is different."""
+        bench = self._bench
+        for joint, one in zip(bench.group.joints, told, strict=True):
+            path = f"/MOC/ARM/{arm_name(bench.group, joint)}"
+            for values in bench.controller.configuration.find(path):
+                for name, value in (("lower", one.lower), ("upper", one.upper)):
+                    values.pop(f"{name}_joint_bound", None)
+                    if value is not None:
+                        values[f"{name}_joint_bound"] = value
+        self._newest = bench.last_event
+        for action in ("power-loss", "pp-to-main", "auto", "motors-on", "start"):
+            bench.controller.perform(action)
+        bench.run(1)
+        for number, (joint, one) in enumerate(zip(bench.group.joints, told, strict=True), 1):
+            self._is_said(number, joint, one)
+
+    def _is_said(self, number: int, joint: Joint, told: _Told) -> None:
+        title = f"ROS: limits of joint {number} "
+        log = self._bench.controller.log.since(self._newest)
+        found = [e for e in log if e.title.startswith(title)]
+        what = f"joint {number} may move from {told.lower} to {told.upper}, of {joint}"
+        if not (told.said and self._bench.setting.dialect.axis_limits_told):
+            if found:
+                raise Broken(f"{what}: the event log says {found[0]}")
+            return
+        kind, effect = _SAID[told.said]
+        if [(e.type, e.title, e.texts[0]) for e in found] != [(kind, title + told.said, effect)]:
+            raise Broken(f"{what}: the event log says {[str(e) for e in found]}")
+        _are(found[0].texts[1], "Configuration", joint, joint.lower, joint.upper)
+        _are(found[0].texts[2], "Controller", joint, told.lower or 0.0, told.upper or 0.0)
+
+    def in_force(self) -> messages.RawHelloReply:
+        """What HELLO says, which must be the same on both ports."""
+        bench = self._bench
+        told = _hello(bench.state())
+        if bench.group.ports.control:
+            other = _hello(bench.control())
+            if (other.lower, other.upper) != (told.lower, told.upper):
+                raise Broken(f"the control port tells limits of {other}, the state port {told}")
+        return told
+
+
+def _answer(link: RawLink, others: Position, axis: int, value: float) -> messages.RawContent:
+    """The reply to a point with that value. Its trajectory gets no end, so nothing moves."""
+    link.send(raw_point(-1, (*others[:axis], value, *others[axis + 1 :]), 1.0, RawComm.REQUEST))
+    return decode(link.expect_reply(2, "a point is answered"))
+
+
+def _are(text: str, whose: str, joint: Joint, lower: float, upper: float) -> None:
+    """Broken unless a text of the event log holds these limits, to two digits."""
+    factor, unit = (57.29578, "deg") if joint.kind == "revolute" else (1000.0, "mm")
+    told = re.fullmatch(rf"{whose}: (-?\d+(?:\.\d\d?)?) to (-?\d+(?:\.\d\d?)?) {unit}", text)
+    for number, limit in enumerate((factor * lower, factor * upper), 1):
+        if told is None or abs(float(told[number]) - limit) > 0.0051 + 1e-5 * abs(limit):
+            raise Broken(f"a limit of {limit:.3f} {unit} is told in {text!r}")
+
+
+@case("limits-as-told", "limits that the controller tells of each joint, or does not", "R11")
+def _limits_as_told(bench: Bench) -> None:
+    """Each joint with some kinds of difference, one after another, and at last with its own."""
+    joints, cell = bench.group.joints, _Cell(bench)
+    kinds = len(_differences(joints[0]))
+    for first in range(0, kinds, len(joints)):
+        turn = [_differences(joint)[(first + n) % kinds] for n, joint in enumerate(joints)]
+        _counts(bench, cell, turn)
+    _counts(bench, cell, [_Told(j.lower - 0.3, j.upper + 0.3, "are wider") for j in joints])
+
+
+def _counts(bench: Bench, cell: _Cell, told: Sequence[_Told]) -> None:
+    """Broken unless just the limits in force are told, and taken."""
+    cell.start(told)
+    hello, link = cell.in_force(), bench.motion()
+    silent = not bench.setting.dialect.axis_limits_told
+    left = [
+        (joint.lower, joint.upper) if silent else one.left(joint)
+        for joint, one in zip(bench.group.joints, told, strict=True)
+    ]
+    # An axis may stand at its end, where the controller lets it go no longer.
+    here = tuple(
+        min(max(p, low), high) for p, (low, high) in zip(bench.position, left, strict=True)
+    )
+    for axis, limits in enumerate(left):
+        seen = hello.lower[axis], hello.upper[axis]
+        if any(abs(t - w) > 1e-6 * max(1.0, abs(w)) for t, w in zip(seen, limits, strict=True)):
+            raise Broken(f"joint {axis + 1} may move in {limits}, HELLO says {seen}")
+        for limit, inside in ((limits[0], _NEAR), (limits[1], -_NEAR)):
+            for value, wanted in (
+                (limit + inside, messages.RawAcknowledged()),
+                (limit - inside, messages.RawRefused(RawReason.JOINT_LIMIT, 0, axis + 1)),
+            ):
+                answer = _answer(link, here, axis, value)
+                if answer != wanted:
+                    raise Broken(f"joint {axis + 1} is at {value}, the limit {limit}: {answer}")
+    bench.stays(0.5, "no trajectory was sent to its end")
+
+
+@case("limits-without-sense", "a joint of which no range is left")
+def _limits_without_sense(bench: Bench) -> None:
+    """Nobody knows where such a joint may be: no point is taken, wherever it is."""
+    if not bench.setting.dialect.axis_limits_told:
+        raise NothingToProve("the controller does not tell limits of axes")
+    joints, cell = bench.group.joints, _Cell(bench)
+    for number in range(len(_nonsense(joints[0], 0.0, 0.0))):
+        axis = number % len(joints)
+        joint = joints[axis]
+        odd = _nonsense(joint, cell.plain.lower[axis], cell.plain.upper[axis])[number]
+        chosen = [_Told(j.lower, j.upper) for j in joints]
+        chosen[axis] = odd
+        cell.start(chosen)
+        hello, link = cell.in_force(), bench.motion()
+        if not hello.lower[axis] > _FAR > -_FAR > hello.upper[axis]:
+            raise Broken(f"nothing is left of the range of joint {axis + 1}, HELLO says {hello}")
+        ends = (joint.lower - _ROUNDING, joint.upper + _ROUNDING, odd.lower or 0, odd.upper or 0)
+        for value in (bench.position[axis], *ends):
+            answer = _answer(link, bench.position, axis, value)
+            if answer != messages.RawRefused(RawReason.JOINT_LIMIT, 0, axis + 1):
+                raise Broken(f"nothing is left of joint {axis + 1}, it is at {value}: {answer}")
+        bench.stays(0.5, "a joint has no range")

@@ -1,0 +1,77 @@
+"""What lasts long: clocks that run over, bells that nobody hears."""
+
+from rapidgen.runtime.builtins.clocks import StopWatch
+from rapidgen.runtime.errors import RapidError
+from rapidgen.verification import messages
+from rapidgen.verification.case import Theme
+from rapidgen.verification.instruction_hooks import Instruction, wrapped
+from rapidgen.verification.model import Broken
+from rapidgen.verification.testbench import Bench
+
+case = Theme("lasting")
+
+_DAYS = 10.0
+"""s that stand for the 49 days that a clock counts."""
+
+
+def _short_clocks(bench: Bench) -> None:
+    """Every clock of the driver runs over after `_DAYS`."""
+
+    def wrap(as_before: Instruction) -> Instruction:
+        def read(*arguments: object) -> object:
+            watch = next(each for each in arguments if isinstance(each, StopWatch))
+            if watch.read(bench.controller.scheduler.now) > _DAYS * 1e9:
+                raise RapidError("ERR_OVERFLOW")
+            return as_before(*arguments)
+
+        return read
+
+    for task in bench.controller.rapid_tasks.values():
+        wrapped(task, "ClkRead", wrap)
+
+
+@case("days", "what has not happened for longer than a clock counts", "R3", background=True)
+def _days(bench: Bench) -> None:
+    """No client, no heartbeat, no refusal, no halt for 50 days; then they come."""
+    _short_clocks(bench)
+    link = bench.motion()
+    bench.run(_DAYS + 2)
+    for _ in range(2):
+        if bench.group.ports.control:
+            control = bench.control()
+            for _ in range(2):
+                bench.run(0.3)
+                told = control.ask(messages.RawHeartbeat(1.0))
+                if not isinstance(told, messages.RawHeartbeatReply):
+                    raise Broken(f"after days without a client HEARTBEAT is answered by {told}")
+            control.ask(messages.RawHeartbeat(0))
+            bench.run(_DAYS + 2)
+            control.stop()
+            control.close()
+        bench.sets_off(link, bench.wave(8), 0.3)
+        link.stop()
+        bench.wait_until_standing(3)
+        bench.moves_through(link, bench.wave(3))
+        bench.sets_off(link, bench.wave(8), 0.3)
+        bench.controller.perform("stop")
+        bench.run(_DAYS + 2)
+        bench.controller.perform("start")
+        bench.stays(2, "it was stopped for days")
+        bench.moves_through(link, bench.wave(3))
+        bench.healthy()
+
+
+@case("unheard", "bells that a stopped program does not hear", "R7a", background=True)
+def _unheard(bench: Bench) -> None:
+    """Stop and PP to main in a motion, Start long after: the motion task goes on."""
+    link = bench.motion()
+    for steps in (("stop", "pp-to-main"), ("stop",), ("e-stop", "pp-to-main")):
+        bench.sets_off(link, bench.wave(8), 0.4)
+        for step in steps:
+            bench.controller.perform(step)
+            bench.run(0.01)
+        bench.run(11)
+        bench.start_again()
+        bench.stays(2, f"{', '.join(steps)}, and Start")
+        bench.healthy()
+        bench.moves_through(link, bench.wave(3))

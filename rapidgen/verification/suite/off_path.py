@@ -1,0 +1,117 @@
+"""Stops by the brakes at full speed: the robot comes to rest off its path, and works again."""
+
+from dataclasses import replace
+from functools import partial
+
+from rapidgen.verification.case import Theme
+from rapidgen.verification.model import Broken
+from rapidgen.verification.position_checks import Point, Position
+from rapidgen.verification.testbench import CEILING, Bench
+
+case = Theme("off the path")
+
+_FAST = 0.8
+"""Share of an axis' speed at which the stop comes."""
+STAYS_STOPPED = "ROS: the robot stays stopped"
+"""Title of the event that says why."""
+
+
+def _zigzag(bench: Bench, count: int, seconds: float) -> list[Point]:
+    """Points between which the axes run at nearly their speed, every other one against the rest.
+
+    In `seconds`, or in less where no axis has a way that long.
+    """
+    ranges = [(joint.upper - joint.lower, joint.speed) for joint in bench.group.joints]
+    seconds = min(seconds, max(0.7 * wide / (0.95 * speed) for wide, speed in ranges))
+
+    def corner(odd: int) -> Position:
+        found = []
+        for number, joint in enumerate(bench.group.joints):
+            wide = min(0.7 * (joint.upper - joint.lower), 0.95 * joint.speed * seconds)
+            away = wide / 2 if (odd + number) % 2 else -wide / 2
+            found.append((joint.upper + joint.lower) / 2 + away)
+        return tuple(found)
+
+    # Both before `seconds` changes: a TCP below a ceiling takes longer, and goes no further for it.
+    ends = corner(0), corner(1)
+    seconds = max(seconds, 1.1 * bench.tcp_seconds(*ends))
+    return [(ends[number % 2], seconds) for number in range(count)]
+
+
+def _speed(bench: Bench) -> float:
+    """The largest share of its speed that an axis runs at now."""
+    (since, before), (now, here) = bench.track[-2:]
+    if now == since or bench.now - now > 0.01:
+        return 0.0
+    joints = zip(bench.group.joints, before, here, strict=True)
+    return max(abs(b - a) / (now - since) / joint.speed for joint, a, b in joints)
+
+
+def _stopped_at_speed(bench: Bench, action: str, quick: float, seconds: float) -> float:
+    """A stop while an axis runs fast; how far (m) the robot then stands from its path."""
+    motion = replace(bench.setting.motion, quick_factor=quick)
+    with bench.beside(bench.system, setting=replace(bench.setting, motion=motion)) as other:
+        link = other.motion()
+        way = _zigzag(other, 6, seconds)
+        to_it = 2 * other.seconds_to(way[0][0])
+        link.send(other.download([(other.position, 10.0), (way[0][0], to_it)]))
+        other.wait_until_at(way[0][0], 2 * to_it + 5)
+        other.run(0.3 + 2 * motion.settle)
+        other.sets_off(link, [(other.position, 10.0), *way[1:]])
+        if way[0][1] > seconds:
+            # A ceiling of the TCP keeps the axes slower; in the middle they are fastest.
+            other.run(0.5 * way[0][1])
+        else:
+            other.until(lambda: _speed(other) >= _FAST, 5, f"an axis runs at {_FAST:.0%}")
+        last = other.last_event
+        other.controller.perform(action)
+        other.wait_until_standing(20)
+        other.run(1)
+        off, _ = other.motion_group.off_path
+        other.start_again()
+        if other.controller.task(other.group.task).state != "running":
+            # Too far off for a start from where the program was.
+            if off <= motion.regain_distance:
+                raise Broken(f"{1000 * off:.0f} mm off its path after {action} no program starts")
+            other.controller.perform("pp-to-main")
+            other.start_again()
+        told = f"after {action} at speed, {1000 * off:.0f} mm off the path"
+        other.stays(4, f"{told}, nobody asked for motion")
+        said = [e for e in other.controller.log.since(last) if e.title == STAYS_STOPPED]
+        held = off > motion.path_distance and motion.stop_move_reset == "keeps"
+        if said and not held:
+            raise Broken(f"{told}, the event log says {said[0]}")
+        if other.motion_group.stop_reasons:
+            if not (held and said):
+                raise Broken(f"{told}, the robot is held, and the event log does not say why")
+            # What the event tells to do.
+            for step in ("stop", "pp-to-main", "start"):
+                other.controller.perform(step)
+        other.stays(1, f"{told}, nobody asked for motion")
+        link.close()
+        other.run(1.5)
+        other.moves_through(other.motion(), other.wave(3))
+        other.healthy()
+    return off
+
+
+def _at_speed(bench: Bench, action: str) -> None:
+    """Nothing resumes, and a new trajectory is executed from where the robot stands."""
+    found = [
+        _stopped_at_speed(bench, action, quick, seconds)
+        for quick, seconds in ((2.0, 0.5), (0.2, 0.5), (0.04, 0.7))
+    ]
+    motion = bench.setting.motion
+    by_brakes = action == "power-loss" or motion.emergency_stop == "brakes"
+    # Where a cleared path is forgotten nothing tells how far off it was; and below a ceiling of the
+    # TCP a robot may be too slow to get off it.
+    fast = bench.group.tcp_speed_limit >= CEILING
+    told = by_brakes and fast and motion.cleared_distance == "counts"
+    if told and bench.motion_group.kinematics is not None and max(found) < 0.05:
+        raise Broken(f"the robot never was far from its path: {[f'{d:.3f} m' for d in found]}")
+
+
+case("e-stop-at-speed", "an emergency stop at full speed")(partial(_at_speed, action="e-stop"))
+case("power-loss-at-speed", "a power failure at full speed")(
+    partial(_at_speed, action="power-loss")
+)

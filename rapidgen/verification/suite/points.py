@@ -1,0 +1,354 @@
+"""Points one by one, each as a request: what becomes of the trajectory is in its reply."""
+
+import math
+from collections.abc import Sequence
+
+from rapidgen.config.model import Joint
+from rapidgen.verification import messages
+from rapidgen.verification.case import Theme
+from rapidgen.verification.messages import RawComm, RawReason, RawSpecial, RawTrajectoryState
+from rapidgen.verification.model import Broken
+from rapidgen.verification.position_checks import Position, changed, small_unit
+from rapidgen.verification.raw_connection import RawLink, raw_point
+from rapidgen.verification.suite.motion_task import datum
+from rapidgen.verification.testbench import Bench
+
+case = Theme("taking")
+
+_BEGIN, _END = int(RawSpecial.BEGIN), int(RawSpecial.END)
+_TAKEN = messages.RawAcknowledged()
+_LONGEST = 3600.0
+_SLOW = 60.0
+"""s for a segment that no axis is too slow for."""
+
+
+class Table:
+    """Points and the replies that they must get. They are sent in one piece."""
+
+    def __init__(self, bench: Bench) -> None:
+        self.bench = bench
+        self.link = bench.motion()
+        self.watcher = bench.watcher()
+        self.number = bench.progress(self.watcher).trajectory
+        """Of the newest trajectory, as far as the rows say."""
+        self._rows: list[tuple[bytes, messages.RawContent, str]] = []
+
+    def row(
+        self, sequence: int, joints: Sequence[float], seconds: float, wanted: messages.RawContent
+    ) -> None:
+        """One more point. A trajectory begins with -1."""
+        if sequence == _BEGIN:
+            self.number += 1
+        frame = raw_point(sequence, joints, seconds, RawComm.REQUEST)
+        shown = ", ".join(f"{value:.9g}" for value in joints)
+        self._rows.append((frame, wanted, f"point {sequence} ({shown}) in {seconds:.9g} s"))
+
+    def accepted(self, joints: Sequence[float], seconds: float) -> None:
+        """An end frame with which the trajectory is handed over."""
+        self.row(_END, joints, seconds, messages.RawAccepted(self.number))
+
+    def ask(self) -> None:
+        """Send the rows. Broken when a reply is another one."""
+        self.link.send(b"".join(frame for frame, _, _ in self._rows))
+        for _, wanted, what in self._rows:
+            told = messages.decode(self.link.expect_reply(5, f"{what} is answered"))
+            if type(told) is not type(wanted) or told != wanted:
+                raise Broken(f"{what}: wanted {wanted}, the reply is {told}")
+        self._rows.clear()
+
+    def stop(self, link: RawLink | None = None) -> None:
+        """STOP, here or over another connection, and its reply."""
+        told = (link or self.link).stop()
+        if not isinstance(told, messages.RawAcknowledged):
+            raise Broken(f"STOP is answered by {told}")
+
+    def shows(self, state: RawTrajectoryState, received: int, told: messages.RawRefused) -> None:
+        """Broken unless PROGRESS says so of the newest trajectory."""
+        self.bench.run(2 * self.bench.config.state_period)
+        seen = self.bench.progress(self.watcher)
+        if (seen.trajectory, seen.state, seen.received, *seen[5:]) != (
+            self.number,
+            state,
+            received,
+            *told,
+        ):
+            raise Broken(
+                f"trajectory {self.number}, {state.name} with {received} points and {told}: "
+                f"PROGRESS says {seen}"
+            )
+
+
+_NOTHING = messages.RawRefused(0, -1, 0)
+"""As PROGRESS tells it of a trajectory that nothing is wrong with."""
+
+
+def fast_ends(joint: Joint, seconds: float, share: float) -> tuple[float, float] | None:
+    """Two places of an axis that are `share` of what it can do in a time apart, about zero."""
+    way = share * seconds * joint.speed
+    margin = 2 * small_unit(joint)
+    low = max(joint.lower + margin, min(-way / 2, joint.upper - margin - way))
+    return (low, low + way) if low + way <= joint.upper - margin else None
+
+
+@case("each-value", "each value of a point at its bounds and beyond", "R10, R11")
+def _each_value(bench: Bench) -> None:
+    """Limits, speeds and numbers that are none, of each joint alone; what is padding."""
+    table, here = Table(bench), bench.position
+    policy = bench.config.trajectory
+    seconds = max(0.1, policy.min_segment)
+    fault = policy.too_fast == "refuse"
+    for axis, joint in enumerate(bench.group.joints):
+        unit = small_unit(joint)
+        for value, reason in (
+            (joint.lower - 0.0012 * unit, RawReason.JOINT_LIMIT),
+            (joint.upper + 0.0012 * unit, RawReason.JOINT_LIMIT),
+            (1e6, RawReason.JOINT_LIMIT),
+            (math.nan, RawReason.NOT_FINITE),
+            (math.inf, RawReason.NOT_FINITE),
+            (-math.inf, RawReason.NOT_FINITE),
+        ):
+            wrong = messages.RawRefused(reason, 0, axis + 1)
+            table.row(_BEGIN, changed(here, axis, value), _SLOW, wrong)
+            table.row(1, here, _SLOW, wrong)
+        table.row(_BEGIN, changed(here, axis, joint.lower), _SLOW, _TAKEN)
+        table.row(1, changed(here, axis, joint.upper), _SLOW, _TAKEN)
+        table.row(2, changed(here, axis, joint.lower), _SLOW, _TAKEN)
+        # Where a first point lies nobody has to reach in its time.
+        for value in (joint.upper, joint.lower):
+            table.row(_BEGIN, changed(here, axis, value), 0.0, _TAKEN)
+        for share in (0.999, 1.01):
+            ends = fast_ends(joint, seconds, share)
+            if ends is None:
+                continue
+            places = [changed(here, axis, value) for value in ends]
+            if 1.1 * bench.tcp_seconds(places[0], places[1]) > seconds:
+                continue
+            wrong = messages.RawRefused(RawReason.TOO_FAST, 2, axis + 1)
+            for one, other in (places, places[::-1]):
+                table.row(_BEGIN, one, seconds, _TAKEN)
+                table.row(1, one, seconds, _TAKEN)
+                table.row(2, other, seconds, wrong if share > 1 and fault else _TAKEN)
+                if share < 1:
+                    table.row(3, one, seconds, _TAKEN)
+        table.ask()
+    missing = len(here)
+    for axis in range(missing, messages.MAX_JOINTS):
+        zeros = (*here, *[0.0] * (axis - missing))
+        for value in (0.5, 1e-45, math.nan):
+            wrong = messages.RawRefused(RawReason.BAD_PADDING, 1, axis + 1)
+            table.row(_BEGIN, here, _SLOW, _TAKEN)
+            table.row(1, (*zeros, value), _SLOW, wrong)
+        table.row(_BEGIN, (*zeros, -0.0), _SLOW, _TAKEN)
+    # The first fault counts.
+    first, last = bench.group.joints[0], bench.group.joints[-1]
+    both = (first.upper + 1, *here[1:-1], last.upper + 1)
+    table.row(_BEGIN, both, _SLOW, messages.RawRefused(RawReason.JOINT_LIMIT, 0, 1))
+    table.row(_BEGIN, both, math.nan, messages.RawRefused(RawReason.NOT_FINITE, 0, 0))
+    table.row(_BEGIN, here, _SLOW, _TAKEN)
+    table.ask()
+    bench.stays(0.1, "no trajectory was sent whole")
+    _rounded(bench, table)
+
+
+def _rounded(bench: Bench, table: Table) -> None:
+    """Two places that lie outside of all limits by rounding are the same one: the limits."""
+    for side in (-1, 1):
+        one, two = (
+            tuple(
+                (joint.lower if side < 0 else joint.upper) + side * off * small_unit(joint)
+                for joint in bench.group.joints
+            )
+            for off in (0.0002, 0.0001)
+        )
+        table.row(_BEGIN, one, _LONGEST, _TAKEN)
+        # Whose ways have no length, and so need no time.
+        table.row(1, two, bench.config.trajectory.min_segment or 0.001, _TAKEN)
+        table.ask()
+        bench.stays(0.1, "no trajectory was sent whole")
+
+
+@case("each-duration", "durations at their bounds and beyond", "R10")
+def _each_duration(bench: Bench) -> None:
+    """Of the first point, of one in between, and of the last one."""
+    table, here = Table(bench), bench.position
+    policy = bench.config.trajectory
+    wrong: tuple[tuple[float, RawReason], ...] = (
+        (-1e-3, RawReason.BAD_DURATION),
+        (_LONGEST + 0.5, RawReason.BAD_DURATION),
+        (1e9, RawReason.BAD_DURATION),
+        (-1e9, RawReason.BAD_DURATION),
+        (math.nan, RawReason.NOT_FINITE),
+        (math.inf, RawReason.NOT_FINITE),
+        (-math.inf, RawReason.NOT_FINITE),
+        (2e9, RawReason.NOT_FINITE),
+    )
+    for seconds, reason in wrong:
+        table.row(_BEGIN, here, seconds, messages.RawRefused(reason, 0, 0))
+        table.row(_BEGIN, here, 0.0, _TAKEN)
+        table.row(1, here, seconds, messages.RawRefused(reason, 1, 0))
+    for seconds in (0.0, -0.0, 1e-3, 0.9, 1.0, _LONGEST):
+        table.row(_BEGIN, here, seconds, _TAKEN)
+    for seconds in (0.0, -0.0):
+        table.row(1, here, 1.0, _TAKEN)
+        table.row(2, here, seconds, messages.RawRefused(RawReason.BAD_DURATION, 2, 0))
+        table.row(_BEGIN, here, 1.0, _TAKEN)
+    for number, seconds in enumerate((_LONGEST, 1.0, max(0.9, policy.min_segment)), 1):
+        table.row(number, here, seconds, _TAKEN)
+    table.row(4, here, policy.min_segment, _TAKEN)
+    shorter = 0.999 * policy.min_segment
+    if policy.min_segment > 0.005:
+        short = messages.RawRefused(RawReason.SEGMENT_TOO_SHORT, 5, 0)
+        table.row(5, here, shorter, short if policy.too_fast == "refuse" else _TAKEN)
+        # The last one has no successor that would have to be planned in time.
+        table.row(_BEGIN, here, shorter, _TAKEN)
+        table.row(1, here, 1.0, _TAKEN)
+        table.accepted(here, shorter / 2)
+    table.ask()
+    table.stop()
+    bench.stays(0.2, "it was asked to stay where it is")
+
+
+@case("each-number", "numbers of points, STOP among them, and what is skipped", "C4")
+def _each_number(bench: Bench) -> None:
+    """Numbers of points in order and out of it, STOP in between, and what follows a refusal."""
+    table, here = Table(bench), bench.position
+
+    def row(sequence: int, wanted: messages.RawContent, joints: Position = here) -> None:
+        table.row(sequence, joints, _SLOW, wanted)
+
+    alone = messages.RawRefused(RawReason.NO_START, 0, 0)
+    far = changed(here, 0, bench.group.joints[0].upper + 1)
+    beyond = messages.RawRefused(RawReason.JOINT_LIMIT, 0, 1)
+
+    def without_a_start(sequence: int) -> None:
+        table.number += 1
+        row(sequence, alone)
+
+    without_a_start(5)
+    for sequence in (6, 0, _END):
+        row(sequence, alone)
+    # Behind the end of what was refused nothing is skipped any more.
+    without_a_start(_END)
+    without_a_start(1)
+    for taken in (1, 2, 3):
+        gap = messages.RawRefused(RawReason.SEQUENCE_GAP, taken, 0)
+        for wrong in (taken - 1, taken + 1, -2, -5):
+            row(_BEGIN, _TAKEN)
+            for sequence in range(1, taken):
+                row(sequence, _TAKEN)
+            for sequence in (wrong, taken, _END):
+                row(sequence, gap)
+    without_a_start(1)
+    row(_BEGIN, _TAKEN)
+    row(_END, messages.RawRefused(RawReason.JOINT_LIMIT, 1, 1), far)
+    without_a_start(2)
+    row(_BEGIN, beyond, far)
+    row(_END, beyond)
+    without_a_start(1)
+    # A new beginning counts whatever was before it.
+    row(_BEGIN, beyond, far)
+    row(_BEGIN, _TAKEN)
+    row(_BEGIN, _TAKEN)
+    row(1, _TAKEN)
+    table.ask()
+    table.shows(RawTrajectoryState.RECEIVING, 2, _NOTHING)
+    table.stop()
+    table.shows(RawTrajectoryState.STOPPED, 2, messages.RawRefused(RawReason.STOPPED, -1, 0))
+    without_a_start(2)
+    row(_BEGIN, beyond, far)
+    table.ask()
+    table.shows(RawTrajectoryState.REFUSED, 0, beyond)
+    table.stop()
+    without_a_start(1)
+    row(_BEGIN, _TAKEN)
+    row(1, messages.RawRefused(RawReason.JOINT_LIMIT, 1, 1), far)
+    table.ask()
+    table.shows(RawTrajectoryState.REFUSED, 1, messages.RawRefused(RawReason.JOINT_LIMIT, 1, 1))
+    row(_BEGIN, _TAKEN)
+    table.ask()
+    table.shows(RawTrajectoryState.RECEIVING, 1, _NOTHING)
+    _full(bench, table)
+    _of_other_builds(bench, table)
+    for sequence in (_BEGIN, 1):
+        row(sequence, _TAKEN)
+    table.accepted(here, _SLOW)
+    # What was handed over has no next point.
+    without_a_start(3)
+    table.ask()
+    table.stop()
+    # Nor is anything of one client's, refused or not, of the next one's.
+    for joints, wanted in ((here, _TAKEN), (far, beyond)):
+        row(_BEGIN, wanted, joints)
+        table.ask()
+        table.link.close()
+        table.link = bench.motion()
+        without_a_start(1)
+        row(_END, alone)
+        table.ask()
+    bench.stays(0.2, "it was asked to stay where it is")
+
+
+def _full(bench: Bench, table: Table) -> None:
+    """The last point that there is room for, and the first that there is none for."""
+    here, capacity = bench.position, bench.config.trajectory.capacity
+    for last in (capacity, _END):
+        table.row(_BEGIN, here, _SLOW, _TAKEN)
+        table.ask()
+        # As if all the others had come: a thousand points that are like each other say nothing.
+        bench.controller.task(bench.task("ROS_motionServer"))["ROS_acceptance:ROS_count"] = (
+            capacity - 1
+        )
+        full = messages.RawRefused(RawReason.CAPACITY, capacity, 0)
+        table.row(capacity - 1, here, _SLOW, _TAKEN)
+        table.row(last, here, _SLOW, full)
+        if last == _END:
+            table.number += 1
+            full = messages.RawRefused(RawReason.NO_START, 0, 0)
+        table.row(1, here, _SLOW, full)
+        table.ask()
+
+
+def _of_other_builds(bench: Bench, table: Table) -> None:
+    """While any task shows another build each beginning is refused, whatever is wrong with it."""
+    task = bench.controller.task(bench.task("ROS_motionServer"))
+    name = datum(bench, "ros_shown_state")
+    mixed = messages.RawRefused(RawReason.BUILD_MISMATCH, -1, 0)
+    own, task[name] = task[name], "000000000000"
+    for sequence in (_BEGIN, 1, 1, _END, _BEGIN):
+        table.row(sequence, bench.position, math.nan, mixed)
+    table.ask()
+    table.shows(RawTrajectoryState.REFUSED, 0, mixed)
+    task[name] = own
+
+
+@case("one-more", "lines for refusals that come at once", "R19")
+def _one_more(bench: Bench) -> None:
+    """A line for each second; the next one counts those in between, be it a single one."""
+    table, joints = Table(bench), bench.group.joints
+    lines: list[str] = []
+    bench.controller.operator.subscribe(lambda _task, text: lines.append(text))
+    for at_once, axis, more in (
+        (2, 0, ""),
+        (1, len(joints) - 1, "1 more like it."),
+        (3, None, ""),
+        (1, 0, "2 more like it."),
+    ):
+        before = bench.last_event
+        sequence, reason, place = int(RawSpecial.END), RawReason.NO_START, ""
+        joint, wanted = 0, bench.position
+        if axis is not None:
+            sequence, reason, joint = _BEGIN, RawReason.JOINT_LIMIT, axis + 1
+            place = f"Joint {joint}."
+            wanted = changed(wanted, axis, joints[axis].upper + 1)
+        # Nothing is left to be skipped.
+        table.stop()
+        for _ in range(at_once):
+            table.row(sequence, wanted, _SLOW, messages.RawRefused(reason, 0, joint))
+        table.ask()
+        bench.run(1.05)
+        said = [" ".join(e.texts).split() for e in bench.controller.log.since(before)]
+        text = messages.text_of(reason)
+        if said != [f"{text} Point 0. {place} {more}".split()]:
+            raise Broken(f"{at_once} refusals for {reason.name}, the event log says {said}")
+        if lines:
+            raise Broken(f"{at_once} refusals for {reason.name}, the pendant says {lines}")

@@ -1,0 +1,124 @@
+"""Circles of a program: three points that make none, and one that turns too far, move nothing."""
+
+import math
+import random
+from collections.abc import Iterator
+from dataclasses import replace
+
+from rapidgen.axes import frames
+from rapidgen.axes.frames import Vector
+from rapidgen.verification.case import Theme
+from rapidgen.verification.messages import RawInstruction, RawReason
+from rapidgen.verification.model import NothingToProve
+from rapidgen.verification.raw_programs import (
+    BEGIN,
+    END,
+    Programmer,
+    RawOrder,
+    computes,
+    orders,
+    reached,
+)
+from rapidgen.verification.suite.program_frames import object_of, placement_of, says
+from rapidgen.verification.testbench import Bench
+
+case = Theme("programs", needs="stream")
+
+_CHORD_BY_HEIGHT = {
+    degrees: 2 * math.tan(math.radians((360 - degrees) / 4)) for degrees in (239, 241)
+}
+"""Of the circle that turns so far: its ends are seen from its middle under half of what is left."""
+
+
+@case("program-circles", "three points that make no circle, or too much of one, are refused")
+def _circles(bench: Bench) -> None:
+    """From the start, behind a move, behind one of the batch before [REF MoveC, Limitations]."""
+    if not computes(bench):
+        raise NothingToProve("the driver computes no poses")
+    client = Programmer(bench)
+    found = orders(bench, 3, random.Random(71))
+    one, two, three = (replace(o, kind=RawInstruction.MOVE_ABSJ, pose=None) for o in found)
+    client.takes("a program", [replace(one, zone=None)])
+    bench.wait_until_at(one.joints, 60)
+    bench.run(0.5)
+    # Nothing moves where the circle is right: what is behind it is wrong.
+    wrong = replace(two, speed=0.0)
+    line = replace(one, kind=RawInstruction.MOVE_L, pose=reached(bench, one.joints))
+    for before, start in (((), one), ((two, three), three), ((three, line), line)):
+        for right, why, circle in _with_end(bench, start, two):
+            told = client.send([*before, circle, wrong])
+            reason = RawReason.BAD_SPEED if right else RawReason.NO_CIRCLE
+            client.refused(told, reason, len(before) + right, why)
+    _in_other_frames(bench, client, two, three)
+    bench.stays(0.5, "no program was right")
+    client.takes("a move, something follows", [replace(two, zone=None)], BEGIN)
+    bench.wait_until_at(two.joints, 60)
+    *_, (_, why, circle) = _with_end(bench, two, three)
+    told = client.say(circle.words, 1, END, first=1)
+    client.refused(told, RawReason.NO_CIRCLE, 1, f"in the next batch {why}")
+    bench.stays(0.5, "no circle was right")
+
+
+def _in_other_frames(bench: Bench, client: Programmer, start: RawOrder, end: RawOrder) -> None:
+    """The pose before a circle is another one in the circle's work object."""
+    given = object_of(0.1)
+    frame, first = placement_of(given[1]), bench.group.work_object.user_frame
+    origin = frames.compose(
+        frames.invert((frame.position, frame.orientation)), (first.position, first.orientation)
+    )
+    before = replace(start, kind=RawInstruction.MOVE_L, pose=reached(bench, start.joints))
+    own = 0, 1 + len(bench.group.work_objects)
+    *_, (_, _, short), (_, _, long) = _with_end(bench, start, end)
+    for circle, reason in ((short, RawReason.BAD_SPEED), (long, RawReason.NO_CIRCLE)):
+        assert circle.pose is not None
+        assert circle.via is not None
+        pose, via = (frames.compose(origin, place) for place in (circle.pose, circle.via))
+        seen = replace(circle, pose=pose, via=via, frames=own)
+        told = says(client, replace(before, frames=(0, 0)), given, seen, replace(end, speed=0.0))
+        index = 3 if reason is RawReason.BAD_SPEED else 2
+        client.refused(told, reason, index, "a circle in another work object")
+
+
+def _with_end(bench: Bench, start: RawOrder, end: RawOrder) -> Iterator[tuple[bool, str, RawOrder]]:
+    """Whether they are right, what they are, and circles from the end of one move to another's."""
+    first, last = reached(bench, start.joints)[0], reached(bench, end.joints)[0]
+    way = frames.subtract(last, first)
+    chord = frames.norm(way)
+    along = frames.unit(way)
+    # Any direction across it.
+    across = frames.unit(
+        frames.cross(along, (0.0, 0.0, 1.0) if abs(along[2]) < 0.9 else (1.0, 0.0, 0.0))
+    )
+
+    def at(share: float, height: float) -> RawOrder:
+        via = frames.add(frames.scale(way, share), frames.scale(across, height))
+        return _circle(bench, start, end, via)
+
+    yield True, "half a circle", at(0.5, chord / 2)
+    for far in (0.09e-3, 0.11e-3):
+        yield far > 1e-4, f"a point {far} m from the beginning", at(0.0, far)
+    # So close to the end a point is nearly in a line, too.
+    for far in (0.09e-3, 0.018 * chord):
+        yield far > 1e-4, f"a point {far} m from the end", at(1.0, far)
+    for angle in (0.98, 1.02):
+        height = chord / 2 * math.tan(math.radians(angle))
+        yield angle > 1, f"two points seen {angle} degrees apart", at(0.5, height)
+    yield False, "a point of the line, beyond its end", at(1.5, 0.0)
+    yield (
+        False,
+        "a circle that ends where it begins",
+        _circle(bench, start, start, (0.0, 0.0, 0.05)),
+    )
+    for degrees, ratio in _CHORD_BY_HEIGHT.items():
+        yield degrees <= 240, f"{degrees} degrees", at(0.5, chord / ratio)
+
+
+def _circle(bench: Bench, start: RawOrder, end: RawOrder, via: Vector) -> RawOrder:
+    """To where `end` goes; `via` is told from where `start` ends."""
+    place, turned = reached(bench, start.joints)
+    return replace(
+        end,
+        kind=RawInstruction.MOVE_C,
+        pose=reached(bench, end.joints),
+        via=(frames.add(place, via), turned),
+    )

@@ -1,0 +1,196 @@
+"""Programs on a controller that reports errors: as an instruction is read, and when it is due."""
+
+import random
+from collections.abc import Iterator
+from dataclasses import replace
+from functools import partial
+
+from rapidgen.verification import messages
+from rapidgen.verification.batches import millionths, words_frame
+from rapidgen.verification.case import Theme
+from rapidgen.verification.instruction_hooks import Instruction, fails, wrapped
+from rapidgen.verification.messages import PROGRAM, RawInstruction, RawReason, RawTrajectoryState
+from rapidgen.verification.model import Broken
+from rapidgen.verification.raw_connection import RawLink
+from rapidgen.verification.raw_programs import (
+    ALL,
+    Programmer,
+    RawOrder,
+    computes,
+    kinds_with_marks,
+    orders,
+    reached,
+)
+from rapidgen.verification.suite.speed import aside
+from rapidgen.verification.suite.user_routines import knows_these, weld_words
+from rapidgen.verification.testbench import Bench
+
+case = Theme("programs", needs="stream")
+
+_READS = ("UnpackRawBytes", "DnumToNum", "NOrient", "ByteToStr", "VectMagn", "CalcRobT")
+_NO_GEOMETRY = ("VectMagn", "CalcRobT")
+"""What may fail while a pose is compared with what its joints reach."""
+_SETS = {"DO": "SetDO", "GO": "SetGO", "AO": "SetAO"}
+_WAITS = {"DI": "WaitDI", "DO": "WaitDO", "GI": "WaitGI", "GO": "WaitGO"}
+
+
+@case("program-reading-fails", "an instruction that cannot be read moves nothing", once=True)
+def _reading_fails(bench: Bench) -> None:
+    """Whatever fails, and at whichever word: nothing moves, and a program behind it is taken."""
+    words, count = _everything(bench)
+    for name in _READS:
+        for after in range(_calls(bench, name, words, count)):
+            link = bench.motion()
+            ends = fails(bench, "ROS_motionServer", name, "ERR_OUTOFBND", after=after)
+            link.send(words_frame(1, 0, count, words, ALL, number=PROGRAM))
+            bench.until(partial(_answered, link), 4, f"{name} has failed; an answer comes")
+            ends()
+            if not link.lost:
+                told = link.reply(PROGRAM)
+                allowed = {RawReason.CHECKSUM}
+                if name in _NO_GEOMETRY:
+                    allowed.add(RawReason.NO_GEOMETRY)
+                if not isinstance(told, messages.RawPointsRefused) or told.reason not in allowed:
+                    raise Broken(f"{name} number {after + 1} has failed, the reply is {told}")
+                link.close()
+            bench.run(0.3)
+    bench.rests(1, 1, "no program could be read")
+    _serves(bench)
+
+
+def _answered(link: RawLink) -> bool:
+    return link.lost or bool(link.frames)
+
+
+def _everything(bench: Bench) -> tuple[list[int], int]:
+    """A program of all that this driver reads, the last of it wrong: it is never executed."""
+    here = bench.position
+    order = RawOrder(RawInstruction.MOVE_ABSJ, here, None, frames=(0, 0))
+    parts: list[list[int]] = [order.words, [RawInstruction.WAIT, *millionths([0.1])]]
+    signals = bench.config.signals
+    written = [n for n, s in enumerate(signals) if s.access == "write" and s.kind[1] == "O"]
+    waited = [n for n, s in enumerate(signals) if s.kind[0] != "A"]
+    if computes(bench):
+        turned = [1.0, 0.0, 0.0, 0.0]
+        frame = [0.0, 0.0, 0.1, *turned]
+        parts += [
+            [RawInstruction.SETTINGS, *millionths([0.0])],
+            [RawInstruction.TOOL, *millionths([*frame, *frame, 1.0, 0.0, 0.0, 0.0])],
+            [RawInstruction.WORK_OBJECT, *millionths([*frame, *frame])],
+        ]
+        pose = reached(bench, here)
+        marks = ((float(written[0]), 1.0, 0.0, 0.01),) if written else ()
+        parts.append(replace(order, kind=RawInstruction.MOVE_L, pose=pose, marks=marks).words)
+        there = orders(bench, 2, random.Random(52))[1].joints
+        circle = replace(order, kind=RawInstruction.MOVE_C, joints=there, marks=marks)
+        end = reached(bench, there)
+        parts.append(replace(circle, pose=end, via=aside(pose, end)).words)
+        if marks and order.kind in kinds_with_marks(bench):
+            parts.append(replace(order, marks=marks).words)
+    parts += [[RawInstruction.SET, *millionths([float(n), 1.0])] for n in written[:1]]
+    parts += [[RawInstruction.WAIT_SIGNAL, *millionths([float(n), 1, 1])] for n in waited[:1]]
+    if knows_these(bench):
+        # Its module is not there.
+        parts.append([RawInstruction.CALL, *millionths([0.0, 0.0]), *weld_words(1.0)])
+    else:
+        parts.append([99])
+    return [*millionths(here), *(word for part in parts for word in part)], len(parts)
+
+
+def _calls(bench: Bench, name: str, words: list[int], count: int) -> int:
+    """How often the motion server calls something until it has read a program."""
+    number = 0
+
+    def counted(as_before: Instruction) -> Instruction:
+        def counting(*arguments: object) -> object:
+            nonlocal number
+            number += 1
+            return as_before(*arguments)
+
+        return counting
+
+    wrapped(bench.rapid_task("ROS_motionServer"), name, counted)
+    link = bench.motion()
+    link.send(words_frame(1, 0, count, words, ALL, number=PROGRAM))
+    reason = RawReason.NO_ROUTINE if knows_these(bench) else RawReason.NO_INSTRUCTION
+    Programmer(bench, link).refused(link.reply(PROGRAM, 5), reason, count - 1, "the last one")
+    link.close(then=1.5)
+    return number
+
+
+_FAILING = {
+    "MoveAbsJ": RawInstruction.MOVE_ABSJ,
+    "MoveJ": RawInstruction.MOVE_J,
+    "MoveL": RawInstruction.MOVE_L,
+    "MoveC": RawInstruction.MOVE_C,
+}
+
+
+@case("program-instructions-fail", "an instruction that fails ends its program with its reason")
+def _instructions_fail(bench: Bench) -> None:
+    """With the one before it executed, and nothing behind it; a program behind it is taken."""
+    first, second, third = orders(bench, 4, random.Random(42))[1:]
+    client, watcher = Programmer(bench), bench.watcher()
+    for name, error, reason, words in _due(bench, first, second):
+        end = fails(bench, "ROS_motion", name, error, after=int(name == "MoveAbsJ"))
+        place = replace(first, kind=RawInstruction.MOVE_ABSJ, pose=None, zone=None)
+        client.number += 1
+        then = replace(third, kind=RawInstruction.MOVE_ABSJ, pose=None)
+        # All of them begin with the same speed, zone and frames.
+        own = [*millionths(bench.position), *place.words, *words, *then.words]
+        told = client.say(own, 3, ALL)
+        if not isinstance(told, messages.RawPointsAccepted):
+            raise Broken(f"{name} was right, the reply is {told}")
+        for _ in range(200):
+            seen = bench.progress(watcher)
+            if seen.state == RawTrajectoryState.FAILED and seen.trajectory == told.trajectory:
+                break
+        end()
+        if (seen.reason, seen.reached) != (reason, 1):
+            raise Broken(f"{name} has failed with {error}, PROGRESS says {seen}")
+        if name not in _FAILING:
+            bench.stays(0.5, f"{name} has failed")
+    bench.rests(2, 1, "the programs have ended")
+    client.takes("a program behind one that failed", [first, second])
+    bench.wait_until_at(second.joints, 60)
+
+
+def _due(
+    bench: Bench, here: RawOrder, there: RawOrder
+) -> Iterator[tuple[str, str, RawReason, list[int]]]:
+    """Which instruction fails with what, the reason of that, and the words for it."""
+    moved = replace(there, zone=None)
+    joints = replace(moved, kind=RawInstruction.MOVE_ABSJ, pose=None)
+    yield "MoveAbsJ", "ERR_COLL_STOP", RawReason.COLLISION, joints.words
+    signals = bench.config.signals
+    written = [n for n, s in enumerate(signals) if s.access == "write" and s.kind[1] == "O"]
+    for number, signal in enumerate(signals):
+        if number in written:
+            words = [RawInstruction.SET, *millionths([float(number), 1.0])]
+            yield _SETS[signal.kind], "ERR_NORUNUNIT", RawReason.BAD_VALUE, words
+        if signal.kind in _WAITS:
+            words = [RawInstruction.WAIT_SIGNAL, *millionths([float(number), 1.0, 1.0])]
+            yield _WAITS[signal.kind], "ERR_NORUNUNIT", RawReason.NO_SIGNAL, words
+            yield _WAITS[signal.kind], "ERR_WAIT_MAXTIME", RawReason.WAITED, words
+    if not computes(bench):
+        return
+    pose = reached(bench, there.joints)
+    way = aside(reached(bench, here.joints), pose)
+    for name, kind in _FAILING.items():
+        if kind not in kinds_with_marks(bench) or kind is RawInstruction.MOVE_ABSJ:
+            continue
+        via = way if kind is RawInstruction.MOVE_C else None
+        order = replace(moved, kind=kind, pose=pose, via=via)
+        yield name, "ERR_PATH_STOP", RawReason.MOTION_ERROR, order.words
+        for number in written[:1]:
+            marked = replace(order, marks=((float(number), 1.0, 0.0, 0.001),)).words
+            yield name.replace("Move", "Trigg"), "ERR_PATH_STOP", RawReason.MOTION_ERROR, marked
+            yield "TriggIO", "ERR_NORUNUNIT", RawReason.BAD_VALUE, marked
+
+
+def _serves(bench: Bench) -> None:
+    program = orders(bench, 2, random.Random(41))
+    client = Programmer(bench)
+    client.takes("a program behind one that failed", program)
+    bench.wait_until_at(program[-1].joints, 60)
+    client.link.close(then=1.5)

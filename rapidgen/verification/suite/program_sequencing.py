@@ -1,0 +1,122 @@
+"""Instructions of a program in their turn: late ones, missing ones, and those that come later."""
+
+import random
+import re
+from dataclasses import replace
+
+from rapidgen.machine.event_log import EventType
+from rapidgen.runtime.values import Value
+from rapidgen.verification import messages
+from rapidgen.verification.case import Theme
+from rapidgen.verification.instruction_hooks import at_call
+from rapidgen.verification.messages import (
+    JOINT_TRAJ_PT,
+    RawInstruction,
+    RawReason,
+    RawStreamFlag,
+    RawTrajectoryState,
+)
+from rapidgen.verification.model import Broken
+from rapidgen.verification.raw_connection import STOP, RawLink
+from rapidgen.verification.raw_programs import BEGIN, Programmer, orders
+from rapidgen.verification.stream import FLUSH, Streamer
+from rapidgen.verification.suite.motion_task import datum, patience
+from rapidgen.verification.suite.streams import way
+from rapidgen.verification.testbench import Bench
+
+case = Theme("programs", needs="stream")
+
+
+def _ring(bench: Bench) -> list[Value]:
+    """The instructions that the motion task finds in the ring, by place."""
+    task = bench.rapid_task("ROS_motion")
+    declared = task.program.modules["ros_instructions"].declarations
+    name = next(key for key in declared if re.fullmatch(r"ros_orders(_\d+)?", key))
+    view = bench.controller.task(bench.group.task)
+    return list(view[f"ROS_instructions:{name}"].values())
+
+
+def _told(
+    bench: Bench, watcher: RawLink, trajectory: int, state: RawTrajectoryState, reason: RawReason
+) -> messages.RawProgress:
+    """PROGRESS; Broken unless it says that of the trajectory."""
+    told = bench.progress(watcher)
+    if (told.trajectory, told.state, told.reason) != (trajectory, state, reason):
+        raise Broken(f"{trajectory} {state.name} for {reason.name} is wanted, PROGRESS: {told}")
+    return told
+
+
+@case("program-late", "an instruction that comes late is dropped, a hole ends the program", "R5")
+def _late(bench: Bench) -> None:
+    """Behind STOP an instruction of the same program is announced; then one has another number."""
+    watcher, client = bench.watcher(), Programmer(bench)
+    task, head = bench.controller.task(bench.group.task), datum(bench, "ros_head")
+    program = [replace(order, zone=None) for order in orders(bench, 6, random.Random(51))]
+    last = bench.last_event
+    number = client.takes("a program", program)
+    bench.wait_until_moving()
+    bench.run(0.3)
+    client.link.stop()
+    bench.run(patience(bench))
+    told = _told(bench, watcher, number, RawTrajectoryState.STOPPED, RawReason.STOPPED)
+    ring = _ring(bench)
+    late, like = ring[int(task[head]) % len(ring)], ring[0]
+    late.session, late.index = number, told.planned + 1
+    late.kind, late.joints, late.speed, late.zone = like.kind, like.joints, like.speed, like.zone
+    task[head] = task[head] + 1
+    bench.stays(1, "an instruction of a stopped program came late")
+    number = client.takes("a program behind it", program)
+    next(o for o in ring if (o.session, o.index) == (number, 4)).index = 5.0
+    bench.wait_until_at(program[2].joints, 60)
+    bench.stays(1, "an instruction is missing")
+    told = _told(bench, watcher, number, RawTrajectoryState.FAILED, RawReason.INTERNAL)
+    if (told.planned, told.reached) != (3, 3):
+        raise Broken(f"the fourth instruction is missing, PROGRESS says {told}")
+    said = [e for e in bench.controller.log.since(last) if e.type is EventType.ERROR]
+    if len(said) != 1:
+        raise Broken(f"an instruction is missing, the event log says {[str(e) for e in said]}")
+    client.takes("a program behind that", program)
+    bench.wait_until_at(program[-1].joints, 60)
+
+
+@case("stop-starved", "STOP while a stream or a program waits for more", "R9")
+def _stop_starved(bench: Bench) -> None:
+    """It is told to wait, then to move again; STOP ends it where it stands, and no task with it."""
+    watcher, client = bench.watcher(), Programmer(bench)
+    starved, moving = RawTrajectoryState.STARVED, RawTrajectoryState.MOVING
+    stream, task = Streamer(bench, client.link), bench.rapid_task("ROS_motion")
+
+    def ask() -> None:
+        client.link.at_once(STOP)
+        task.sleep(0.08)
+
+    for program in (False, True):
+        if program:
+            first, *_, last = orders(bench, 4, random.Random(52))
+            goals = [first, replace(last, kind=RawInstruction.MOVE_ABSJ, pose=None)]
+            number = client.takes("the beginning of a program", goals[:1], BEGIN)
+            ends = [goal.joints for goal in goals]
+        else:
+            points = way(bench, 20)
+            number = stream.takes("the beginning", points[:8], BEGIN | FLUSH).trajectory
+            ends = [points[7][0], points[-1][0]]
+        bench.wait_until_at(ends[0], 60)
+        bench.run(patience(bench))
+        _told(bench, watcher, number, starved, RawReason.NONE)
+        if program:
+            client.say(goals[1].words, 1, RawStreamFlag(0), first=1)
+        else:
+            stream.takes("the rest", points[8:], FLUSH)
+        bench.wait_until_moving()
+        bench.run(2 * bench.config.state_period)
+        _told(bench, watcher, number, moving, RawReason.NONE)
+        bench.wait_until_at(ends[1], 60)
+        bench.run(patience(bench))
+        # Where its motion task waits for more; longer than a server and two interrupts take.
+        at_call(bench, "ROS_motion", "WaitTime", 1, ask)
+        if client.link.reply(JOINT_TRAJ_PT) != messages.RawAcknowledged():
+            raise Broken("STOP is not confirmed while more is waited for")
+        bench.stays(patience(bench), "it was stopped while it waited for more")
+        _told(bench, watcher, number, RawTrajectoryState.STOPPED, RawReason.STOPPED)
+        bench.healthy()
+        bench.moves_through(client.link, bench.wave(3))

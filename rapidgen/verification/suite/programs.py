@@ -1,0 +1,418 @@
+"""Motion programs: moves to joints and poses, checked whole, executed as RAPID would."""
+
+import random
+from dataclasses import replace
+
+from rapidgen.motion.settings import MotionSettings
+from rapidgen.verification import messages
+from rapidgen.verification.batches import millionths, words_frame
+from rapidgen.verification.case import Theme
+from rapidgen.verification.messages import (
+    PROGRAM,
+    RawInstruction,
+    RawReason,
+    RawStreamFlag,
+    RawTrajectoryState,
+)
+from rapidgen.verification.model import Broken, NothingToProve
+from rapidgen.verification.path_deviation import farthest, movement, points
+from rapidgen.verification.position_checks import (
+    SETTLED,
+    Position,
+    changed,
+    distance,
+    inward,
+    small_unit,
+)
+from rapidgen.verification.raw_programs import (
+    ALL,
+    BEGIN,
+    Programmer,
+    RawOrder,
+    bent,
+    by_hand,
+    called,
+    computes,
+    orders,
+    reached,
+)
+from rapidgen.verification.testbench import CORNER_FAILURE, Bench
+
+case = Theme("programs", needs="stream")
+
+MOVE_ABSJ = RawInstruction.MOVE_ABSJ
+_LATER = 0.005
+"""Share of its time that a program may take longer, or shorter, than the same one in RAPID."""
+_SAME = 1e-5
+"""m that the TCP may be away from the path of the same program in RAPID."""
+
+
+@case("program-like-rapid", "a program moves as the same one written in RAPID", once=True)
+def _like_rapid(bench: Bench) -> None:
+    """On the same path, in the same time, with no stop point more."""
+    like_rapid(bench, 6, random.Random(7))
+    one_like_rapid(Programmer(bench), bench, _turning(bench))
+
+
+def _turning(bench: Bench) -> list[RawOrder]:
+    """Moves that take as long as the tool may turn, or external axes may move."""
+    first = orders(bench, 1, random.Random(8))[0]
+    speed = min(0.5, bench.group.tcp_speed_limit)
+    slow = RawOrder(
+        MOVE_ABSJ, turned_by(bench, first.joints, 0.4), None, speed=speed, turn=0.2, linear=0.03
+    )
+    if not computes(bench):
+        return [first, slow]
+    back = turned_by(bench, first.joints, 0.1)
+    back_slow = replace(slow, kind=RawInstruction.MOVE_L, joints=back, pose=reached(bench, back))
+    return [first, slow, back_slow]
+
+
+def turned_by(bench: Bench, place: Position, angle: float) -> Position:
+    """A place with the robot's last axis, and external ones, by so much elsewhere."""
+    last = max(joint.axis for joint in bench.group.joints if joint.axis.startswith("rax"))
+    return tuple(
+        inward(joint, value, angle if joint.kind == "revolute" else 0.1)
+        if joint.axis == last or joint.axis.startswith("eax")
+        else value
+        for joint, value in zip(bench.group.joints, place, strict=True)
+    )
+
+
+def like_rapid(bench: Bench, count: int, chance: random.Random) -> None:
+    """So many programs by lot beside the same ones in RAPID (more: `rapidgen test --programs`)."""
+    client = Programmer(bench)
+    for _ in range(count):
+        one_like_rapid(client, bench, orders(bench, 8, chance))
+
+
+class Unlike(Broken):
+    """A program moved otherwise than the same one in RAPID."""
+
+
+def one_like_rapid(
+    client: Programmer,
+    bench: Bench,
+    program: list[RawOrder],
+    other: Bench | None = None,
+    hand: list[RawOrder] | None = None,
+) -> None:
+    """A program beside the same one in RAPID. Raises Unlike, and Broken as an expectation does.
+
+    `other`: a controller that is `called`, of which nothing has run yet. `hand`: what is written in
+    RAPID, if that is not literally the program."""
+    home, since = bench.position, bench.now
+    client.takes("a program", program)
+    mine = _moved(bench, program, since)
+    with other or bench.beside(called(bench.config, bench.group.task)) as other:
+        by_hand(other, hand or program)
+        other.motion_group.jump(home)
+        theirs = _moved(other, program, 0.5)
+    later, same = _LATER, _SAME
+    if bench.setting.motion != MotionSettings():
+        # Where a robot settles, or its moves are planned just before the corner, a millisecond in
+        # which the next one is ordered decides how it is made; a stop there would cost more.
+        later, same = 4 * later, 200 * same
+    if abs(mine[0] - theirs[0]) > later * theirs[0]:
+        raise Unlike(f"a program took {mine[0]:.3f} s, {theirs[0]:.3f} s when written in RAPID")
+    ways = points(bench, mine[1]), points(bench, theirs[1])
+    for one, way in (ways, ways[::-1]):
+        far = farthest(one, way)
+        if far > same:
+            raise Unlike(f"a program is {far * 1000:.3f} mm off the way of the same in RAPID")
+
+
+def _moved(bench: Bench, program: list[RawOrder], since: float) -> tuple[float, list[Position]]:
+    """s of movement and where the robot was, until it stands at the end."""
+    bench.wait_until_at(program[-1].joints, 60)
+    bench.run(0.3)
+    return movement([sample for sample in bench.track if sample[0] >= since])
+
+
+@case("program-configurations", "a program reaches its poses in the postures that it says")
+def _configurations(bench: Bench) -> None:
+    """From one configuration to another, whatever instruction was before."""
+    if not computes(bench):
+        raise NothingToProve("the driver computes no poses")
+    client, middle = Programmer(bench), bent(bench)
+    there = RawOrder(MOVE_ABSJ, middle, None, zone=None)
+    client.takes("a program", [there])
+    bench.wait_until_at(middle, 60)
+    for n, joint in enumerate(bench.group.joints):
+        if joint.kind != "revolute" or not joint.lower < -middle[n] < joint.upper:
+            continue
+        turned = changed(middle, n, -middle[n])
+        away = replace(
+            there, kind=RawInstruction.MOVE_J, joints=turned, pose=reached(bench, turned)
+        )
+        back = replace(away, joints=middle, pose=reached(bench, middle))
+        for order in (away, back):
+            client.takes(f"axis {n + 1} on its other side", [order])
+            bench.wait_until_at(order.joints, 90)
+            bench.run(0.5)
+
+
+@case("program-arm-side", "a pose is reached on the side of the arm that is asked for", once=True)
+def _arm_side(bench: Bench) -> None:
+    """Also where two postures of the pose have one configuration, and the other one is nearer."""
+    geometry = bench.motion_group.kinematics
+    if geometry is None or not computes(bench):
+        raise NothingToProve("the driver computes no poses")
+    middle = bent(bench)
+    client, asked = Programmer(bench), (0.9, -middle[1], *middle[2:])
+    alike = geometry.configuration(asked)
+    to_pose = RawOrder(RawInstruction.MOVE_J, asked, reached(bench, asked), zone=None)
+    for other in geometry.solutions(geometry.forward(asked), asked):
+        if distance(other, asked) < 0.1 or geometry.configuration(other) != alike:
+            continue
+        there = tuple(round(value, 6) for value in other)
+        for way in ([RawOrder(MOVE_ABSJ, there, None, zone=None)], [to_pose]):
+            client.takes("another posture of the pose", way)
+            bench.wait_until_at(way[0].joints, 60)
+            bench.run(0.5)
+
+
+@case("program-index-wraps", "more instructions than numbers", once=True)
+def _index_wraps(bench: Bench) -> None:
+    """They are counted anew behind the last number that a controller counts exactly."""
+    last, client = messages.INDEX_WRAP, Programmer(bench)
+    program = orders(bench, 10, random.Random(12))
+    some = [replace(o, zone=None) for o in program]
+    client.number += 1
+    words = [*millionths(bench.position), *(w for o in some[:3] for w in o.words)]
+    client.say(words, 3, BEGIN)
+    bench.wait_until_at(some[2].joints, 60)
+    bench.run(0.5)
+    server = bench.controller.task(bench.task("ROS_motionServer"))
+    motion = bench.controller.task(bench.task("ROS_motion"))
+    server["ROS_acceptance:ROS_count"] = server["ROS_stream:accepted"] = last - 3
+    motion["ROS_motion:expected"] = last - 2
+    told = client.say([w for o in some[3:9] for w in o.words], 6, RawStreamFlag.END, first=last - 3)
+    if not isinstance(told, messages.RawPointsAccepted) or told.accepted != 3:
+        raise Broken(f"six instructions from {last - 3} on, the reply is {told}")
+    bench.wait_until_at(some[8].joints, 60)
+    bench.run(0.5)
+    bench.healthy()
+
+
+@case("program-refused", "one wrong instruction refuses a program whole, with its index")
+def _refused(bench: Bench) -> None:
+    """Nothing moves for a program of which one instruction is wrong, or that begins elsewhere."""
+    right = orders(bench, 6, random.Random(3))
+    client, watcher = Programmer(bench), bench.watcher()
+    for n, own in enumerate(bench.group.joints):
+        for value in (own.lower - 2 * small_unit(own), own.upper + 2 * small_unit(own)):
+            outside = replace(right[3], joints=changed(right[3].joints, n, value), pose=None)
+            told = client.send([*right[:3], replace(outside, kind=MOVE_ABSJ), *right[3:]])
+            wanted = (RawReason.JOINT_LIMIT, 3, n + 1)
+            if told[-3:] != wanted:
+                raise Broken(f"joint {n + 1} at {value}: the reply is {told}")
+        for value in (own.lower + small_unit(own), own.upper - small_unit(own)):
+            inside = replace(right[3], joints=changed(right[3].joints, n, value), pose=None)
+            # What is behind it is wrong.
+            behind = replace(right[3], speed=0.0)
+            told = client.send([*right[:3], replace(inside, kind=MOVE_ABSJ), behind])
+            client.refused(told, RawReason.BAD_SPEED, 4, f"joint {n + 1} at {value}")
+    # The smallest and the widest zone: what is behind it is wrong.
+    for zone in (0.0, 2 / 3):
+        told = client.send([*right[:3], replace(right[3], zone=zone), replace(right[3], speed=0.0)])
+        client.refused(told, RawReason.BAD_SPEED, 4, f"a zone of {zone:g} m")
+    wrong: list[tuple[RawOrder, RawReason]] = [
+        (replace(right[3], speed=0.0), RawReason.BAD_SPEED),
+        (replace(right[3], speed=-1.0), RawReason.BAD_SPEED),
+        (replace(right[3], speed=2000.0), RawReason.BAD_SPEED),
+        (replace(right[3], zone=-0.001), RawReason.BAD_ZONE),
+        (replace(right[3], zone=1.1), RawReason.BAD_ZONE),
+    ]
+    for order in right:
+        if order.pose is not None:
+            (x, y, z), q = order.pose
+            far = 1.1 * bench.config.trajectory.pose_tolerance
+            away = replace(order, pose=((x, y, z + far), q))
+            turned = replace(order, pose=((x, y, z), (q[1], q[0], q[3], q[2])))
+            wrong += [(away, RawReason.POSE_MISMATCH), (turned, RawReason.POSE_MISMATCH)]
+            for size in (0.0, 0.98, 1.02):
+                a, b, c, d = (size * part for part in q)
+                unlike = replace(order, pose=((x, y, z), (a, b, c, d)))
+                wrong.append((unlike, RawReason.BAD_VALUE))
+            circle = replace(away, kind=RawInstruction.MOVE_C, via=order.pose)
+            wrong.append((circle, RawReason.POSE_MISMATCH))
+            break
+    for order, reason in wrong:
+        told = client.send([*right[:3], order, *right[3:]])
+        client.refused(told, reason, 3, f"a program with {order}")
+    fastest = 1e-6 * round(1e6 * bench.group.tcp_speed_limit)
+    wrong_too = [replace(right[3], speed=fastest + 1e-3), replace(right[3], zone=0.67)]
+    for order, reason in zip(wrong_too, (RawReason.BAD_SPEED, RawReason.BAD_ZONE), strict=True):
+        client.refused(client.send([*right[:3], order]), reason, 3, f"a program with {order}")
+    # As fast and as wide as may be: 1.5 times that is the widest radius.
+    most = replace(right[3], speed=fastest, zone=2 / 3)
+    told = client.send([*right[:3], most, replace(most, speed=0.0)])
+    client.refused(told, RawReason.BAD_SPEED, 4, f"{most} is right")
+    for words in ([99, 0], [0], [-1], [4096 + MOVE_ABSJ, 0], [4096]):
+        client.number += 1
+        start = millionths(bench.position)
+        told = client.say([*start, *words], 1, ALL)
+        client.refused(told, RawReason.NO_INSTRUCTION, 0, f"the instruction {words}")
+    client.number += 1
+    told = client.say([*millionths(bench.position), MOVE_ABSJ, 0], 1, ALL)
+    client.refused(told, RawReason.FRAMING, 0, "half an instruction")
+    client.number += 1
+    place = millionths(bench.position)
+    told = client.say([*place, MOVE_ABSJ, *place], 1, ALL)
+    client.refused(told, RawReason.BAD_SPEED, 0, "a speed is that of a program before")
+    client.number += 1
+    with_speed = [MOVE_ABSJ | messages.RawModal.SPEED, *millionths(right[0].speeds)]
+    told = client.say([*place, *with_speed, *place], 1, ALL)
+    client.refused(told, RawReason.BAD_ZONE, 0, "a zone is that of a program before")
+    client.number += 1
+    told = client.say([*millionths(bench.position), *right[0].words, 0], 1, ALL)
+    client.refused(told, RawReason.FRAMING, 1, "a word too many")
+    for n, own in enumerate(bench.group.joints):
+        there = changed(bench.position, n, inward(own, bench.position[n], 0.1))
+        told = client.send(right, start=there)
+        if told[-3:] != (RawReason.START_TOO_FAR, 0, n + 1):
+            raise Broken(f"another beginning for joint {n + 1}, the reply is {told}")
+    many = [right[0]] * (bench.config.trajectory.ring + 3)
+    told = client.send(many)
+    if not isinstance(told, messages.RawPointsRefused) or told.reason != RawReason.OVERRUN:
+        raise Broken(f"more instructions than the ring holds: the reply is {told}")
+    if bench.motion_group.kinematics is not None and not computes(bench):
+        pose = reached(bench, right[3].joints)
+        untold = replace(right[3], kind=RawInstruction.MOVE_L, pose=pose)
+        told = client.send([*right[:3], untold])
+        client.refused(told, RawReason.NO_GEOMETRY, 3, "a pose of which nobody knows the joints")
+    bench.stays(1, "no program was right")
+    told = bench.progress(watcher)
+    if (told.state, told.planned) != (RawTrajectoryState.REFUSED, 0):
+        raise Broken(f"a program was refused, PROGRESS says {told}")
+    client.takes("a right program", right)
+    bench.wait_until_at(right[-1].joints, 60)
+
+
+@case("program-stream", "a program that comes while the robot moves is executed up to a fault")
+def _stream(bench: Bench) -> None:
+    """Instructions before a wrong one are executed, the last as a stop point; none behind it."""
+    watcher, client = bench.watcher(), Programmer(bench)
+    program = orders(bench, 16, random.Random(11))
+    client.number += 1
+    some = [*millionths(bench.position), *(word for o in program[:8] for word in o.words)]
+    told = client.say(some, 8, BEGIN)
+    if not isinstance(told, messages.RawPointsAccepted):
+        raise Broken(f"the first instructions are right, the reply is {told}")
+    bench.wait_until_moving()
+    wrong = replace(program[12], speed=0.0)
+    rest = [word for o in (*program[8:12], wrong, *program[13:]) for word in o.words]
+    told = client.say(rest, 8, messages.RawStreamFlag.END, first=8)
+    client.refused(told, RawReason.BAD_SPEED, 12, "a wrong speed in the middle")
+    bench.wait_until_at(program[11].joints, 90)
+    bench.run(0.5)
+    seen = bench.progress(watcher)
+    wanted = (RawTrajectoryState.FAILED, 12, RawReason.BAD_SPEED)
+    if (seen.state, seen.reached, seen.reason) != wanted:
+        raise Broken(f"a program was cut behind 12 instructions, PROGRESS says {seen}")
+    bench.stays(1, "a program was cut")
+
+
+@case("program-halves", "a trajectory ends a program, and a program a trajectory")
+def _superseded(bench: Bench) -> None:
+    """Whatever is newer; nothing of the older one is executed behind it."""
+    client, watcher = Programmer(bench), bench.watcher()
+    program = orders(bench, 5, random.Random(2))
+    client.takes("a program", program)
+    bench.wait_until_moving()
+    bench.run(0.3)
+    client.link.send(bench.download(bench.wave(4)))
+    over = (RawTrajectoryState.DONE, RawTrajectoryState.REFUSED)
+    for _ in range(200):
+        told = bench.progress(watcher)
+        if told.trajectory == 2 and told.state in over:
+            break
+    else:
+        raise Broken(f"a trajectory has come into a program, PROGRESS says {told}")
+    bench.stays(1, "the program has ended")
+    points = bench.wave(20)
+    bench.sets_off(client.link, points, 0.5)
+    reply = client.send(program)
+    if isinstance(reply, messages.RawPointsRefused):
+        # It began where the robot was when it was sent.
+        client.refused(reply, RawReason.START_TOO_FAR, 0, "a program into a trajectory")
+        bench.rests(5, 1, "neither is under way")
+        client.takes("a program", program)
+    bench.wait_until_at(program[-1].joints, 60)
+
+
+@case("program-waits", "a wait stands between moves, and STOP ends it")
+def _waits(bench: Bench) -> None:
+    """The move before it is a stop point, whatever its zone; what cannot be is refused."""
+    client = Programmer(bench)
+    first, *_, last = orders(bench, 6, random.Random(4))
+    there = replace(last, kind=MOVE_ABSJ, pose=None, zone=0.01)
+
+    def sends(seconds: float) -> messages.RawContent:
+        client.number += 1
+        wait = [int(RawInstruction.WAIT), *millionths([seconds])]
+        words = [*millionths(bench.position), *there.words, *wait, *first.words]
+        return client.say(words, 3, ALL)
+
+    def comes_by() -> bool:
+        return distance(bench.position, there.joints) < SETTLED
+
+    for seconds in (1.5, 0.5, 0.0):
+        if not isinstance(sends(seconds), messages.RawPointsAccepted):
+            raise Broken(f"a program with a wait of {seconds} s is refused")
+        if seconds:
+            bench.wait_until_at(there.joints, 60)
+        else:  # Axes that lag go on before they have come to rest.
+            bench.until(comes_by, 60, "the robot comes by the point before the wait")
+        bench.stays(0.8 * seconds, "the program waits")
+        bench.wait_until_at(first.joints, 60)
+    corners_made(bench)
+    for seconds in (-1.0, 2001.0):
+        client.refused(sends(seconds), RawReason.BAD_VALUE, 1, f"a wait of {seconds} s")
+    # The longest.
+    sends(2000.0)
+    bench.wait_until_at(there.joints, 60)
+    bench.run(0.5)
+    client.link.stop()
+    bench.stays(2, "STOP has ended a wait")
+    for words, reason in (
+        ([1024 + MOVE_ABSJ, *millionths([99.0, 0.0])], RawReason.NO_FRAME),
+        ([1024 + MOVE_ABSJ, *millionths([0.0, 0.5])], RawReason.NO_FRAME),
+        ([int(RawInstruction.SET), *millionths([99.0, 0.0])], None),
+        ([12, 0], RawReason.NO_INSTRUCTION),
+    ):
+        client.number += 1
+        start = millionths(bench.position)
+        told = client.say([*start, *words, *start], 1, ALL)
+        if not isinstance(told, messages.RawPointsRefused) or told.point != 0:
+            raise Broken(f"the instruction {words} is answered by {told}")
+        if reason is not None:
+            client.refused(told, reason, 0, f"the instruction {words}")
+    bench.stays(1, "no instruction was right")
+
+
+def corners_made(bench: Bench) -> None:
+    """Broken when the controller has found a corner that no move follows: a stop point was due."""
+    failed = [event for event in bench.controller.log if event.code == CORNER_FAILURE]
+    if failed:
+        raise Broken(f"the robot was to stop where it passes: {failed[0]}")
+
+
+plain = Theme("programs")
+
+
+@plain("program-basic", "a driver of the basic profile says that it takes no programs")
+def _basic(bench: Bench) -> None:
+    """HELLO does not tell PROGRAMS, and PROGRAM is answered by a failure."""
+    link = bench.motion()
+    told = bench.says_hello(bench.state())
+    if bool(told.features & messages.RawFeature.PROGRAMS) is not bench.streams:
+        raise Broken(f"HELLO tells the features {told.features}")
+    if bench.streams:
+        return
+    place = millionths(bench.position)
+    link.send(words_frame(1, 0, 1, [*place, MOVE_ABSJ, *place], ALL, number=PROGRAM))
+    if not isinstance(link.reply(PROGRAM), messages.RawFailure):
+        raise Broken("a driver of the basic profile takes a program")
+    bench.stays(1, "nothing was taken")

@@ -1,0 +1,344 @@
+"""SPEED: never faster than asked, whatever SpeedRefresh does, and not slowed down twice.
+
+What is ordered already is slowed down by SpeedRefresh, what follows gets more time.
+"""
+
+import math
+import random
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+
+from rapidgen.axes.frames import Pose, slerp
+from rapidgen.verification import messages
+from rapidgen.verification.case import Theme
+from rapidgen.verification.instruction_hooks import at_call
+from rapidgen.verification.messages import RawComm, RawInstruction, RawReason
+from rapidgen.verification.model import Broken, NothingToProve
+from rapidgen.verification.path_deviation import farthest, points
+from rapidgen.verification.position_checks import Point, Position, changed, distance, inward
+from rapidgen.verification.raw_connection import RawLink
+from rapidgen.verification.raw_programs import Programmer, RawOrder, computes, orders, reached
+from rapidgen.verification.stream import BEGIN, END, Streamer
+from rapidgen.verification.suite.control import done, not_done
+from rapidgen.verification.suite.motion_task import begins, soon, unit_of
+from rapidgen.verification.testbench import Bench
+
+case = Theme("speed", needs="control")
+
+RATE = 0.08
+"""rad/s or m/s of the axis that is looked at."""
+_TICK = 0.1
+"""s between two SpeedRefresh of the driver, the shortest that ITimer does."""
+LONG = 0.25
+"""s of a move that the driver slows down by SpeedRefresh."""
+_RAMPS = 0.15
+"""s in which the axis has come to another speed."""
+
+_PEAK = 1.4
+"""A short move that ends at a standstill is faster in its middle than on the whole ..."""
+_MOMENT = 0.05
+"""... and for so many s much faster."""
+
+
+def straight(bench: Bench, count: int, seconds: float) -> list[Point]:
+    """Points on a straight way of the first axis, all as fast."""
+    here, joint = bench.position, bench.group.joints[0]
+    step = inward(joint, here[0], RATE * seconds) - here[0]
+    return [
+        (here, 10.0),
+        *((changed(here, 0, here[0] + n * step), seconds) for n in range(1, count)),
+    ]
+
+
+def _slow(bench: Bench) -> float:
+    """s that the driver needs from a request or a timer to SpeedRefresh."""
+    return soon(bench) + bench.setting.latest_interrupt
+
+
+def paces(bench: Bench, since: float, rate: float) -> list[tuple[float, float, float]]:
+    """From when to when the axis was how fast, in shares of its speed."""
+    track = [(when, seen[0]) for when, seen in bench.track if when >= since]
+    return [
+        (when, then, abs(b - a) / (then - when) / rate)
+        for (when, a), (then, b) in pairwise(track)
+        if then > when
+    ]
+
+
+def as_asked(
+    bench: Bench,
+    since: float,
+    percent: float,
+    seconds: float,
+    stops: int = 2,
+    rate: float | None = None,
+) -> None:
+    """Broken where the axis was faster than asked since then, or much slower for long.
+
+    `seconds`: what a move takes at the speed before. `stops`: how often it comes to rest. `rate`:
+    of the axis in moves without a time of their own.
+    """
+    asked, seen = percent / 100, paces(bench, since, RATE if rate is None else rate)
+    lag = bench.setting.motion.servo_lag
+    ordered = 2 * seconds + bench.setting.motion.planning_lead + _slow(bench) + lag
+    acts = rate is not None or (seconds > LONG and bench.setting.motion.refresh_timed)
+    # Each move that was ordered may begin as fast as it was ordered, until a timer comes.
+    most = _TICK + _slow(bench) + _RAMPS + lag if acts else ordered
+    last = since + (ordered / asked if acts else ordered) + most
+    fast = 0.0
+    for when, then, pace in seen:
+        fast = fast + then - when if pace > _PEAK * asked else 0.0
+        if fast > most or (fast > _MOMENT and then > last):
+            raise Broken(
+                f"{then - since:.2f} s behind SPEED {percent:g} the robot is at {100 * pace:.0f} % "
+                f"of its speed, for {fast:.2f} s"
+            )
+    slow = sum(then - when for when, then, pace in seen if pace < 0.75 * asked)
+    at_rest = _RAMPS + _slow(bench) + _TICK + bench.setting.motion.settle + lag
+    if slow > stops * at_rest:
+        raise Broken(f"at SPEED {percent:g} the robot is slower than that for {slow:.2f} s")
+
+
+def asks_as_it_begins(bench: Bench, control: RawLink, percent: float) -> None:
+    """SPEED as the next trajectory begins: the motion task's first interrupts-off is there."""
+
+    def ask() -> None:
+        control.at_once(messages.encode(messages.RawSpeed(percent), RawComm.REQUEST))
+        # Long enough for the control server and an interrupt.
+        bench.rapid_task("ROS_motion").sleep(0.05)
+
+    at_call(bench, "ROS_motion", "IDisable", 1, ask)
+
+
+_Send = Callable[[Bench, RawLink, Sequence[Point]], None]
+
+
+def _download(bench: Bench, link: RawLink, points: Sequence[Point]) -> None:
+    link.send(bench.download(points))
+
+
+def _stream(bench: Bench, link: RawLink, points: Sequence[Point]) -> None:
+    Streamer(bench, link).put(points, BEGIN | END)
+
+
+@case("speed-kept", "never faster than asked, nor slowed down twice")
+def _kept(bench: Bench) -> None:
+    """Long moves and short ones, slower and faster, and at full speed in the next trajectory."""
+    control, link, lead = bench.control(), bench.motion(), bench.setting.motion.planning_lead
+    short = max(0.12, 1.05 * bench.config.trajectory.min_segment)
+    ways: list[tuple[_Send, int, float]] = [(_download, 8, 0.6), (_download, 24, short)]
+    if bench.streams:
+        ways.append((_stream, 24, short))
+    for send, count, seconds in ways:
+        for percents in ((50.0,), (60.0, 20.0), (20.0, 60.0)):
+            points, begun = straight(bench, count, seconds), bench.now
+            send(bench, link, points)
+            bench.wait_until_moving()
+            # Once when no other move is ordered, once when one is.
+            bench.run(seconds * (0.5 if percents[-1] > 50 else 2) - 0.8 * lead)
+            before = 1.0
+            for percent in percents:
+                since = bench.now
+                done(control.ask(messages.RawSpeed(percent)), f"SPEED {percent:g}")
+                if bench.now - since > soon(bench):
+                    raise Broken(f"SPEED is answered after {bench.now - since:.3f} s")
+                if percent == percents[-1]:
+                    bench.wait_until_at(points[-1][0], 10 + 8 * count * seconds)
+                    # What was ordered for less keeps that.
+                    stops = 2 if percent < 100 * before else 2 + math.ceil(2 * seconds / before)
+                    as_asked(bench, since, percent, seconds / before, stops)
+                else:
+                    bench.run(0.3)
+                before = percent / 100
+            bench.executed(points, begun)
+            bench.wait_until_standing()
+        points, since = straight(bench, count, seconds), bench.now
+        send(bench, link, points)
+        bench.wait_until_at(points[-1][0], 10 + 8 * count * seconds)
+        as_asked(bench, since, 100, seconds)
+        bench.wait_until_standing()
+
+
+@case("speed-in-pause", "a speed that is asked for in a pause holds behind it")
+def _in_pause(bench: Bench) -> None:
+    """SpeedRefresh may do nothing while the robot stands."""
+    control, link = bench.control(), bench.motion()
+    points, begun = straight(bench, 6, 0.8), bench.now
+    bench.sets_off(link, points, 1.0)
+    done(control.ask(messages.RawPause(1)), "PAUSE")
+    bench.wait_until_standing(3)
+    done(control.ask(messages.RawSpeed(40)), "SPEED")
+    bench.run(0.5)
+    since = bench.now
+    done(control.ask(messages.RawPause(0)), "the end of a pause")
+    bench.wait_until_moving()
+    bench.arrives(points, begun, 60)
+    as_asked(bench, since, 40, 0.8, 3)
+
+
+@case("speed-at-end", "a speed that is asked for in the last move is over with it")
+def _at_the_end(bench: Bench) -> None:
+    """SpeedRefresh may last, and may do nothing while the robot stands."""
+    control, link = bench.control(), bench.motion()
+    bench.sets_off(link, straight(bench, 2, 1.0), 0.2)
+    done(control.ask(messages.RawSpeed(50)), "SPEED")
+    bench.wait_until_standing()
+    bench.run(2)
+    points, since = straight(bench, 4, 1.0), bench.now
+    bench.sets_off(link, points)
+    bench.arrives(points, since, 20)
+    as_asked(bench, since, 100, 1.0)
+
+
+@case("speed", "a speed for one trajectory")
+def _speed(bench: Bench) -> None:
+    """Half the speed for this trajectory, and the full one again for the next."""
+    control, link = bench.control(), bench.motion()
+    not_done(control.ask(messages.RawSpeed(50)), RawReason.IDLE, "SPEED of nothing")
+    taken = []
+    for percent in (100.0, 50.0, 0.0):
+        points, since = bench.wave(12), bench.now
+        bench.sets_off(link, points)
+        if percent:
+            done(control.ask(messages.RawSpeed(80)), "SPEED 80")
+            done(control.ask(messages.RawSpeed(percent)), f"SPEED {percent:g}")
+        for wrong in (0.0, -5.0, 101.0, 0.99, 1e6, math.nan, math.inf):
+            not_done(control.ask(messages.RawSpeed(wrong)), RawReason.BAD_VALUE, f"SPEED {wrong:g}")
+        bench.wait_until_at(points[-1][0], 60)
+        bench.followed([p for p, _ in points], since=since)
+        taken.append(bench.now - since)
+        bench.run(0.5)
+    if not 1.5 * taken[0] < taken[1] < 2.5 * taken[0] or abs(taken[2] - taken[0]) > 0.5:
+        raise Broken(f"at 100, 50 and again 100 % a trajectory took {taken} s")
+    bench.sets_off(link, bench.wave(12))
+    done(control.ask(messages.RawSpeed(1)), "the smallest SPEED")
+    link.stop()
+    bench.rests(3, 1, "it was stopped")
+    bench.moves_through(link, bench.wave(3))
+
+
+@case("speed-at-start", "a speed that comes at the beginning of a trajectory")
+def _at_the_start(bench: Bench) -> None:
+    """SPEED comes just before the first move is ordered: all moves get more time."""
+    control, link, unit = bench.control(), bench.motion(), unit_of(bench)
+    task = bench.rapid_task("ROS_motion")
+
+    def ask() -> None:
+        control.at_once(messages.encode(messages.RawSpeed(50), RawComm.REQUEST))
+        # Long enough for the control server and an interrupt.
+        task.sleep(0.05)
+
+    begins(bench, link, bench.wave(2, duration=unit))
+    control.ask(messages.RawSpeed(50))
+    bench.wait_until_standing(3 * unit)
+    at_call(bench, "ROS_motion", "MoveAbsJ", 1, ask)
+    points = bench.wave(3, duration=unit)
+    bench.sets_off(link, points)
+    begun = bench.now
+    told = control.reply(messages.SPEED, soon(bench))
+    if told != messages.RawAcknowledged():
+        raise Broken(f"SPEED at the beginning of a trajectory is answered by {told}")
+    bench.wait_until_at(points[2][0], 10 * unit)
+    if bench.now - begun < 3.0 * unit:
+        raise Broken(f"{2 * unit:.2f} s of motion at half the speed took {bench.now - begun:.2f} s")
+
+
+@case("program-speed", "a program is never faster than asked, nor slowed down twice")
+def _program(bench: Bench) -> None:
+    """Slower and faster within a move and between two, and at full speed in the next program."""
+    control, client = bench.control(), Programmer(bench)
+    step, count = RATE * 0.6, 6
+    program = straight_moves(bench, count, step)
+    since = bench.now
+    client.takes("a program", program)
+    bench.wait_until_at(program[-1].joints, 60)
+    rates = sorted(pace for *_, pace in paces(bench, since, 1.0))
+    rate = max(rates[-len(rates) // 4 :])
+    seconds = step / rate
+    for percents in ((50.0,), (60.0, 20.0), (20.0, 60.0)):
+        program, begun = straight_moves(bench, count, step), bench.position
+        client.takes("a program", program)
+        bench.wait_until_moving()
+        bench.run(seconds * (0.5 if percents[-1] > 50 else 1.5))
+        before = 1.0
+        for percent in percents:
+            since = bench.now
+            done(control.ask(messages.RawSpeed(percent)), f"SPEED {percent:g} of a program")
+            if percent == percents[-1]:
+                bench.wait_until_at(program[-1].joints, 10 + 8 * count * seconds)
+                stops = 2 if percent < 100 * before else 2 + math.ceil(2 * seconds / before)
+                as_asked(bench, since, percent, seconds / before, stops, rate)
+            else:
+                bench.run(0.3)
+            before = percent / 100
+        bench.followed([begun, *(order.joints for order in program)], since=since)
+        bench.wait_until_standing()
+    program, since = straight_moves(bench, count, step), bench.now
+    client.takes("a program", program)
+    bench.wait_until_at(program[-1].joints, 60)
+    as_asked(bench, since, 100, seconds, rate=rate)
+
+
+@case("speed-on-circle", "a circle that is slowed down goes on where it was")
+def _circle(bench: Bench) -> None:
+    """Its end is ordered anew, and is no circle through where the robot was before."""
+    # The tool turns with the circle, which a palletizer's does not.
+    if not computes(bench) or len(bench.group.joints) < 6:
+        raise NothingToProve("no poses are computed, or the tool does not turn with a circle")
+    control, client = bench.control(), Programmer(bench)
+    first, *_, last = orders(bench, 4, random.Random(31))
+    client.takes("a program", [first])
+    bench.wait_until_at(first.joints, 60)
+    pose = reached(bench, last.joints)
+    via = aside(reached(bench, first.joints), pose)
+    circle = replace(last, kind=RawInstruction.MOVE_C, pose=pose, via=via)
+    circle = replace(circle, speed=0.03, zone=0.002)
+    back = RawOrder(RawInstruction.MOVE_ABSJ, first.joints, None, zone=None)
+    ways: list[list[Position]] = []
+    seconds = 0.0
+    for share in (None, 0.3, 0.6):
+        client.takes("a circle", [circle, back])
+        bench.wait_until_moving()
+        since = bench.now
+        if share is not None:
+            bench.run(share * seconds)
+            done(control.ask(messages.RawSpeed(30.0)), "SPEED on a circle")
+        bench.until(lambda: distance(bench.position, last.joints) < 0.01, 60, "the circle ends")
+        taken = bench.now - since
+        seconds = seconds or taken
+        # What is left of it takes more than three times as long; but it may be short.
+        if share is not None and seconds > 1 and taken < (1 + (1 - share)) * seconds:
+            raise Broken(
+                f"a circle of {seconds:.1f} s, {share:.0%} on the way SPEED 30: {taken:.1f} s"
+            )
+        ways.append([place for at, place in bench.track if at >= since])
+        bench.wait_until_at(first.joints, 60)
+        bench.run(0.3)
+    for way in ways[1:]:
+        if (far := farthest(points(bench, way), points(bench, ways[0]))) > 0.004:
+            raise Broken(f"a circle that was slowed down is left by {far * 1000:.1f} mm")
+
+
+def aside(one: Pose, other: Pose, share: float = 0.2) -> Pose:
+    """Beside the middle between two places, by a share of the way: 0.2 for an arc of 80 degrees."""
+    way = np.subtract(other[0], one[0])
+    side = np.cross(way, np.eye(3)[np.argmin(np.abs(way))])
+    x, y, z = (np.add(one[0], other[0]) / 2 + share * side).tolist()
+    return (x, y, z), slerp(one[1], other[1], 0.5)
+
+
+def straight_moves(bench: Bench, count: int, step: float) -> list[RawOrder]:
+    """Moves on a straight way of the first axis, each in about 0.6 s, the last a stop point."""
+    here, joint = bench.position, bench.group.joints[0]
+    step = inward(joint, here[0], step) - here[0]
+    places = [changed(here, 0, here[0] + n * step) for n in range(count + 1)]
+    speed = 0.1
+    if bench.motion_group.kinematics is not None:
+        speed = max(0.02, math.dist(bench.tcp(places[0]), bench.tcp(places[1])) / 0.6)
+    return [
+        RawOrder(RawInstruction.MOVE_ABSJ, place, None, speed=speed, zone=zone)
+        for place, zone in zip(places[1:], [*[0.002] * (count - 1), None], strict=True)
+    ]

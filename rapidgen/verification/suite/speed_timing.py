@@ -1,0 +1,244 @@
+"""SPEED and the order of moves: it comes as one is ordered, between short ones, is over."""
+
+from dataclasses import replace
+from itertools import product
+
+from rapidgen.motion.moves import Move
+from rapidgen.runtime.task.task import Task
+from rapidgen.verification import messages
+from rapidgen.verification.case import Theme
+from rapidgen.verification.instruction_hooks import Instruction, at_call, fails, wrapped
+from rapidgen.verification.messages import RawComm
+from rapidgen.verification.model import Broken, NothingToProve
+from rapidgen.verification.position_checks import changed, distance, inward
+from rapidgen.verification.raw_connection import RawLink
+from rapidgen.verification.raw_programs import Programmer
+from rapidgen.verification.suite.control import done
+from rapidgen.verification.suite.speed import (
+    LONG,
+    RATE,
+    as_asked,
+    asks_as_it_begins,
+    paces,
+    straight,
+    straight_moves,
+)
+from rapidgen.verification.testbench import Bench
+
+case = Theme("speed", needs="control")
+
+
+@case("speed-before-order", "a speed that comes just before a long move is ordered holds for it")
+def _before_the_order(bench: Bench) -> None:
+    """Its time is computed already: it is slowed down like a move that is ordered, also where it
+    begins long after the speed was asked for."""
+    control, link = bench.control(), bench.motion()
+    short = max(0.12, 1.05 * bench.config.trajectory.min_segment)
+    for percent in (50.0, 5.0):
+        line = straight(bench, 9, short)
+        here, step = line[0][0], line[1][0][0] - line[0][0][0]
+        far = changed(line[-1][0], 0, line[-1][0][0] + step * 1.5 / short)
+        last = changed(far, 0, far[0] + 4 * step), 4 * short
+        points = [*line, (far, 1.5), last]
+        since: list[float] = []
+
+        def ask(wanted: float = percent, since: list[float] = since) -> None:
+            since.append(bench.now)
+            control.at_once(messages.encode(messages.RawSpeed(wanted), RawComm.REQUEST))
+            bench.rapid_task("ROS_motion").sleep(0.05)
+
+        # Interrupts are off at the beginning of a trajectory, and for each move before its order.
+        at_call(bench, "ROS_motion", "IDisable", 1 + len(line), ask)
+        begun = bench.now
+        bench.sets_off(link, points)
+        bench.arrives(points, begun, 100)
+        # A stop between two moves is a move of 0.1 s, and may be slowed down as well.
+        as_asked(bench, since[0], percent, 1.5, 2 if percent > 10 else 6)
+        bench.run(0.5)
+        bench.moves_through(link, bench.way_to(here))
+        bench.run(0.5)
+
+
+@case("speed-between", "a speed that comes as a trajectory begins is not held twice")
+def _between(bench: Bench) -> None:
+    """All its moves get their time: that those before it were long counts no more."""
+    control, link, group = bench.control(), bench.motion(), bench.motion_group
+    bench.moves_through(link, straight(bench, 2, 1.0))
+    bench.run(0.5)
+    refreshed: list[float] = []
+
+    def heard(move: Move) -> None:
+        refreshed.append(group.refresh)
+
+    asks_as_it_begins(bench, control, 50)
+    group.listeners.append(heard)
+    points, since = straight(bench, 4, 1.0), bench.now
+    bench.sets_off(link, points)
+    bench.arrives(points, since, 30)
+    group.listeners.remove(heard)
+    if refreshed != [1.0] * (len(points) - 1):
+        raise Broken(f"{len(points) - 1} moves with their time for SPEED 50, held to {refreshed}")
+    as_asked(bench, since, 50, 1.0)
+
+
+@case("speed-of-short", "short moves get more time, and the robot does not stop between them")
+def _of_short(bench: Bench) -> None:
+    """No SpeedRefresh slows them down, which would end in a stop."""
+    if not bench.setting.corners_in_time:
+        raise NothingToProve("tasks by lot are not in time for a corner")
+    control, link = bench.control(), bench.motion()
+    short = max(0.12, 1.05 * bench.config.trajectory.min_segment)
+    if short > LONG:
+        raise NothingToProve("`min_segment` allows no short moves")
+    line = straight(bench, 26, short)
+    # A long one before them counts no more.
+    points = [line[0], (line[6][0], 6 * short), *line[7:]]
+    bench.sets_off(link, points, 10 * short)
+    done(control.ask(messages.RawSpeed(50)), "SPEED 50")
+    since = bench.now
+    bench.until(lambda: distance(bench.position, points[-3][0]) < 5e-3, 30, "the last but two")
+    if any(pace < 0.05 for *_, pace in paces(bench, since, RATE)):
+        raise Broken("short moves are slower, and the robot stops between them")
+    bench.wait_until_at(points[-1][0], 10)
+
+
+@case("speed-reached", "a move that was slowed down is reached before the next one begins")
+def _reached_first(bench: Bench) -> None:
+    """It ends in a stop: PROGRESS tells of it in the last move; and not where that stop fails."""
+    control, watcher, link = bench.control(), bench.watcher(), bench.motion()
+    line = straight(bench, 6, 0.6)
+    here, first, second, last = (line[n][0] for n in (0, 1, 2, 5))
+    points = [line[0], (first, 0.6), (second, 0.6), (last, 1.8)]
+    moves = [
+        replace(straight_moves(bench, 1, RATE * 0.6)[0], joints=p) for p in (first, second, last)
+    ]
+    program = [*(replace(move, zone=0.002) for move in moves[:-1]), moves[-1]]
+    for what, is_good in product(("a trajectory", "a program"), (True, False)):
+        if what == "a trajectory":
+            bench.sets_off(link, points)
+        elif bench.streams:
+            Programmer(bench, link).takes(what, program)
+        else:
+            return
+        bench.until(
+            lambda: abs(bench.position[0] - here[0]) > 1.4 * abs(first[0] - here[0]), 10, what
+        )
+        done(control.ask(messages.RawSpeed(50)), f"SPEED of {what}")
+        count = bench.progress(watcher).planned
+        if is_good:
+            bench.until(lambda: distance(bench.position, second) < 1e-3, 10, what)
+            bench.run(1)
+        else:
+            fails(bench, "ROS_motion", "MoveAbsJ", "ERR_COLL_STOP")
+            bench.rests(5, 0.5, f"the end of a slower move of {what} has failed")
+        told = bench.progress(watcher)
+        if (told.planned, told.reached) != ((count + 1, count) if is_good else (count, count - 1)):
+            raise Broken(f"the end of a slower move of {what}, which {is_good=}, is told as {told}")
+        if is_good:
+            bench.wait_until_at(last, 20)
+        bench.run(0.3)
+        bench.moves_through(link, bench.way_to(here))
+
+
+@case("speed-is-over", "a speed that comes behind the last move leaves nothing to be ended", "R5")
+def _is_over(bench: Bench) -> None:
+    """In a stay at the end nothing is slowed down: what comes next begins where the robot is."""
+    here, said = bench.position, _refreshes(bench)
+    link = _asked_in_a_stay(bench, bench.motion())
+    if any(value < 100 for _, value in said) or bench.motion_group.refresh < 1:
+        raise Broken(f"nothing is left to be slowed down, SpeedRefresh: {said}")
+    bench.controller.perform("stop")
+    bench.run(0.5)
+    # By hand.
+    bench.motion_group.jump(here)
+    bench.start_again()
+    link.close(then=1.5)
+    link = bench.motion()
+    there = changed(here, 1, inward(bench.group.joints[1], here[1], 0.05))
+    bench.moves_through(link, bench.way_to(there))
+    if not bench.streams:
+        return
+    # Nor is the last instruction of an earlier program executed again.
+    client = Programmer(bench, link)
+    moves = straight_moves(bench, 2, RATE * 0.6)
+    client.takes("a program", moves)
+    bench.wait_until_at(moves[-1].joints, 60)
+    _asked_in_a_stay(bench, link)
+    moves, since = straight_moves(bench, 2, RATE * 0.6), bench.now
+    begun = bench.position
+    client.takes("a program behind a trajectory", moves)
+    bench.wait_until_at(moves[-1].joints, 60)
+    bench.followed([begun, *(move.joints for move in moves)], since=since, corner=0.002)
+
+
+def _asked_in_a_stay(bench: Bench, link: RawLink) -> RawLink:
+    """A trajectory with SPEED in a stay at its end, which is over."""
+    control, points = bench.control(), straight(bench, 2, 1.0)
+    bench.sets_off(link, [*points, (points[1][0], 2.0)])
+    bench.wait_until_at(points[1][0], 5)
+    # Until the motion task knows that the robot stands.
+    bench.run(0.3 + 2 * bench.setting.motion.settle)
+    done(control.ask(messages.RawSpeed(50)), "SPEED in a stay")
+    bench.run(2.5)
+    control.close()
+    return link
+
+
+@case("speed-said-enough", "SpeedRefresh is said for as long as it may be lost, and no longer")
+def _said_enough(bench: Bench) -> None:
+    """It is said again at the full speed of the next trajectory, and then left alone."""
+    control, link, said = bench.control(), bench.motion(), _refreshes(bench)
+    points = straight(bench, 2, 1.0)
+    bench.sets_off(link, points, 0.3)
+    done(control.ask(messages.RawSpeed(50)), "SPEED 50")
+    if {value for _, value in said} != {50.0}:
+        raise Broken(f"SPEED 50 of a move that is under way is confirmed, SpeedRefresh: {said}")
+    bench.wait_until_at(points[-1][0], 20)
+    bench.run(0.5)
+    since, points = bench.now, straight(bench, 5, 1.0)
+    bench.sets_off(link, points, 2.0)
+    if not any(when > since for when, _ in said):
+        raise Broken("a speed is over, and SpeedRefresh has not said so while the robot moves")
+    enough = bench.now
+    bench.wait_until_at(points[-1][0], 20)
+    late = [when for when, _ in said if enough < when < bench.now - 0.5]
+    if late:
+        raise Broken(f"SpeedRefresh is said again at {late}, 2 s behind the beginning")
+
+
+@case("speed-keeps-own", "SPEED multiplies the SpeedRefresh of the program, which is there again")
+def _keeps_own(bench: Bench) -> None:
+    """On a controller where that lasts; the operator's override is left alone."""
+    motion = replace(bench.setting.motion, refresh_lasts=True, refresh_standing=True)
+    setting = replace(bench.setting, motion=motion)
+    with bench.beside(bench.system, setting=setting) as other:
+        control, link, group = other.control(), other.motion(), other.motion_group
+        group.refresh, group.override = 0.5, 0.8
+        for percent in (50.0, 100.0):
+            points = straight(other, 2, 1.0)
+            since = other.now
+            other.sets_off(link, points, 0.3)
+            done(control.ask(messages.RawSpeed(percent)), "SPEED")
+            if abs(group.refresh - 0.5 * percent / 100) > 1e-3:
+                raise Broken(f"SPEED {percent}, SpeedRefresh was 0.5 and is {group.refresh}")
+            other.arrives(points, since, 100)
+            other.run(1)
+            other.sets_off(link, straight(other, 2, 0.5), 0.6)
+            other.wait_until_standing(30)
+            if (round(group.refresh, 3), group.override) != (0.5, 0.8):
+                raise Broken(f"after SPEED the speeds are {group.refresh} and {group.override}")
+
+
+def _refreshes(bench: Bench) -> list[tuple[float, float]]:
+    """From now on, when the motion task says which SpeedRefresh."""
+    said: list[tuple[float, float]] = []
+
+    def noted(as_before: Instruction) -> Instruction:
+        def noting(task: Task, percent: float) -> object:
+            said.append((bench.now, percent))
+            return as_before(task, percent)
+
+        return noting
+
+    wrapped(bench.rapid_task("ROS_motion"), "SpeedRefresh", noted)
+    return said

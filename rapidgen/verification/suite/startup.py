@@ -1,0 +1,67 @@
+"""What a driver finds at its start: modules of other builds, and what was under way before."""
+
+from rapidgen.verification.case import Theme
+from rapidgen.verification.messages import POINT_BYTES, RawReason, RawTrajectoryState
+from rapidgen.verification.model import Broken
+from rapidgen.verification.raw_connection import raw_point
+from rapidgen.verification.stream import BEGIN, Streamer
+from rapidgen.verification.testbench import Bench, with_module
+
+case = Theme("controller")
+
+
+@case("one-module-of-another", "a module of another build that several tasks load")
+def _one_other(bench: Bench) -> None:
+    """Each task with a module of another build says so, and no other task does."""
+    tasks = [t for t in bench.system.tasks if t.mechanical_unit_group == bench.mechanical_unit]
+    build = bench.system.build_id.encode()
+    # A module that several tasks load.
+    path, data = next((m.path, m.data) for t in tasks for m in t.modules if m.name == "ROS_limits")
+    with bench.beside(
+        with_module(bench.system, path, data.replace(build, b"0123456789ab"))
+    ) as other:
+        watcher, link = other.watcher(), other.motion()
+        other.run(0.3)
+        events = [" ".join(e.texts) for e in other.controller.log if "different builds" in str(e)]
+        wanted = [f"Task {t.name}," for t in tasks if any(m.path == path for m in t.modules)]
+        if len(events) != len(wanted) or not all(any(w in e for e in events) for w in wanted):
+            raise Broken(f"{path} is of another build, the event log says {events}")
+        link.send(raw_point(-1, other.position, 1.0))
+        other.run(0.3)
+        told = other.progress(watcher)
+        if (told.state, told.reason) != (RawTrajectoryState.REFUSED, RawReason.BUILD_MISMATCH):
+            raise Broken(f"{path} is of another build, PROGRESS says {told}")
+        if other.status(watcher).motion_possible:
+            raise Broken("modules of several builds: STATUS says that motion is possible")
+
+
+@case("power-returns", "a power failure while a trajectory is received", needs="stream")
+def _power_returns(bench: Bench) -> None:
+    """What was being received or ready to move when the power failed is forgotten."""
+    for streaming in (False, True):
+        link, watcher = bench.motion(), bench.watcher()
+        if streaming:
+            stream = Streamer(bench, link)
+            stream.put(bench.wave(2), BEGIN)
+        else:
+            link.send(bench.download(bench.wave(5))[: 3 * (POINT_BYTES)])
+        bench.run(0.2)
+        number = bench.progress(watcher).trajectory
+        bench.controller.perform("power-loss")
+        bench.stays(0.2, "the power has failed")
+        bench.start_again()
+        bench.stays(0.8, "the power came back")
+        watcher, link = bench.watcher(), bench.motion()
+        told, status = bench.progress(watcher), bench.status(watcher)
+        if told.trajectory != number or told.state in (
+            RawTrajectoryState.RECEIVING,
+            RawTrajectoryState.MOVING,
+        ):
+            raise Broken(f"trajectory {number} was there when the power failed: {told}")
+        if status.motion_possible != 1 or status.in_motion:
+            raise Broken(f"the power came back, STATUS says {status}")
+        link.send(bench.download(bench.wave(5))[3 * (POINT_BYTES) :])
+        bench.stays(0.5, "half of it came before the power failed")
+        bench.moves_through(link, bench.wave(2))
+        link.close()
+        watcher.close(then=0.1)

@@ -1,0 +1,382 @@
+"""What is told on the state port: each round of each client, and how rounds follow each other."""
+
+from collections.abc import Sequence
+from itertools import pairwise, zip_longest
+from typing import NamedTuple, TypeVar
+
+from rapidgen.generate.layout import signal_name
+from rapidgen.generate.status import STATUS_SIGNALS
+from rapidgen.runtime.builtins.clocks import StopWatch
+from rapidgen.verification import messages
+from rapidgen.verification.case import Theme
+from rapidgen.verification.instruction_hooks import fails
+from rapidgen.verification.messages import (
+    RawComm,
+    RawFeature,
+    RawMode,
+    RawReason,
+    RawTrajectoryState,
+)
+from rapidgen.verification.model import Broken
+from rapidgen.verification.position_checks import distance, small_unit
+from rapidgen.verification.raw_connection import STOP, RawLink
+from rapidgen.verification.suite.motion_task import patience
+from rapidgen.verification.testbench import Bench
+
+case = Theme("reading")
+
+C = TypeVar("C")
+_NONE = RawFeature(0)
+
+
+class Round(NamedTuple):
+    """What one client is told at one time."""
+
+    time: float
+    frames: list[messages.RawFrame]
+
+    @property
+    def numbers(self) -> list[int]:
+        """Message numbers, in order."""
+        return [frame.number for frame in self.frames]
+
+
+def content(one: Round, kind: type[C]) -> C:
+    """The first message of a kind in a round."""
+    found = next((c for frame in one.frames if isinstance(c := messages.decode(frame), kind)), None)
+    if found is None:
+        raise Broken(f"at {one.time:.3f} s a client is told {one.numbers}: no {kind.__name__}")
+    return found
+
+
+def rounds(link: RawLink, since: float) -> list[Round]:
+    """What a client was told since a time, by rounds. Each begins with JOINT; replies are none."""
+    found: list[Round] = []
+    for when, frame in link.frames:
+        if when < since or frame.comm == RawComm.REPLY:
+            continue
+        if frame.number == messages.JOINT_POSITION or not found:
+            found.append(Round(when, []))
+        found[-1].frames.append(frame)
+    return found
+
+
+def subscribe(bench: Bench, features: RawFeature, link: RawLink | None = None) -> RawLink:
+    """A client, new or not, that says HELLO to just these features."""
+    client = link if link is not None else bench.state()
+    client.read()
+    bench.says_hello(client, int(features))
+    return client
+
+
+def _late(bench: Bench) -> float:
+    """s: what else the controller has to do may delay a round by so much."""
+    return 0.005 * bench.setting.slowness
+
+
+def on_turn(bench: Bench, found: Sequence[Round], what: str) -> None:
+    """Broken unless rounds came a period apart, none missed, whatever each of them took."""
+    period = bench.config.state_period
+    if len(found) < 3:
+        raise Broken(f"{what}: {len(found)} rounds")
+    offs = [r.time - found[0].time - n * period for n, r in enumerate(found)]
+    if max(offs) - min(offs) > 2 * _late(bench):
+        raise Broken(f"{what}: rounds are {min(offs):.4f} to {max(offs):.4f} s off their turns")
+
+
+def _pause(bench: Bench, link: RawLink) -> float:
+    """A moment between two rounds; now, that is."""
+    bench.status(link)
+    bench.run(0.5 * bench.config.state_period)
+    return bench.now
+
+
+PLAIN = [messages.JOINT_POSITION, messages.STATUS]
+"""Messages of a round for those who asked for nothing."""
+_FOLLOW = {
+    RawFeature.PROGRESS: messages.PROGRESS,
+    RawFeature.FEEDBACK: messages.JOINT_FEEDBACK,
+}
+
+
+def _all_alike(
+    bench: Bench, clients: Sequence[tuple[RawLink, RawFeature]], since: float
+) -> list[Round]:
+    """The rounds of the first client; Broken unless each gets what it asked for, and the same."""
+    told = [rounds(link, since) for link, _ in clients]
+    for (_, features), own in zip(clients, told, strict=True):
+        on_turn(bench, own, f"a client of {features!r}")
+        wanted = [*PLAIN, *(n for f, n in _FOLLOW.items() if f in features)]
+        for one in own:
+            if one.numbers != wanted:
+                raise Broken(f"who asked for {features!r} is told messages {one.numbers}")
+    counts = [len(own) for own in told]
+    if max(counts) - min(counts) > 1:
+        raise Broken(f"clients of one server are told {counts} rounds")
+    # The last round may be under way to the others.
+    for moment in zip(*told, strict=False):
+        seen: dict[int, messages.RawFrame] = {}
+        for one in moment:
+            for frame in one.frames:
+                if seen.setdefault(frame.number, frame) != frame:
+                    raise Broken(f"at {one.time:.3f} s clients are told different {frame.number}")
+    return told[0]
+
+
+def _is_true(bench: Bench, told: Sequence[Round]) -> set[int]:
+    """Broken unless joints, STATUS and PROGRESS of each round fit each other; the states seen."""
+    seen: set[int] = set()
+    before, stood = bench.track_at(told[0].time), 0
+    motion = bench.setting.motion
+    late = (motion.settle + motion.servo_lag) / bench.config.state_period
+    # What STATUS says of the motion is read behind PROGRESS: something else may be true by then.
+    slow = bench.setting.random_schedule or bench.setting.slowness > 1
+    for one, following in zip_longest(told, told[1:]):
+        joints, status = content(one, messages.RawJointPosition), content(one, messages.RawStatus)
+        progress = content(one, messages.RawProgress)
+        count, here = len(before), bench.track_at(one.time)
+        if distance(joints.joints[:count], here) > 0.03 or any(joints.joints[count:]):
+            raise Broken(f"at {one.time:.3f} s the robot is at {here}, {joints}")
+        seen.add(progress.state)
+        wrong = progress.state in (RawTrajectoryState.REFUSED, RawTrajectoryState.FAILED)
+        code = progress.reason + 100 * progress.joint if wrong else 0
+        if (status.in_error, status.error_code) != (int(wrong), code):
+            raise Broken(f"{progress} is told with {status}")
+        moving = progress.state == RawTrajectoryState.MOVING
+        if slow and following is not None and status.in_motion != moving:
+            then = content(following, messages.RawProgress)
+            moving = then.state == RawTrajectoryState.MOVING
+        stood = stood + 1 if here == before else 0
+        if status.in_motion != moving and (moving or stood > late):
+            raise Broken(f"{progress} is told with {status}")
+        plain = (status.drives_powered, status.e_stopped, status.mode, status.motion_possible)
+        if plain != (1, 0, RawMode.AUTO, 1):
+            raise Broken(f"all is well, STATUS says {status}")
+        before = here
+    return seen
+
+
+@case("each-round", "what each of three clients is told in each round", needs="feedback")
+def _each_round(bench: Bench) -> None:
+    """Three clients with wishes that change: a trajectory, one that is refused, a STOP."""
+    some, everything = RawFeature.PROGRESS, RawFeature.PROGRESS | RawFeature.FEEDBACK
+    links = [subscribe(bench, everything), subscribe(bench, _NONE), subscribe(bench, some)]
+    motion, joints, period = bench.motion(), bench.group.joints, bench.config.state_period
+    for wishes in ((everything, _NONE, some), (some, _NONE, some)):
+        subscribe(bench, wishes[0], links[0])
+        number = bench.progress(links[0]).trajectory
+        since = _pause(bench, links[0])
+        points = bench.wave(5)
+        # Also while it stays at a point it is under way.
+        points[3:3] = [(points[2][0], 1.0)]
+        motion.send(bench.download(points))
+        bench.wait_until_at(points[-1][0])
+        bench.run(3 * period + 2 * bench.setting.motion.settle)
+        # Of the last joint: its number goes into the error code.
+        far = (*points[-1][0][:-1], joints[-1].upper + 0.5)
+        motion.send(bench.download([points[-1], (far, 90.0), points[-1]]))
+        bench.run(3 * period)
+        motion.send(STOP)
+        bench.run(3 * period)
+        told = _all_alike(bench, list(zip(links, wishes, strict=True)), since)
+        states = _is_true(bench, told)
+        if not states >= {2, 3, 4, 6}:
+            raise Broken(f"a trajectory, a refusal and a STOP: PROGRESS tells states {states}")
+        progress = [content(one, messages.RawProgress) for one in told]
+        numbers = list(dict.fromkeys(p.trajectory for p in progress))
+        if numbers[-2:] != [number + 1, number + 2] or not number <= numbers[0]:
+            raise Broken(f"two trajectories came after {number}, PROGRESS tells of {numbers}")
+        done = (RawTrajectoryState.DONE, len(points), len(points), len(points), 0, -1, 0)
+        if done not in [p[1:] for p in progress]:
+            raise Broken(f"{len(points)} points were executed, no PROGRESS says so: {progress}")
+        refusal = (RawTrajectoryState.REFUSED, 1, 0, 0, RawReason.JOINT_LIMIT, 1, len(joints))
+        if refusal not in [p[1:] for p in progress]:
+            raise Broken(f"joint {len(joints)} of point 1 is wrong, no PROGRESS says so")
+
+
+_WRAP = 1000
+"""s: where the time stamp of JOINT_FEEDBACK begins anew, as docs/use/driver.md promises."""
+
+
+def _stamps(told: Sequence[Round]) -> list[float]:
+    return [content(one, messages.RawJointFeedback).time for one in told]
+
+
+def _is_measured(bench: Bench, told: Sequence[Round], what: str) -> None:
+    """Broken unless stamps of JOINT_FEEDBACK tell the time of the rounds, and velocities theirs."""
+    period, count = bench.config.state_period, len(bench.position)
+    for before, now in pairwise(content(one, messages.RawJointFeedback) for one in told):
+        if not (0 <= now.time < _WRAP and now.valid_fields == 0b111):
+            raise Broken(f"{what}: {now}")
+        seconds = (now.time - before.time) % _WRAP
+        if abs(seconds - period) > 2 * _late(bench):
+            raise Broken(f"{what}: stamps {before.time} and {now.time} are of two rounds")
+        for joint in range(count):
+            gone = (now.positions[joint] - before.positions[joint]) / seconds
+            if abs(gone - now.velocities[joint]) > 1e-5 + 1e-3 * abs(gone):
+                raise Broken(f"{what}: joint {joint + 1} moves with {gone}, told is {now}")
+
+
+def _clocks(bench: Bench) -> list[StopWatch]:
+    program = bench.rapid_task("ROS_stateServer").program
+    return [clock for value in program.space.values() for clock in _of(value)]
+
+
+def _of(value: object) -> list[StopWatch]:
+    if isinstance(value, dict):
+        return [clock for one in value.values() for clock in _of(one)]
+    return [value] if isinstance(value, StopWatch) and value.started is not None else []
+
+
+@case("over-the-ends", "schedule and stamps over the ends of the clock", needs="feedback")
+def _over_the_ends(bench: Bench) -> None:
+    """The schedule and the stamps of feedback, over both ends of the clock, in motion."""
+    link = subscribe(bench, RawFeature.FEEDBACK | RawFeature.PROGRESS)
+    motion, period = bench.motion(), bench.config.state_period
+    server = bench.controller.task(bench.task("ROS_stateServer"))
+    for what, left in (
+        ("an end of the clock", 3.0),
+        ("the next end", 3.0),
+        # The clock has run 0.7 periods over each end of its own when it is exchanged.
+        ("an end of months later", 20.8 * period),
+        ("the end after that", 2.7 * period),
+        ("a delay over the end", -1.0),
+    ):
+        since = _pause(bench, link)
+        # Most of the way to the end is left out, as if the clocks had run.
+        clock = _stamps(rounds(link, since - period))[-1] + 0.5 * period
+        clock -= server["ROS_stateServer:overrun"] % _WRAP
+        _advance(bench, _WRAP - left - clock)
+        if what == "an end of months later":
+            server["ROS_stateServer:overrun"] = _WRAP - 0.01 * period
+        if left == 3:
+            points = bench.wave(6, duration=0.6)
+            points[3:3] = [(points[2][0], 0.8)]
+            motion.send(bench.download(points))
+        # The round that was waited for, and at once the next one, which has come too late.
+        bench.run(max(left, 0.0) + 2)
+        found = rounds(link, since)[1:]
+        on_turn(bench, found, what)
+        _is_true(bench, found)
+        _is_measured(bench, found, what)
+        stamps = _stamps(found)
+        lost = found[-1].time - found[0].time - (stamps[-1] - stamps[0]) % _WRAP
+        if abs(lost) > _late(bench):
+            raise Broken(f"{what}: the stamps have lost {lost:.4f} s")
+    _late_by_half(bench, link)
+
+
+def _late_by_half(bench: Bench, link: RawLink) -> None:
+    """A round that is late by less than a period is made up for: the next one keeps its turn."""
+    period, since = bench.config.state_period, _pause(bench, link)
+    _advance(bench, 1.5 * period)
+    bench.run(5 * period)
+    times = [one.time for one in rounds(link, since)]
+    gaps = [b - a for a, b in pairwise(times)]
+    wanted = (0.0, 0.5 * period, period)
+    if any(abs(gap - w) > 2 * _late(bench) for gap, w in zip(gaps, wanted, strict=False)):
+        raise Broken(f"a round was late by half a period, rounds came at {times}")
+
+
+def _advance(bench: Bench, seconds: float) -> None:
+    """Put the state server's clocks forward: to it, it was held up for so long."""
+    for clock in _clocks(bench):
+        assert clock.started is not None
+        clock.started -= int(seconds * 10**9)
+
+
+@case("not-over-yet", "a halted trajectory whose path is not cleared yet", needs="feedback")
+def _not_over_yet(bench: Bench) -> None:
+    """A halted trajectory whose path is not cleared yet: the robot stands, and takes no other."""
+    link, motion, period = bench.watcher(), bench.motion(), bench.config.state_period
+    for ending, state, reason in (
+        ("STOP", RawTrajectoryState.STOPPED, RawReason.STOPPED),
+        ("leaves", RawTrajectoryState.FAILED, RawReason.CLIENT_LOST),
+    ):
+        bench.sets_off(motion, bench.wave(8), 0.6)
+        end = fails(bench, "ROS_motion", "ClearPath", "ERR_PATH_STOP", 999)
+        if ending == "STOP":
+            motion.send(STOP)
+        else:
+            motion.close()
+        bench.wait_until_standing(3)
+        bench.run(patience(bench))
+        since = _pause(bench, link)
+        bench.run(3 * period)
+        for one in rounds(link, since):
+            status, told = content(one, messages.RawStatus), content(one, messages.RawProgress)
+            if (told.state, told.reason, told.point) != (state, reason, told.reached):
+                raise Broken(f"{ending} came, its path is not cleared yet, PROGRESS says {told}")
+            if (status.in_motion, status.motion_possible) != (0, 0):
+                raise Broken(f"{ending} came, its path is not cleared yet, STATUS says {status}")
+        end()
+        bench.run(1)
+        if not bench.status(link).motion_possible:
+            raise Broken(f"{ending} came, the path is cleared, no motion is possible")
+        motion = bench.motion()
+
+
+@case(
+    "first-of-all",
+    "who comes when all have left; movements that no signal shows",
+    "R16",
+    needs="feedback",
+)
+def _first_of_all(bench: Bench) -> None:
+    """Who comes to a server without clients is told at once, and time begins anew for him."""
+    period, motion = bench.config.state_period, bench.motion()
+    names = {s.function: signal_name(bench.config, bench.group, s) for s in STATUS_SIGNALS}
+    error, standing, stop = (names[n] for n in ("controller_error", "standing", "emergency_stop"))
+    for visit in range(3):
+        came = bench.now
+        bench.controller.signals[error] = visit % 2
+        link = bench.state()
+        bench.until(lambda: bool(link.frames), 0.1, "the first client is told")  # noqa: B023
+        bench.run(4 * period)
+        found = rounds(link, came)
+        on_turn(bench, found, f"visit {visit + 1}")
+        first = content(found[0], messages.RawStatus)
+        if first.in_motion:
+            raise Broken(f"the robot has moved while nobody looked, the first STATUS is {first}")
+        if first.in_error != visit % 2:
+            raise Broken(f"signal {error} is {visit % 2}, the first STATUS is {first}")
+        for name, value in ((standing, 0), (stop, 1), (standing, 1), (stop, 0)):
+            bench.controller.signals[name] = value
+            since = _pause(bench, link)
+            bench.run(2 * period)
+            status = content(rounds(link, since)[-1], messages.RawStatus)
+            wanted = tuple(bench.controller.signals[n] for n in (standing, stop))
+            if (1 - status.in_motion, status.e_stopped) != wanted:
+                raise Broken(f"signals {standing}, {stop} are {wanted}, STATUS says {status}")
+        subscribe(bench, RawFeature.FEEDBACK | RawFeature.PROGRESS, link)
+        _pause(bench, link)
+        _advance(bench, 0.3)
+        since = _pause(bench, link)
+        bench.run(2 * period)
+        stamp = _stamps(rounds(link, since))[-1]
+        if abs(stamp - (bench.now - found[0].time) - 0.3) > period:
+            raise Broken(f"the first client has come {bench.now - came:.2f} s ago, told is {stamp}")
+        link.close(abort=visit == 1, then=2 * period + 0.1)
+        bench.moves_through(motion, bench.wave(3, duration=0.2))
+        # Its last hair's breadth belongs to the motion.
+        bench.wait_until_standing(3)
+        bench.run(2 * bench.setting.motion.settle)
+    _moved_by_others(bench, bench.state())
+
+
+def _moved_by_others(bench: Bench, link: RawLink) -> None:
+    """Somebody else moves an axis, and no signal shows it: STATUS does, once."""
+    fails(bench, "ROS_stateServer", "DOutput", "ERR_NORUNUNIT", 10**6)
+    bench.run(0.5)
+    group, period = bench.motion_group, bench.config.state_period
+    for axis, joint in enumerate(bench.group.joints):
+        unit = small_unit(joint)
+        for size, times in ((0.2, 1), (0.03, 0)):
+            here, since = bench.position, _pause(bench, link)
+            step = size * unit * (1 if joint.upper - here[axis] > here[axis] - joint.lower else -1)
+            group.jump((*here[:axis], here[axis] + step, *here[axis + 1 :]))
+            bench.run(3 * period)
+            told = [content(one, messages.RawStatus) for one in rounds(link, since)]
+            seen = sum(status.in_motion == 1 for status in told)
+            if seen != times:
+                raise Broken(f"joint {axis + 1} was moved by {size} deg (mm), {seen} STATUS say so")

@@ -1,0 +1,334 @@
+"""The supervisor seen from outside: how soon it answers, why a trajectory ended, pauses."""
+
+from rapidgen.machine.event_log import Event, EventType
+from rapidgen.verification import messages
+from rapidgen.verification.case import Theme
+from rapidgen.verification.instruction_hooks import at_call, fails
+from rapidgen.verification.messages import RawComm, RawMode, RawReason, RawTrajectoryState
+from rapidgen.verification.model import Broken
+from rapidgen.verification.raw_connection import STOP, RawLink, point_frame
+from rapidgen.verification.stream import BEGIN, Streamer
+from rapidgen.verification.suite.motion_task import (
+    begins,
+    begins_soon,
+    datum,
+    patience,
+    soon,
+    unit_of,
+)
+from rapidgen.verification.testbench import Bench
+
+case = Theme("halting")
+
+_TRAJ = messages.JOINT_TRAJ_PT
+
+
+def _at_once(bench: Bench) -> float:
+    """s for what the supervisor does in a trap."""
+    return bench.setting.latest_interrupt + 0.025 * bench.setting.slowness
+
+
+def _prompt(bench: Bench, asked: float, what: str) -> None:
+    late = bench.now - asked
+    # Some controllers let a program go on behind StopMove only when the robot stands.
+    if late > _at_once(bench) + (0.3 if bench.setting.motion.stop_waits else 0):
+        raise Broken(f"{what} is answered after {late:.3f} s")
+
+
+def end_as_request(bench: Bench, count: int, duration: float) -> bytes:
+    """The bytes of a trajectory whose end frame is a request."""
+    points = bench.wave(count, duration=duration)
+    frames = [point_frame(n, count, *p) for n, p in enumerate(points[:-1])]
+    return b"".join((*frames, point_frame(count - 1, count, *points[-1], RawComm.REQUEST)))
+
+
+@case("answers-soon", "the supervisor answers by interrupts", "R7a", background=True)
+def _answers_soon(bench: Bench) -> None:
+    """Whatever the supervisor is asked, whenever: it does not wait for its next look."""
+    watcher, link, unit = bench.watcher(), bench.motion(), unit_of(bench)
+    control = bench.control() if bench.group.ports.control else None
+    period = bench.config.state_period
+    for phase in range(5):
+        # Not at the same moment of the supervisor's round each time.
+        bench.run(0.3 + 0.021 * phase)
+        link.send(end_as_request(bench, 5, unit))
+        asked = bench.now
+        content = messages.decode(link.expect_reply(2, "the end frame is answered"))
+        if not isinstance(content, messages.RawAccepted):
+            raise Broken(f"a good trajectory is answered by {content}")
+        _prompt(bench, asked, "the end frame of a trajectory")
+        begins_soon(bench, asked)
+        if control is not None:
+            for paused in (1, 0):
+                asked = bench.now
+                if control.ask(messages.RawPause(paused)) != messages.RawAcknowledged():
+                    raise Broken(f"PAUSE {paused} is refused")
+                _prompt(bench, asked, f"PAUSE {paused}")
+                bench.run(0.1)
+        # The reply comes just before a STATUS, which then tells of the stop.
+        bench.status(watcher)
+        bench.run(max(0.0, period - 0.045))
+        port = link
+        if phase in (1, 3) and control is not None:
+            port = control
+        port.read()
+        port.send(STOP)
+        asked = bench.now
+        if port.reply(_TRAJ) != messages.RawAcknowledged():
+            raise Broken("STOP is not confirmed")
+        _prompt(bench, asked, "STOP")
+        # One that was measured before is on its way for no longer than this.
+        bench.run(0.01)
+        status = bench.status(watcher)
+        if bench.now - asked < 0.06 and status.motion_possible:
+            raise Broken(f"STOP came {bench.now - asked:.3f} s ago, STATUS says {status}")
+        bench.wait_until_standing(0.3)
+        for other in (link, control):
+            if other is not None:
+                bench.run(0.2 + 0.021 * phase)
+                asked = bench.now
+                other.stop()
+                _prompt(bench, asked, "STOP at a standstill")
+        # What comes right behind a stop of the program is refused.
+        bench.run(0.4)
+        bench.controller.perform("stop")
+        link.send(end_as_request(bench, 3, unit))
+        content = messages.decode(link.expect_reply(2, "the end frame is answered"))
+        if content != messages.RawRefused(RawReason.NOT_EXECUTING, -1, 0):
+            raise Broken(f"right behind a stop of the program a trajectory is answered: {content}")
+        bench.controller.perform("start")
+
+
+def _warnings(bench: Bench, since: int) -> list[Event]:
+    return [
+        e
+        for e in bench.controller.log.since(since)
+        if e.type is not EventType.INFO and e.title.startswith("ROS")
+    ]
+
+
+@case("why-it-ended", "the reason for each early end, at once", "R11, R14", background=True)
+def _why_it_ended(bench: Bench) -> None:
+    """Each event by its own reason, at once; what comes meanwhile is refused for it."""
+    watcher, link, unit = bench.watcher(), bench.motion(), unit_of(bench)
+    number = bench.progress(watcher).trajectory
+    auto, failed = RawMode.AUTO, RawTrajectoryState.FAILED
+    for action, reason, later, status in (
+        ("e-stop", RawReason.EMERGENCY_STOP, RawReason.EMERGENCY_STOP, (0, 1, auto)),
+        ("motors-off", RawReason.MOTORS_OFF, RawReason.MOTORS_OFF, (0, 0, auto)),
+        ("stop", RawReason.PROGRAM_STOPPED, RawReason.NOT_EXECUTING, (1, 0, auto)),
+        ("manual", RawReason.MOTORS_OFF, RawReason.MOTORS_OFF, (0, 0, RawMode.MANUAL)),
+        ("leaves", RawReason.CLIENT_LOST, RawReason.NONE, (1, 0, auto)),
+    ):
+        last, points = bench.last_event, bench.wave(5, duration=unit)
+        link.send(bench.download(points))
+        number += 1
+        begins_soon(bench, bench.now)
+        bench.run(1.15 * unit)
+        if action == "leaves":
+            link.close()
+        else:
+            bench.controller.perform(action)
+        bench.wait_until_standing(3)
+        bench.run(patience(bench))
+        told, seen = bench.progress(watcher), bench.status(watcher)
+        if told != (number, failed, 5, 3, 1, reason, 1, 0):
+            raise Broken(f"{action} came between points 1 and 2, PROGRESS says {told}")
+        powered, e_stopped, mode = status
+        possible = int(action == "leaves")
+        wanted = messages.RawStatus(powered, e_stopped, reason, 1, 0, mode, possible)
+        # An emergency stop is an error of the controller's own, too.
+        if seen != wanted:
+            raise Broken(f"after {action} STATUS says {seen}, wanted {wanted}")
+        said = [e.texts[0] for e in _warnings(bench, last)]
+        if said != ([messages.text_of(reason)] if action == "leaves" else []):
+            raise Broken(f"after {action} the event log says {said}")
+        if action == "leaves":
+            bench.run(0.3)
+            link = bench.motion()
+            continue
+        link.send(end_as_request(bench, 3, unit))
+        content = messages.decode(link.expect_reply(2, "the end frame is answered"))
+        number += 1
+        if content != messages.RawRefused(later, -1, 0):
+            raise Broken(f"after {action} a trajectory is answered by {content}")
+        # What is received meanwhile is for nothing, although its end comes when all is well again.
+        frames = end_as_request(bench, 3, unit)
+        link.send(frames[:68])
+        number += 1
+        bench.run(0.3)
+        bench.start_again()
+        bench.stays(patience(bench), f"the program was started again after {action}")
+        if bench.status(watcher).motion_possible != 1:
+            raise Broken(f"after {action} and a start of the program no motion is possible")
+        link.send(frames[68:])
+        content = messages.decode(link.expect_reply(2, "the end frame is answered"))
+        # The way back to automatic mode is a change of mode, too.
+        noted = RawReason.MODE_CHANGED if action == "manual" else reason
+        if content != messages.RawRefused(noted, -1, 0):
+            raise Broken(f"what began behind {action}, and ended later, is answered by {content}")
+
+
+def _is_paused(bench: Bench, watcher: RawLink, planned: int, reached: int) -> None:
+    bench.wait_until_standing(0.1 + soon(bench) + bench.setting.motion.servo_lag)
+    bench.run(soon(bench) + 2 * bench.config.state_period)
+    told, status = bench.progress(watcher), bench.status(watcher)
+    if (told.state, told.planned, told.reached, told.reason) != (
+        RawTrajectoryState.PAUSED,
+        planned,
+        reached,
+        0,
+    ):
+        raise Broken(f"a trajectory is paused, PROGRESS says {told}")
+    if status != (1, 0, 0, 0, 0, RawMode.AUTO, 0):
+        raise Broken(f"a trajectory is paused, STATUS says {status}")
+    bench.stays(0.3, "it is paused")
+
+
+@case("pause-by-step", "each answer to PAUSE, and how a paused trajectory ends", needs="control")
+def _pause_by_step(bench: Bench) -> None:
+    """Each answer to PAUSE, what is told of it, and what becomes of a paused trajectory."""
+    control, watcher, link, unit = bench.control(), bench.watcher(), bench.motion(), unit_of(bench)
+
+    def ask(paused: int, reason: RawReason = RawReason.NONE) -> None:
+        told = control.ask(messages.RawPause(paused))
+        if told != (messages.RawNotDone(reason) if reason else messages.RawAcknowledged()):
+            raise Broken(f"PAUSE {paused} is answered by {told}")
+
+    def goes_on() -> None:
+        ask(0)
+        bench.wait_until_moving(_at_once(bench) + bench.setting.motion.servo_lag)
+
+    for paused in (1, 0):
+        ask(paused, RawReason.IDLE)
+    way = bench.wave(4, duration=unit)
+    begun = begins(bench, link, [*way, (way[3][0], 3 * unit)])
+    bench.run(1.15 * unit)
+    ask(1)
+    _is_paused(bench, watcher, 3, 1)
+    fails(bench, "ROS_supervisor", "StartMove", "ERR_PATHDIST")
+    ask(0, RawReason.INTERNAL)
+    _is_paused(bench, watcher, 3, 1)
+    ask(1)
+    goes_on()
+    fails(bench, "ROS_supervisor", "StopMove", "ERR_PATH_STOP")
+    ask(1, RawReason.INTERNAL)
+    ask(0)
+    bench.run(soon(bench) + 2 * bench.config.state_period)
+    if bench.standing or bench.status(watcher)[3:] != (0, 1, RawMode.AUTO, 1):
+        raise Broken("a pause that was refused, and the end of none, stop the robot")
+    bench.wait_until_at(way[3][0], 5)
+    bench.followed([p for p, _ in way], since=begun)
+    # The stay at its end goes on in a pause, and then there is nothing left to be paused.
+    bench.run(0.5 * unit)
+    ask(1)
+    _is_paused(bench, watcher, 5, 4)
+    bench.run(3 * unit)
+    told, status = bench.progress(watcher), bench.status(watcher)
+    if (told.state, status.motion_possible) != (RawTrajectoryState.DONE, 1):
+        raise Broken(f"a paused trajectory has come to its end: {told}, {status}")
+    ask(0, RawReason.IDLE)
+    for stopped in (True, False):
+        begins(bench, link, bench.wave(3, duration=unit))
+        bench.run(0.5 * unit)
+        ask(1)
+        bench.wait_until_standing(1)
+        if stopped:
+            link.stop()
+            bench.run(patience(bench))
+            ask(0, RawReason.IDLE)
+        points = bench.wave(3, duration=unit)
+        link.send(bench.download(points))
+        bench.wait_until_at(points[2][0], 3 * unit + 2)
+
+
+@case("stop-in-pause", "STOP while a paused robot is about to be started", "R7b", needs="control")
+def _stop_in_the_end_of_a_pause(bench: Bench) -> None:
+    """STOP comes while the supervisor is about to start a paused robot: it does not move."""
+    control, link, unit = bench.control(), bench.motion(), unit_of(bench)
+    supervisor = bench.rapid_task("ROS_supervisor")
+
+    def stop() -> None:
+        link.at_once(STOP)
+        # Long enough for the motion server, too short for an interrupt.
+        supervisor.sleep(0.004 * bench.setting.slowness)
+
+    for _ in range(4):
+        begins(bench, link, bench.wave(4, duration=unit, size=0.3))
+        bench.run(0.7 * unit)
+        control.ask(messages.RawPause(1))
+        bench.wait_until_standing(1)
+        at_call(bench, "ROS_supervisor", "StartMove", 1, stop)
+        control.send(messages.encode(messages.RawPause(0), RawComm.REQUEST))
+        bench.stays(patience(bench), "STOP came at the end of a pause")
+        if link.reply(_TRAJ) != messages.RawAcknowledged():
+            raise Broken("STOP at the end of a pause is not confirmed")
+
+
+@case("builds-differ", "a task that shows another build, at a time", background=True)
+def _builds_differ(bench: Bench) -> None:
+    """A task that shows another build: said once after two seconds, and nothing is taken."""
+    watcher, link, unit = bench.watcher(), bench.motion(), unit_of(bench)
+    task = bench.controller.task(bench.task("ROS_supervisor"))
+    shown, last = datum(bench, "ros_shown_state"), bench.last_event
+    good = task[shown]
+
+    def mix() -> None:
+        task[shown] = "0123456789ab"
+
+    for seconds, times in ((1.5, 0), (1.5, 0), (3.0, 1), (2.5, 2)):
+        # Just behind a look of the supervisor.
+        at_call(bench, "ROS_supervisor", "WaitTime", 1, mix)
+        bench.until(lambda: task[shown] != good, 0.2, "the supervisor looks")
+        mixed = bench.now
+        link.send(end_as_request(bench, 3, unit))
+        content = messages.decode(link.expect_reply(2, "the end frame is answered"))
+        if content != messages.RawRefused(RawReason.BUILD_MISMATCH, -1, 0):
+            raise Broken(f"tasks show different builds, a trajectory is answered by {content}")
+        bench.run(seconds)
+        if bench.status(watcher).motion_possible:
+            raise Broken("tasks show different builds, STATUS says that motion is possible")
+        task[shown] = good
+        bench.run(patience(bench))
+        if not bench.status(watcher).motion_possible:
+            raise Broken("tasks show one build again, STATUS says that no motion is possible")
+        said = [e for e in _warnings(bench, last) if "different builds" in e.title]
+        if len(said) != times or (said and not 1.95 < said[-1].time - mixed < 2.08):
+            raise Broken(
+                f"builds differed for {seconds} s from {mixed:.3f} s on, the event log says "
+                f"{[str(e) for e in said]}"
+            )
+    stream = Streamer(bench, link)
+    for number, role in enumerate(("motion_server", "supervisor", "control"), 1):
+        if role == "control" and not bench.group.ports.control:
+            continue
+        other = datum(bench, f"ros_shown_{role}")
+        task[other] = "0123456789ab"
+        link.send(end_as_request(bench, 3, unit))
+        content = messages.decode(link.expect_reply(2, "the end frame is answered"))
+        if content != messages.RawRefused(RawReason.BUILD_MISMATCH, -1, 0):
+            raise Broken(f"the {role} shows another build, a trajectory is answered by {content}")
+        if bench.streams:
+            stream.number, stream.sent = number, 0
+            stream.put(bench.wave(3, duration=unit), BEGIN)
+            stream.refused(RawReason.BUILD_MISMATCH, f"the {role} shows another build")
+        task[other] = good
+    # What the motion task shows counts from when its program runs.
+    shown = datum(bench, "ros_shown_motion")
+    for text, stopped, reason in (
+        ("", False, RawReason.NOT_EXECUTING),
+        ("mixed", True, RawReason.NOT_EXECUTING),
+        ("mixed", False, RawReason.BUILD_MISMATCH),
+    ):
+        if stopped:
+            bench.controller.perform("stop")
+        task[shown] = text
+        link.send(end_as_request(bench, 3, unit))
+        content = messages.decode(link.expect_reply(2, "the end frame is answered"))
+        if not isinstance(content, messages.RawRefused) or content.reason != reason:
+            raise Broken(f"the motion task shows {text!r}, a trajectory is answered by {content}")
+        task[shown] = good
+        if stopped:
+            bench.controller.perform("start")
+        bench.run(0.3)
+    begins(bench, link, bench.wave(3, duration=unit))

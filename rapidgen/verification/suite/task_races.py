@@ -1,0 +1,328 @@
+"""Stops, trajectories and holds at each statement of the driver: races are where tasks meet."""
+
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import fields, replace
+
+from rapidgen.rapid import parse
+from rapidgen.rapid.syntax.nodes import Node
+from rapidgen.verification import messages
+from rapidgen.verification.case import Theme
+from rapidgen.verification.messages import (
+    JOINT_TRAJ_PT,
+    POINTS,
+    RawReason,
+    RawTrajectoryState,
+    decode,
+)
+from rapidgen.verification.model import Broken
+from rapidgen.verification.raw_connection import STOP, RawLink
+from rapidgen.verification.stream import BEGIN, END, FLUSH, Streamer
+from rapidgen.verification.suite.control import done
+from rapidgen.verification.suite.motion_task import patience
+from rapidgen.verification.suite.state_port import rounds
+from rapidgen.verification.testbench import Bench
+
+case = Theme("faults")
+
+
+@contextmanager
+def _stepped(bench: Bench) -> Iterator[Bench]:
+    """Another controller, which can be stopped at a statement."""
+    with bench.beside(bench.system, setting=replace(bench.setting, coverage=True)) as other:
+        yield other
+        other.run(1.5)
+        other.moves_through(other.motion(), other.wave(4))
+        other.healthy()
+
+
+def _lines(bench: Bench, module: str, *routines: str) -> list[int]:
+    """Where the statements of some routines begin."""
+    data = next(m.data for t in bench.system.tasks for m in t.modules if m.name == module)
+    tree = parse(data)
+    found: set[int] = set()
+
+    def look_into(node: Node) -> None:
+        for field in fields(node):
+            value = getattr(node, field.name)
+            for one in value if isinstance(value, list) else [value]:
+                if isinstance(one, Node):
+                    if field.name in ("body", "otherwise"):
+                        found.add(tree.source.line(one.first))
+                    look_into(one)
+
+    for routine in tree.routines:
+        if routine.name in routines:
+            look_into(routine)
+    return sorted(found)
+
+
+def _once_at(
+    bench: Bench, module: str, place: tuple[str, int], count: int, act: Callable[[], None]
+) -> list[float]:
+    """Call `act` when a module's task comes to a statement for the `count`-th time; when it did."""
+    came: list[float] = []
+
+    def reached() -> None:
+        if not came:
+            came.append(bench.now)
+            act()
+
+    bench.controller.before_statement(bench.task(module), *place, count, reached)
+    return came
+
+
+@case(
+    "stop-every-statement",
+    "a program stop at each statement of the motion task",
+    "R7a",
+    once=True,
+)
+def _stopped_at_every_statement(bench: Bench) -> None:
+    """A program stop, then Start or PP to main and Start, at each statement of the motion task."""
+    with _stepped(bench) as other:
+        link = other.motion()
+        other.moves_through(link, other.wave(4))
+        reached = other.lines()
+        modules = next(t for t in other.system.tasks if t.name == other.group.task).modules
+        places = [
+            (module.name, line)
+            for module in modules
+            for line, hits in sorted(reached.get(module.path, {}).items())
+            if hits
+        ]
+        for number, place in enumerate(places):
+            link = other.motion()
+            other.run(1.1)
+            came = _once_at(
+                other, "ROS_motion", place, 1 + number % 2,
+                lambda: other.controller.perform("stop"),
+            )  # fmt: skip
+            since = other.now
+            points = other.wave(5, duration=0.25)
+            link.send(other.download(points))
+            _is_over(other, came)
+            other.executed(points, since)
+            for action in ("pp-to-main",) if number % 2 else ():
+                other.controller.perform(action)
+                other.run(0.05)
+            other.start_again()
+            other.stays(1.5, f"the program was stopped at {place} and started again")
+            link.close()
+
+
+def _is_over(bench: Bench, came: list[float]) -> None:
+    """Wait for what happens at a statement, if ever, and for the robot to stand."""
+    bench.controller.run_until(lambda: bool(came), timeout=3)
+    came.append(bench.now)
+    bench.wait_until_standing(5)
+
+
+@case(
+    "wire-stop-every-statement",
+    "STOP and a program stop at each statement of the motion task in a stream",
+    "R5, R7b",
+    once=True,
+    needs="stream",
+)
+def _stream_stopped_at_every_statement(bench: Bench) -> None:
+    """Also of a stream that has starved, and of one that ends."""
+    routines = ("next_point", "wait_for_points", "finish")
+    with _stepped(bench) as other:
+        for number, line in enumerate(2 * _lines(other, "ROS_motion", *routines)):
+            link = other.motion()
+            other.run(1.1)
+            # While commissioning the servers stop with the program: the rest is not answered.
+            by_wire = number % 2 == 0 or other.config.commissioning
+            stream, since = Streamer(other, link), other.now
+
+            def act(link: RawLink = link, by_wire: bool = by_wire) -> None:
+                if by_wire:
+                    link.at_once(STOP)
+                else:
+                    other.controller.perform("stop")
+
+            came = _once_at(other, "ROS_motion", ("ROS_motion", line), 1 + number % 3, act)
+            points = other.wave(6, duration=0.2)
+            stream.put(points[:3], BEGIN | FLUSH)
+            other.run(1)
+            stream.put(points[3:], END)
+            _is_over(other, came)
+            other.executed(points, since)
+            if not by_wire:
+                other.start_again()
+            elif came[0] != came[-1]:
+                other.until(lambda: _is_answered(link), 2, f"STOP at line {line}")  # noqa: B023
+            other.stays(1.5, f"it was stopped at line {line} of the motion task")
+            link.close()
+
+
+def _is_answered(link: RawLink) -> bool:
+    """Whether a STOP was, with a plain success."""
+    return any(
+        frame.number == JOINT_TRAJ_PT and decode(frame) == messages.RawAcknowledged()
+        for _, frame in link.frames
+    )
+
+
+@case(
+    "begin-every-statement",
+    "STOP over the control port at each statement of a beginning",
+    "R7b",
+    once=True,
+    needs="control",
+)
+def _stopped_at_every_statement_of_a_beginning(bench: Bench) -> None:
+    """Whatever the motion server is at when it comes: nothing moves after the reply to it."""
+    with _stepped(bench) as other:
+        control = other.control()
+        for module, routines in (
+            ("ROS_acceptance", ("ROS_hand_over", "ROS_what_hinders")),
+            ("ROS_stream", ("take_points",)),
+        ):
+            for line in _lines(other, module, *routines):
+                link = other.motion()
+                other.run(1.1)
+                control.read()
+                came = _once_at(
+                    other, "ROS_motionServer", (module, line), 1, lambda: control.at_once(STOP)
+                )
+                link.send(Streamer(other, link).frame(other.wave(20, duration=0.2), BEGIN))
+                link.reply(POINTS, 2)
+                if not came:
+                    other.run(0.2)
+                if came:
+                    done(control.reply(JOINT_TRAJ_PT), f"STOP at line {line} of {module}")
+                    other.rests(1, 1, f"STOP came at line {line} of {module}")
+                else:
+                    link.send(STOP)
+                    other.wait_until_standing(2)
+                came.append(other.now)
+                link.close(then=0.1)
+
+
+@case(
+    "resume-every-statement",
+    "STOP at each statement with which a paused robot goes on",
+    "R7b",
+    once=True,
+    needs="control",
+)
+def _stopped_at_every_statement_of_going_on(bench: Bench) -> None:
+    with _stepped(bench) as other:
+        control, link = other.control(), other.motion()
+        other.run(0.5)
+        for line in _lines(other, "ROS_supervisor", "go_on"):
+            other.sets_off(link, other.wave(12), 0.3)
+            control.ask(messages.RawPause(1))
+            other.wait_until_standing(2)
+            came = _once_at(
+                other, "ROS_supervisor", ("ROS_supervisor", line), 1, lambda: link.at_once(STOP)
+            )
+            control.ask(messages.RawPause(0))
+            if not came:
+                came.append(other.now)
+                link.send(STOP)
+            link.reply(JOINT_TRAJ_PT)
+            other.rests(2, 1, f"STOP came at line {line} of the supervisor, which ended a pause")
+            other.run(patience(other))
+
+
+@case(
+    "progress-every-statement",
+    "PROGRESS is of one trajectory, whatever statement a task is at",
+    once=True,
+)
+def _progress_at_every_statement(bench: Bench) -> None:
+    """Nothing of one trajectory is told under the number of another one."""
+    far = bench.group.joints[0].upper + 1
+    with _stepped(bench) as other:
+        link, watcher = other.motion(), other.watcher()
+        for module, places, refused in (
+            ("ROS_stateServer", (("ROS_stateServer", "tell"),), True),
+            ("ROS_stateServer", (("ROS_messages", "ROS_look"), ("ROS_messages", "look_at")), True),
+            ("ROS_motionServer", (("ROS_acceptance", "ROS_new_trajectory"),), False),
+            ("ROS_motionServer", (("ROS_acceptance", "ROS_hand_over"),), False),
+            ("ROS_motionServer", (("ROS_download", "hand_over"),), False),
+            ("ROS_motion", (("ROS_motion", "next_point"),), False),
+        ):
+            for home, routine in places:
+                for line in _lines(other, home, routine):
+                    _held_at(other, link, watcher, (module, home, line), far if refused else None)
+
+
+def _held_at(
+    bench: Bench,
+    link: RawLink,
+    watcher: RawLink,
+    place: tuple[str, str, int],
+    far: float | None,
+) -> None:
+    """A good trajectory, then another one that is good or not, while a task is held somewhere."""
+    module, home, line = place
+    here = bench.position
+    link.send(bench.download(bench.wave(3, duration=0.2)))
+    bench.wait_until_moving(2)
+    bench.wait_until_standing(5)
+    bench.run(2 * bench.config.state_period)
+    watcher.read()
+    before = bench.progress(watcher)
+    if before[1:] != (RawTrajectoryState.DONE, 3, 3, 3, 0, -1, 0):
+        raise Broken(f"three points are executed, PROGRESS says {before}")
+    there = bench.position
+    beyond = [] if far is None else [((far, *here[1:]), 0.5)]
+    second = bench.download([(there, 9.0), (here, 0.5), *beyond])
+    task, now = bench.rapid_task(module), bench.now
+
+    def held() -> None:
+        if module == "ROS_stateServer":
+            link.at_once(second)
+        task.hold()
+        # One or two PROGRESS, and less than what counts as the end of a task.
+        bench.controller.scheduler.after(120_000_000, task.release)
+
+    came = _once_at(bench, module, (home, line), 1, held)
+    if module != "ROS_stateServer":
+        link.send(second)
+    bench.run(1)
+    if not came and module == "ROS_stateServer":
+        link.send(second)
+    came.append(bench.now)
+    bench.wait_until_standing(3)
+    bench.run(3 * bench.config.state_period)
+    number = before.trajectory + 1
+    told = [
+        content
+        for one in rounds(watcher, now)
+        for frame in one.frames
+        if isinstance(content := decode(frame), messages.RawProgress)
+    ]
+    where = f"{module} was held at {home}:{line}"
+    _fits(told, before, number, where, refused=far is not None)
+
+
+def _fits(
+    told: Sequence[messages.RawProgress],
+    before: messages.RawProgress,
+    number: int,
+    where: str,
+    *,
+    refused: bool,
+) -> None:
+    last = (number, RawTrajectoryState.DONE, 2, 2, 2, 0, -1, 0)
+    if refused:
+        last = (number, RawTrajectoryState.REFUSED, 2, 0, 0, RawReason.JOINT_LIMIT, 2, 1)
+    if not told or told[-1] != last:
+        raise Broken(f"{where}: wanted {last}, PROGRESS says {told[-1:]}")
+    for one in told:
+        if one in (before, last):
+            continue
+        good = (
+            one.trajectory == number
+            and one.state in (RawTrajectoryState.RECEIVING, RawTrajectoryState.MOVING)
+            and one.reached <= one.planned <= one.received <= 3
+            and (one.state != RawTrajectoryState.RECEIVING or one.planned == 0)
+            and one[5:] == (0, -1, 0)
+        )
+        if not good or (refused and one.state != RawTrajectoryState.RECEIVING):
+            raise Broken(f"{where}: PROGRESS says {one}")

@@ -1,0 +1,165 @@
+"""The ceiling of the TCP's speed, where a configuration has one below what every robot may do."""
+
+import math
+import random
+from itertools import pairwise
+
+from rapidgen.verification.case import Theme
+from rapidgen.verification.messages import RawPointsAccepted, RawReason
+from rapidgen.verification.model import Broken, NothingToProve
+from rapidgen.verification.position_checks import Point, Position, changed
+from rapidgen.verification.stream import BEGIN, END, Streamer
+from rapidgen.verification.suite.refusals import refused
+from rapidgen.verification.testbench import CEILING, Bench
+
+case = Theme("edges")
+
+ROUNDS = 4
+"""Random trajectories of one run; a benchmark has more."""
+ALLOWED = 1.05
+"""Part of the ceiling that a recording may show."""
+_MARGIN = 1.09
+"""Part of the time needed that a driver takes without doubt."""
+
+
+def _asked(bench: Bench) -> bool:
+    if bench.config.trajectory.too_fast != "refuse" or bench.motion_group.kinematics is None:
+        return False
+    return bench.group.tcp_speed_limit < CEILING
+
+
+@case("tcp-too-fast", "more speed than the TCP may have", "R10")
+def _tcp_too_fast(bench: Bench) -> None:
+    """No axis is too fast: the TCP alone is."""
+    if not _asked(bench):
+        raise NothingToProve("the TCP has no ceiling of its own")
+    seconds = max(0.2, bench.config.trajectory.min_segment)
+    step = 0.5 * seconds * bench.group.joints[0].speed
+    here = bench.position
+    away = changed(here, 0, here[0] + step)
+    if bench.tcp_seconds(here, away) < 1.2 * seconds:
+        raise NothingToProve("no axis can make the TCP too fast")
+    points = [(here, 1.0), (away, seconds), (here, 9.0)]
+    refused(bench, bench.download(points), [RawReason.TCP_TOO_FAST], point=1)
+    if not bench.streams:
+        return
+    good = bench.wave(8)
+    stream = Streamer(bench)
+    stream.takes("the first points", good, BEGIN)
+    end = good[-1][0]
+    stream.put([(changed(end, 0, end[0] + step), seconds)], END)
+    told = stream.refused(RawReason.TCP_TOO_FAST, "a TCP that is too fast")
+    if (told.accepted, told.point, told.joint) != (8, 8, 0):
+        raise Broken(f"eight points were right, the reply is {told}")
+    bench.wait_until_at(end, 20)
+
+
+@case("tcp-arc", "a long turn between two places that are near each other", "R10")
+def _long_turn(bench: Bench) -> None:
+    """The TCP goes along its arc, whatever the distance between its ends."""
+    joint, here = bench.group.joints[0], bench.position
+    low, high = (changed(here, 0, v) for v in (joint.lower + 0.01, joint.upper - 0.01))
+    seconds = 0.5 * bench.tcp_seconds(low, high)
+    if not _asked(bench) or seconds < 1.1 * (joint.upper - joint.lower) / joint.speed:
+        raise NothingToProve("axis 1 can make no TCP too fast")
+    bench.moves_through(bench.motion(), [(here, 1.0), (low, bench.seconds_to(low))])
+    points = [(low, 1.0), (high, seconds)]
+    refused(bench, bench.download(points), [RawReason.TCP_TOO_FAST], point=1)
+    if not bench.streams:
+        return
+    here = bench.position
+    bench.moves_through(bench.motion(), [(here, 1.0), (low, bench.seconds_to(low))])
+    stream = Streamer(bench)
+    stream.put(points, BEGIN | END)
+    told = stream.refused(RawReason.TCP_TOO_FAST, "a long turn that is too fast")
+    if told.point != 1:
+        raise Broken(f"the first point was right, the reply is {told}")
+
+
+def random_way(bench: Bench, chance: random.Random, margin: float) -> list[Point]:
+    """Points in `margin` times the time that their ways need, from near where the robot stands."""
+    policy, joints = bench.config.trajectory, bench.group.joints
+
+    def near(place: Position, share: float) -> Position:
+        goals = (chance.uniform(0.9 * j.lower, 0.9 * j.upper) for j in joints)
+        move = [chance.random() < 0.6 for _ in joints]
+        steps = (share * (g - p) * m for g, p, m in zip(goals, place, move, strict=True))
+        return tuple(p + s for p, s in zip(place, steps, strict=True))
+
+    def seconds(one: Position, other: Position) -> float:
+        by_axis = (1.05 * abs(b - a) / j.speed for a, b, j in zip(one, other, joints, strict=True))
+        return max(margin * bench.tcp_seconds(one, other), 1.1 * policy.min_segment, *by_axis)
+
+    share = chance.choice((0.03, 0.2, 0.9))
+    places = [
+        tuple(
+            p + 0.9 * bench.start_tolerance(j) for p, j in zip(bench.position, joints, strict=True)
+        )
+    ]
+    if not all(j.lower < p < j.upper for p, j in zip(places[0], joints, strict=True)):
+        places = [bench.position]
+    for _ in range(chance.randint(1, 5)):
+        places.append(near(places[-1], share))
+    return [(places[0], 1.0), *((b, seconds(a, b)) for a, b in pairwise(places))]
+
+
+def fastest(bench: Bench, since: float) -> float:
+    """The highest speed of the TCP in what was recorded since then, m/s."""
+    track = [(when, bench.tcp(seen)) for when, seen in bench.track if when >= since]
+    return max(
+        (math.dist(a, b) / (then - when) for (when, a), (then, b) in pairwise(track)), default=0.0
+    )
+
+
+def is_taken(bench: Bench, points: list[Point], *, streaming: bool) -> bool:
+    """Whether the driver takes a trajectory, which is executed then."""
+    link, end = bench.motion(), points[-1][0]
+    if streaming:
+        stream = Streamer(bench, link)
+        taken = isinstance(stream.put(points, BEGIN | END), RawPointsAccepted)
+    else:
+        link.send(bench.download(points))
+        bench.run(0.5 + 0.01 * len(points))
+        taken = not bench.status(bench.state()).in_error
+    if taken:
+        bench.wait_until_at(end, 10 + 2 * sum(seconds for _, seconds in points))
+    bench.wait_until_standing(60)
+    link.close(then=0.3)
+    return taken
+
+
+@case("tcp-turns", "the TCP keeps its ceiling between corners that slow it down", "R10")
+def _turns(bench: Bench) -> None:
+    """There and back on axis 1, where the robot has to turn round, at once and after a while."""
+    if not _asked(bench):
+        raise NothingToProve("the TCP has no ceiling of its own")
+    joint, here, limit = bench.group.joints[0], bench.position, bench.group.tcp_speed_limit
+    for seconds in (0.2, 0.3, 0.5):
+        wanted = max(seconds, 1.2 * bench.config.trajectory.min_segment)
+        step = min(0.3, wanted * joint.speed / 1.05)
+        step *= min(
+            1.0, wanted / (_MARGIN * bench.tcp_seconds(here, changed(here, 0, here[0] + step)))
+        )
+        there = changed(here, 0, here[0] + step)
+        since, way = bench.now, [here, *[there, here] * 3]
+        points = [(place, wanted) for place in way]
+        if not is_taken(bench, points, streaming=False):
+            raise Broken(f"{points} is refused, its ways have {_MARGIN} of the time they need")
+        speed = fastest(bench, since)
+        if speed > ALLOWED * limit:
+            raise Broken(f"the TCP went at {speed:.3f} m/s, the ceiling is {limit} m/s: {points}")
+
+
+@case("tcp-recorded", "the TCP is never faster than its ceiling", "R10")
+def _recorded(bench: Bench) -> None:
+    """On random ways, near the ceiling, as a whole and streamed, from rest to rest."""
+    if not _asked(bench):
+        raise NothingToProve("the TCP has no ceiling of its own")
+    chance, limit = random.Random(bench.setting.seed), bench.group.tcp_speed_limit
+    for number in range(ROUNDS):
+        since, points = bench.now, random_way(bench, chance, _MARGIN)
+        if not is_taken(bench, points, streaming=bench.streams and number % 2 == 0):
+            raise Broken(f"{points} is refused, its ways have {_MARGIN} of the time they need")
+        speed = fastest(bench, since)
+        if speed > ALLOWED * limit:
+            raise Broken(f"the TCP went at {speed:.3f} m/s, the ceiling is {limit} m/s: {points}")

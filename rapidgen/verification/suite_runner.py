@@ -1,0 +1,346 @@
+"""The whole suite for one robot: every case under every setting, and schedules, as a campaign."""
+
+import logging
+import time
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import TextIO
+
+from pydantic import TypeAdapter
+
+from rapidgen.config.model import RobotConfig
+from rapidgen.controller.cell import in_its_cell
+from rapidgen.generate import build, make_system
+from rapidgen.system.model import System
+from rapidgen.verification.assumption_minimizer import blamed
+from rapidgen.verification.bench_pool import FreshBenches
+from rapidgen.verification.build_identity import identity
+from rapidgen.verification.campaign import Campaign, Limits, Progress, Workload
+from rapidgen.verification.case import Behaviour
+from rapidgen.verification.model import Finding, NothingToProve, Proof, Verdict, is_program
+from rapidgen.verification.program_equivalence import PROGRAMS, liken, name_of, takes_programs
+from rapidgen.verification.raw_programs import called
+from rapidgen.verification.report import series
+from rapidgen.verification.result_file import Results
+from rapidgen.verification.schedule import Ground, drawn, named
+from rapidgen.verification.schedule_exploration import (
+    Explored,
+    Recording,
+    explore,
+    ground_of,
+    setting_of,
+)
+from rapidgen.verification.schedule_minimizer import smaller
+from rapidgen.verification.schedule_selection import Guide
+from rapidgen.verification.settings import Setting, assumed, possible, rows, settings
+from rapidgen.verification.suite import CASES
+from rapidgen.verification.testbench import FAILURES, Bench, add_lines
+from rapidgen.verification.worker_pool import Local, Workers, each, in_a_fork
+
+_LOG = logging.getLogger("rapidgen.verification")
+
+EXPLAINED = 20
+"""Cases of which the smallest pair is looked for; of a driver that breaks more they tell enough."""
+VERDICTS = TypeAdapter(Verdict)
+EXPLORED = TypeAdapter(Explored)
+
+
+@dataclass(frozen=True, slots=True)
+class Attempt:
+    """A case under a setting, which assumes some things."""
+
+    case: int
+    name: str
+    assumes: tuple[str, ...]
+    setting: Setting
+
+    @property
+    def key(self) -> str:
+        """The same for the same case under the same setting."""
+        return f"{CASES[self.case].name} [{self.name}] {','.join(self.assumes)}"
+
+
+@dataclass(frozen=True, slots=True)
+class Suspects:
+    """A case, and what was assumed where it broke, by setting."""
+
+    case: int
+    rows: Mapping[str, Sequence[str]]
+
+
+@dataclass(frozen=True, slots=True)
+class DriverUnderTest:
+    """What every worker has: a configuration and its generated system."""
+
+    config: RobotConfig
+    system: System
+    booted: "dict[str, Starter]" = field(default_factory=dict)
+    """The controller that a worker keeps, by what its setting assumes."""
+    fresh: FreshBenches = field(default_factory=FreshBenches)
+    """Those that it keeps for schedules and programs."""
+
+    @classmethod
+    def of(cls, config: RobotConfig) -> "DriverUnderTest":
+        """The driver of a configuration, in its cell. Raises DiagnosticError."""
+        system = make_system(config, build(config), open_words=True)
+        return cls(config, in_its_cell(system, config))
+
+
+def prove(
+    config: RobotConfig,
+    *,
+    seeds: int = 200,
+    programs: int = 0,
+    jobs: int | None = None,
+    hire: Callable[["DriverUnderTest"], Workers] | None = None,
+    only: Sequence[str] = (),
+    cases: bool = True,
+    strength: int = 2,
+    assuming: Sequence[str] = (),
+    progress: Progress | None = None,
+    limits: Limits | None = None,
+    results: Path | None = None,
+    resume: bool = False,
+) -> Proof:
+    """Run the suite (`cases`, or `only` those named) and, without `only`, the exploration of
+    `seeds` schedules and so many random motion `programs`, each beside the same one in RAPID.
+
+    The answers to any `strength` open questions meet in some setting (0: the default alone);
+    `assuming`: in that one only. `progress(what, done, total)` is called for every piece of work.
+    `hire`: who works, by default `jobs` processes of this machine.
+    Results are kept in a file, in which `resume` finds those that are known already.
+    A KeyboardInterrupt ends the run; the report has what it had seen, and says so. Raises
+    DiagnosticError RG805, RG810, WorkersLost.
+    """
+    if programs:
+        takes_programs(config)
+    driver = DriverUnderTest.of(config)
+    started = time.monotonic()
+    report = Proof(config.name, driver.system.build_id)
+    asked = {"as asked": tuple(assuming)} if assuming else rows(strength)
+    report.rows = possible(config, asked)
+    attempts = _attempts(config, report.rows, only) if cases or only else []
+    _LOG.info("%s: %d attempts, %d settings", config.name, len(attempts), len(report.rows))
+    with (
+        Results(results, f"{identity()} {report.build_id}", resume=resume) as kept,
+        hire(driver) if hire else Local(driver, jobs) as workers,
+    ):
+        campaign = Campaign(workers, kept, limits or Limits(), progress)
+        try:
+            report.outcomes.extend(campaign.run(_suite(attempts)))
+            if not assuming:
+                report.outcomes = _explained(report, workers, progress)
+            if not only and not assuming:
+                for outcome in report.outcomes:
+                    add_lines(report.lines, outcome.lines)
+                _explored(report, campaign, seeds, progress)
+            for tried in campaign.run(likenesses(programs)):
+                report.programs += 1
+                if tried.finding is not None:
+                    report.findings.append(tried.finding)
+        except KeyboardInterrupt:
+            report.broken_off = True
+    report.left = campaign.left
+    report.elapsed = time.monotonic() - started
+    return report
+
+
+def _explored(report: Proof, campaign: Campaign, seeds: int, progress: Progress | None) -> None:
+    (found,) = each(campaign.workers, range(1), ground)
+    guide = Guide(found)
+    # Of a run that is broken off, too.
+    report.curve = guide.curve
+    for explored in campaign.run(schedules(seeds, guide)):
+        report.schedules += 1
+        if explored.finding is not None:
+            report.findings.append(explored.finding)
+    few = report.findings[:EXPLAINED]
+    for number, finding in enumerate(each(campaign.workers, few, minimised)):
+        report.findings[number] = finding
+        if progress is not None:
+            progress("smaller schedules", number + 1, len(few))
+
+
+def _attempts(
+    config: RobotConfig, rows: Mapping[str, tuple[str, ...]], only: Sequence[str]
+) -> list[Attempt]:
+    """Setting by setting, so that a worker seldom boots."""
+    return [
+        Attempt(number, name, rows.get(name, ()), setting)
+        for name, setting in settings(config, rows).items()
+        for number, case in enumerate(CASES)
+        if case.name in only or (not only and (setting.coverage or not case.once))
+    ]
+
+
+def _suite(attempts: Sequence[Attempt]) -> Workload[Attempt, Verdict]:
+    return Workload(
+        "cases",
+        len(attempts),
+        attempt,
+        attempts.__getitem__,
+        lambda item: item.key,
+        VERDICTS,
+        lambda verdict: not verdict.passed,
+    )
+
+
+def schedules(seeds: int, guide: Guide) -> Workload[str, Explored]:
+    """Schedules that a guide names."""
+    return Workload(
+        "schedules",
+        seeds,
+        schedule,
+        guide.name,
+        lambda name: f"schedule {name}",
+        EXPLORED,
+        lambda explored: explored.finding is not None,
+        needs=guide.needs,
+        take=guide.take,
+    )
+
+
+def likenesses(programs: int) -> Workload[str, Explored]:
+    """Random programs by number."""
+    return Workload(
+        "programs",
+        programs,
+        program,
+        name_of,
+        lambda name: name,
+        EXPLORED,
+        lambda tried: tried.finding is not None,
+    )
+
+
+def _explained(report: Proof, workers: Workers, progress: Progress | None) -> list[Verdict]:
+    """The outcomes; those that broke under a hostile setting alone name what is to blame."""
+    broken = [verdict for verdict in report.outcomes if not verdict.passed]
+    anyhow = {verdict.case for verdict in broken if not report.rows.get(verdict.setting)}
+    work = [
+        Suspects(number, {v.setting: report.rows[v.setting] for v in broken if v.case == case.name})
+        for number, case in enumerate(CASES)
+        if case.name in {verdict.case for verdict in broken} - anyhow
+    ][:EXPLAINED]
+    found = each(workers, work, explain)
+    blame: dict[tuple[str, str], tuple[str, ...]] = {}
+    for done, (one, by_setting) in enumerate(zip(work, found, strict=True), 1):
+        blame |= {(CASES[one.case].name, name): texts for name, texts in by_setting.items()}
+        if progress is not None:
+            progress("smallest pairs", done, len(work))
+    return [replace(v, blamed=blame.get((v.case, v.setting), ())) for v in report.outcomes]
+
+
+# -- pieces of work -----------------------------------------------------------------------------
+
+
+def explain(driver: DriverUnderTest, broken: Suspects) -> dict[str, tuple[str, ...]]:
+    """By setting, the smallest part of what it assumes that breaks a case."""
+
+    def breaks(texts: Sequence[str]) -> bool:
+        with Bench(driver.config, driver.system, assumed(texts)) as bench:
+            return not _verdict(CASES[broken.case], bench).passed
+
+    # A controller leaves things behind in its process.
+    return blamed(broken.rows, lambda texts: in_a_fork(lambda: breaks(texts)))
+
+
+def attempt(driver: DriverUnderTest, job: Attempt) -> Verdict:
+    """A case under a setting."""
+    # Jobs come setting by setting, so one controller is kept.
+    if job.name not in driver.booted:
+        for starter in driver.booted.values():
+            starter.close()
+        driver.booted.clear()
+        driver.booted[job.name] = Starter(driver.config, driver.system, job.setting)
+    return replace(driver.booted[job.name].attempt(CASES[job.case]), setting=job.name)
+
+
+def ground(driver: DriverUnderTest, _item: object) -> Ground:
+    """What schedules are drawn from."""
+    return ground_of(driver.config, driver.system)
+
+
+def schedule(driver: DriverUnderTest, name: str) -> Explored:
+    """One schedule. Of one in which all held no story is kept."""
+    config, system, fresh = driver.config, driver.system, driver.fresh
+    found = ground_of(config, system)
+    if not found.fault:
+        fresh.keep(config, system, setting_of(config, drawn(named(name), found)))
+    return _kept(in_a_fork(lambda: explore(config, system, name, boot=fresh.take)))
+
+
+def program(driver: DriverUnderTest, name: str) -> Explored:
+    """One random program. Of one that moved as in RAPID no story is kept."""
+    config, system, fresh = driver.config, driver.system, driver.fresh
+    for one in (system, called(config, config.groups[0].task)):
+        fresh.keep(config, one, PROGRAMS)
+    return _kept(in_a_fork(lambda: liken(config, system, name, boot=fresh.take)))
+
+
+def _kept(tried: Explored) -> Explored:
+    return tried if tried.finding is not None else replace(tried, plan="")
+
+
+def minimised(driver: DriverUnderTest, finding: Finding) -> Finding:
+    """The same finding in the smallest schedule that has it."""
+    name = named(finding.schedule)
+    steps = len(drawn(name, ground_of(driver.config, driver.system)).steps)
+    return smaller(name, steps, finding, lambda tried: schedule(driver, str(tried)).finding)
+
+
+class Starter:
+    """A booted controller from which each case starts anew, in a process of its own."""
+
+    def __init__(self, config: RobotConfig, system: System, setting: Setting) -> None:
+        self._bench = Bench(config, system, setting)
+        self._bench.compile()
+
+    def attempt(self, case: Behaviour) -> Verdict:
+        """One case; faults of the driver are outcomes, faults of ours fly."""
+        return in_a_fork(lambda: _verdict(case, self._bench))
+
+    def close(self) -> None:
+        """Give the controller back."""
+        self._bench.close()
+
+
+def _verdict(case: Behaviour, bench: Bench) -> Verdict:
+    started = time.process_time()
+    detail = untried = ""
+    try:
+        case.prove(bench)
+        bench.healthy()
+    except NothingToProve as why:
+        untried = str(why)
+    except FAILURES as error:
+        detail = str(error) or type(error).__name__
+    # The case's function may be none that can be sent from process to process.
+    return Verdict(
+        case=case.name,
+        group=case.group,
+        title=case.title,
+        answers=case.answers,
+        passed=not detail,
+        detail=detail,
+        untried=untried,
+        simulated=bench.now,
+        elapsed=time.process_time() - started,
+        log=bench.log() if detail else (),
+        series=series(bench) if detail or bench.setting.coverage else (),
+        lines=bench.lines(),
+    )
+
+
+def replay(
+    config: RobotConfig,
+    name: str,
+    trace: TextIO | None = None,
+    record: Recording | None = None,
+) -> Explored:
+    """One schedule or random program again, exactly; every statement of RAPID goes to `trace`."""
+    driver = DriverUnderTest.of(config)
+    if is_program(name):
+        return liken(driver.config, driver.system, name, trace, record)
+    return explore(driver.config, driver.system, name, trace=trace, record=record)

@@ -1,0 +1,528 @@
+"""A virtual controller with the driver on it, raw clients, and a record of what the robot did.
+
+The clients speak bytes and know nothing of the modules, so that what they prove holds for any
+client. Positions are the controller's axes, rad and m, in wire order.
+"""
+
+import math
+from collections.abc import Callable, Sequence
+from contextlib import suppress
+from dataclasses import replace
+from itertools import pairwise
+from typing import TypeAlias
+
+from rapidgen._compat import Self
+from rapidgen.axes import frames
+from rapidgen.config.model import GroupConfig, Joint, RobotConfig
+from rapidgen.controller.controller import Deadlock, VirtualController
+from rapidgen.controller.tracing import Coverage
+from rapidgen.diagnostics import Span
+from rapidgen.machine.event_log import Domain
+from rapidgen.machine.network.fault_injection import FaultyNetwork
+from rapidgen.machine.network.interface import NetworkFault
+from rapidgen.motion.group import MotionGroup
+from rapidgen.runtime.compiler.symbols import CannotCompile
+from rapidgen.runtime.errors import FatalError
+from rapidgen.runtime.task.task import Task
+from rapidgen.system.model import ModuleFile, System
+from rapidgen.verification.messages import (
+    PROTOCOL_VERSION,
+    RawComm,
+    RawHello,
+    RawHelloReply,
+    RawProgress,
+    RawStatus,
+    encode,
+)
+from rapidgen.verification.model import Broken
+from rapidgen.verification.position_checks import SETTLED, Point, Position, distance, on_path, still
+from rapidgen.verification.raw_connection import RawLink, point_frame
+from rapidgen.verification.settings import Setting
+
+Lines: TypeAlias = dict[str, dict[int, int]]
+"""How often each line of RAPID with a statement was reached, by module file."""
+
+HELLO = RawHello(PROTOCOL_VERSION, (0, 0, 0), 1)
+"""As a client says it that wants PROGRESS."""
+
+FAILURES = (Broken, Deadlock, FatalError, NetworkFault)
+"""What a driver's fault looks like from here; anything else is a fault of ours."""
+
+SAMPLE = 4_000_000
+"""ns between two samples of the record while the robot moves, by default ..."""
+SAMPLE_STANDING = 100_000_000
+"""... and while it stands and says so."""
+CEILING = 5.0
+"""m/s: below it the TCP of a group has a ceiling that its driver looks at."""
+_PIECES = 60
+"""Of a way, to see how fast the TCP is on it."""
+LATE = 59_901
+"""Event of the virtual controller: moves took longer than told. That they do not take much
+longer is measured."""
+CORNER_FAILURE = 50_024
+"""Event: a move with a zone ended as a stop point, because the next one came too late."""
+
+
+class Bench:
+    """A booted driver, ready to be asked for things."""
+
+    def __init__(
+        self,
+        config: RobotConfig,
+        system: System,
+        setting: Setting | None = None,
+        robots: Sequence[GroupConfig] = (),
+        controller: VirtualController | None = None,
+    ) -> None:
+        """Boot. `robots`: the controller's, where they are not the configuration's."""
+        self.config = config
+        self._robots = robots or config.groups
+        self.system = system
+        self.setting = setting if setting is not None else Setting()
+        self._beside: list[Bench] = []
+        self.controller = controller if controller is not None else self._boot()
+        tracked = self.setting.coverage and controller is None
+        self._coverage = Coverage(self.controller) if tracked else None
+        self.group: GroupConfig = config.groups[self.setting.group]
+        self.sample = SAMPLE
+        """ns between two samples while the robot moves."""
+        self.track: list[tuple[float, Position]] = []
+        self.commanded: list[tuple[float, list[Point]]] = []
+        """Downloads that were sent to their end, and when."""
+        self._next = self.controller.scheduler.after(0, self._sample)
+        self.motion_group.changed.add(self._sample)
+
+    def _boot(self) -> VirtualController:
+        controller = VirtualController(
+            self.system,
+            self._robots,
+            seed=self.setting.seed,
+            schedule="random" if self.setting.random_schedule else "round-robin",
+            switch_at_pers=self.setting.switch_at_pers,
+            dialect=self.setting.dialect,
+            costs=self.setting.costs,
+            faults=self.setting.faults,
+            # A schedule must be the same when it is traced, which is done by statement.
+            accounting="statement" if self.setting.random_schedule else "block",
+            tracing=self.setting.coverage or self.setting.tracing,
+        )
+        controller.motion.settings = self.setting.motion
+        if self.setting.motion.settle > 0:
+            # The motion task begins when the robot has settled, and drops what came before.
+            controller.run_for(2 * self.setting.motion.settle)
+        return controller
+
+    def begin(self, setting: Setting) -> None:
+        """Let a controller of which nothing has run yet go on as if booted with these chances and
+        this network."""
+        network = self.controller.network
+        assert isinstance(network, FaultyNetwork)
+        self.setting = setting
+        self.controller.scheduler.draw_from(setting.seed)
+        network.obey(setting.faults.network)
+
+    def replace_module(self, task: str, module: ModuleFile) -> None:
+        """Load another module instead of the one of its name, while nothing of it runs."""
+        program = self.controller.rapid_tasks[task].program
+        program.unload(module.name)
+        program.load([(self.controller.parse_module(module), module)])
+
+    def beside(
+        self,
+        system: System,
+        robots: Sequence[GroupConfig] = (),
+        setting: Setting | None = None,
+    ) -> "Bench":
+        """Another controller with another system, other robots or another setting.
+
+        Whoever asks for it closes it.
+        """
+        other = Bench(self.config, system, setting or self.setting, robots)
+        self._beside.append(other)
+        return other
+
+    def of_group(self, number: int) -> "Bench":
+        """Another motion group of the same controller; it is closed with this one."""
+        return Bench(
+            self.config,
+            self.system,
+            replace(self.setting, group=number),
+            self._robots,
+            controller=self.controller,
+        )
+
+    @property
+    def motion_group(self) -> MotionGroup:
+        """This group on the controller."""
+        return self.controller.motion.group(self.group.name)
+
+    @property
+    def mechanical_unit(self) -> str:
+        """Mechanical unit group of this group's tasks."""
+        tasks = {task.name: task for task in self.system.tasks}
+        return tasks[self.group.task].mechanical_unit_group
+
+    def lines(self) -> Lines:
+        """Lines of RAPID that were reached here and beside; empty without `coverage`."""
+        found = self._coverage.lines() if self._coverage is not None else {}
+        for other in self._beside:
+            add_lines(found, other.lines())
+        return found
+
+    def _sample(self) -> None:
+        """Keep the position when it has changed; look less often while the robot stands."""
+        here = self.position
+        if not self.track or here != self.track[-1][1]:
+            self.track.append((self.now, here))
+        self._next.cancel()
+        wait = SAMPLE_STANDING if self.standing else self.sample
+        self._next = self.controller.scheduler.after(wait, self._sample)
+
+    def close(self) -> None:
+        """Give the controller back."""
+        self.controller.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    # -- time -----------------------------------------------------------------------------------
+
+    @property
+    def now(self) -> float:
+        """Simulated seconds."""
+        return self.controller.now
+
+    def run(self, seconds: float) -> None:
+        """Let time pass."""
+        self.controller.run_for(seconds)
+
+    def until(self, condition: Callable[[], bool], seconds: float, what: str) -> None:
+        """Let time pass until `condition`; Broken when it did not come within `seconds`."""
+        if not self.controller.run_until(condition, timeout=seconds):
+            raise Broken(f"{what}: not within {seconds:g} s")
+
+    # -- the robot ------------------------------------------------------------------------------
+
+    @property
+    def position(self) -> Position:
+        """Where the axes of the first group are."""
+        return tuple(self.motion_group.positions())
+
+    @property
+    def standing(self) -> bool:
+        """Whether the first group stands."""
+        return self.motion_group.is_standing
+
+    def wait_until_moving(self, seconds: float = 5) -> None:
+        """Wait for the robot to begin to move."""
+        self.until(lambda: not self.standing, seconds, "the robot begins to move")
+
+    def wait_until_standing(self, seconds: float = 60) -> None:
+        """Wait until the robot has stood for a tenth of a second."""
+        since = [self.now]
+
+        def settled() -> bool:
+            if not self.standing:
+                since[0] = self.now
+            return self.now - since[0] >= 0.1
+
+        self.until(settled, seconds, "the robot comes to rest")
+
+    def wait_until_at(self, target: Position, seconds: float = 60) -> None:
+        """Wait until the robot stands at `target`."""
+        self.until(
+            lambda: self.standing and distance(self.position, target) < SETTLED,
+            seconds,
+            "the robot reaches the last point",
+        )
+
+    def start_again(self) -> None:
+        """What an operator does after a stop of any kind: automatic mode, motors on, Start."""
+        for action in ("reset-e-stop", "auto", "motors-on", "start"):
+            self.controller.perform(action)
+
+    def stays(self, seconds: float, why: str) -> None:
+        """Let time pass; Broken when the robot moved meanwhile."""
+        before, start = self.position, len(self.track)
+        self.run(seconds)
+        still(self.track[start:], before, why)
+
+    def rests(self, within: float, then: float, why: str) -> None:
+        """Wait until the robot has come to rest; Broken when it moves in the s `then`."""
+        self.wait_until_standing(within)
+        self.stays(then, why)
+
+    def followed(self, path: Sequence[Position], *, since: float, corner: float = 0.05) -> None:
+        """Broken unless the robot was on a prefix of `path` since then (`on_path`)."""
+        on_path([sample for sample in self.track if sample[0] >= since], path, corner)
+
+    def arrives(self, points: Sequence[Point], since: float, seconds: float) -> None:
+        """Wait until the robot stands at the last point; Broken unless it was on the way to it."""
+        self.wait_until_at(points[-1][0], seconds)
+        self.executed(points, since)
+
+    def executed(self, points: Sequence[Point], since: float) -> None:
+        """Broken unless the robot was on the way through these points since then."""
+        self.followed([self.track_at(since), *(p for p, _ in points)], since=since)
+
+    def forget(self) -> None:
+        """Drop the record so far, for campaigns that would not end in the memory there is."""
+        del self.track[:-1]
+        self.commanded.clear()
+
+    # -- the program ----------------------------------------------------------------------------
+
+    def task(self, module: str) -> str:
+        """Name of this group's task that runs a module."""
+        for task in self.system.tasks:
+            names = [m.name.casefold() for m in task.modules]
+            if task.mechanical_unit_group == self.mechanical_unit and module.casefold() in names:
+                return task.name
+        raise KeyError(module)
+
+    def rapid_task(self, module: str) -> Task:
+        """The running task of this group that has a module."""
+        return self.controller.rapid_tasks[self.task(module)]
+
+    def compile(self) -> None:
+        """Compile all RAPID now, not on first call: copies of this bench then need not."""
+        for task in self.controller.rapid_tasks.values():
+            with suppress(CannotCompile):
+                task.program.find_initial_values()
+            for module in task.program.modules.values():
+                for routine in module.routines.values():
+                    # What cannot be linked ends its task when it is called, not here.
+                    with suppress(FatalError):
+                        task.program.function(routine)
+
+    def waits_in(self, module: str, instruction: str) -> bool:
+        """Whether a module's task is at that instruction now."""
+        stack = self.controller.task(self.task(module)).stack
+        return bool(stack) and instruction in self._statement(stack[-1].span)
+
+    def _statement(self, span: Span) -> str:
+        """The line of RAPID at a place."""
+        data = next(
+            (m.data for t in self.system.tasks for m in t.modules if m.path == span.path), b""
+        )
+        lines = data.decode("latin-1").splitlines()
+        return lines[span.line - 1].strip() if span.line <= len(lines) else ""
+
+    # -- clients --------------------------------------------------------------------------------
+
+    def motion(self) -> RawLink:
+        """A new connection to the motion server."""
+        return self._link(self.group.ports.motion)
+
+    def state(self, *, reading: bool = True) -> RawLink:
+        """A new connection to the state server."""
+        return self._link(self.group.ports.state, reading=reading)
+
+    def control(self) -> RawLink:
+        """A new connection to the control server, where the configuration has one."""
+        return self._link(self.group.ports.control)
+
+    def _link(self, port: int, *, reading: bool = True, address: str = "") -> RawLink:
+        network = self.controller.network
+        self.until(lambda: port in network.listeners, 10, f"the driver listens on port {port}")
+        return RawLink(self, port, reading=reading, address=address or self.address)
+
+    @property
+    def address(self) -> str:
+        """Where a client of ours comes from: an address that the configuration allows."""
+        return next(iter(self.config.allowed_clients), "127.0.0.1")
+
+    def stranger(self, port: int) -> RawLink:
+        """A connection from an address that no configuration allows."""
+        return self._link(port, address="203.0.113.77")
+
+    def status(self, link: RawLink, seconds: float = 2) -> RawStatus:
+        """The next STATUS on a state connection."""
+        link.read()
+        return link.expect(RawStatus, seconds, "a STATUS arrives")
+
+    def watcher(self) -> RawLink:
+        """A new connection to the state server that asked for PROGRESS."""
+        link = self.state()
+        self.says_hello(link)
+        return link
+
+    def says_hello(self, link: RawLink, subscribe: int = 1) -> RawHelloReply:
+        """HELLO on a state connection, and its answer."""
+        link.send(encode(HELLO._replace(subscribe=subscribe), RawComm.REQUEST))
+        return link.expect(RawHelloReply, 2, "HELLO is answered")
+
+    def progress(self, link: RawLink, seconds: float = 2) -> RawProgress:
+        """The next PROGRESS on a connection that asked for it."""
+        link.read()
+        return link.expect(RawProgress, seconds, "a PROGRESS arrives")
+
+    # -- trajectories ---------------------------------------------------------------------------
+
+    def wave(self, count: int, *, duration: float = 0.4, size: float = 0.06) -> list[Point]:
+        """`count` points from where the robot stands, back and forth within limits and speeds."""
+        here = self.position
+        steps = [self._step(axis, here, duration, size) for axis in range(len(here))]
+        shares = [
+            [abs(math.sin(number * (0.35 + 0.11 * axis))) for axis in range(len(here))]
+            for number in range(count)
+        ]
+
+        def along(scale: float) -> list[Position]:
+            return [
+                tuple(h + scale * s * share for h, s, share in zip(here, steps, row, strict=True))
+                for row in shares
+            ]
+
+        way = along(1)
+        slowest = max((self.tcp_seconds(a, b) for a, b in pairwise(way)), default=0.0)
+        if slowest > 0.9 * duration:
+            way = along(0.9 * duration / slowest)
+        return [(here, 10.0), *((joints, duration) for joints in way[1:])]
+
+    @property
+    def last_event(self) -> int:
+        """Sequence number of the newest event in the log; 0: there is none."""
+        return max((event.sequence for event in self.controller.log), default=0)
+
+    def start_tolerance(self, joint: Joint) -> float:
+        """rad or m that the first point of a trajectory may be away from the robot."""
+        policy = self.config.trajectory
+        linear = joint.kind == "prismatic"
+        return policy.start_tolerance_linear if linear else policy.start_tolerance
+
+    def seconds_to(self, target: Position) -> float:
+        """s to a point from here: half of each axis' speed is enough, and the TCP's ceiling."""
+        here = self.position
+        joints = zip(self.group.joints, here, target, strict=True)
+        needed = [2 * abs(there - value) / joint.speed for joint, value, there in joints]
+        return max(0.5, 1.1 * self.tcp_seconds(here, target), *needed)
+
+    def tcp(self, place: Position) -> tuple[float, ...]:
+        """Where the TCP is (m) when the axes are at a place."""
+        geometry = self.motion_group.kinematics
+        assert geometry is not None
+        tool = (self.group.tool.frame.position, self.group.tool.frame.orientation)
+        return frames.compose(geometry.forward(place), tool)[0]
+
+    def tcp_seconds(self, start: Position, end: Position) -> float:
+        """s from one point to another, the TCP at its ceiling where it is fastest.
+
+        0 where there is none below what every robot may do.
+        """
+        limit = self.group.tcp_speed_limit
+        if limit >= CEILING or self.motion_group.kinematics is None:
+            return 0.0
+        shares = [n / _PIECES for n in range(_PIECES + 1)]
+        way = [
+            self.tcp(tuple(a + share * (b - a) for a, b in zip(start, end, strict=True)))
+            for share in shares
+        ]
+        return max(math.dist(one, other) for one, other in pairwise(way)) * _PIECES / limit
+
+    def _step(self, axis: int, here: Position, duration: float, size: float) -> float:
+        joint = self.group.joints[axis]
+        room_up, room_down = joint.upper - here[axis], here[axis] - joint.lower
+        room = max(room_up, room_down)
+        step = min(size, 0.2 * duration * joint.speed, 0.5 * room)
+        return step if room_up >= room_down else -step
+
+    def download(self, points: Sequence[Point], comm: RawComm = RawComm.TOPIC) -> bytes:
+        """The frames of a trajectory as the ROS-Industrial node sends them."""
+        return b"".join(
+            point_frame(number, len(points), joints, duration, comm)
+            for number, (joints, duration) in enumerate(points)
+        )
+
+    @property
+    def streams(self) -> bool:
+        """Whether the driver takes points while it executes those before."""
+        return self.config.profile == "full"
+
+    def way_to(self, place: Position) -> list[Point]:
+        """A trajectory from where the robot stands."""
+        return [(self.position, 1.0), (place, self.seconds_to(place))]
+
+    def sets_off(self, link: RawLink, points: Sequence[Point], then: float | None = None) -> None:
+        """Send a trajectory, wait for the robot to move, and let it move for `then` s."""
+        link.send(self.download(points))
+        self.wait_until_moving()
+        if then is not None:
+            self.run(then)
+
+    def moves_through(self, link: RawLink, points: Sequence[Point]) -> None:
+        """Send a trajectory and see it executed whole, in order, in time and without a complaint.
+
+        With full speed in automatic mode, that is. Where no task is sure of its turn a corner may
+        be a stop point (`Setting.corners_in_time`); the way and its time are the same there.
+        """
+        since, asked = self.now, sum(d for _, d in points[1:])
+        last = self.last_event
+        link.send(self.download(points))
+        self.arrives(points, since, 30 + 3 * asked)
+        group = self.motion_group
+        if group.override < 1 or group.reduced:
+            return
+        if self.now - since > 1.1 * asked + 3:
+            raise Broken(f"{asked:.2f} s of motion took {self.now - since:.2f} s")
+        excused = {LATE} if self.setting.corners_in_time else {LATE, CORNER_FAILURE}
+        complaints = [
+            event
+            for event in self.controller.log.since(last)
+            if event.domain is Domain.MOTION and event.code not in excused
+        ]
+        if complaints:
+            raise Broken(f"the controller complains of the motion: {complaints[0]}")
+
+    def track_at(self, when: float) -> Position:
+        """Where the robot was at a time."""
+        for time, seen in reversed(self.track):
+            if time <= when:
+                return seen
+        return self.track[0][1] if self.track else self.position
+
+    def healthy(self) -> None:
+        """Broken when a task has ended with an error: nothing that happens may do that."""
+        for name, task in self.controller.tasks.items():
+            if task.state == "error":
+                raise Broken(f"task {name} ended with an error: {task.fault}")
+
+    def log(self) -> tuple[str, ...]:
+        """Event log and program positions with their statements, for a failure's report."""
+        events = [str(event) for event in self.controller.log]
+        places = []
+        for name, task in self.controller.tasks.items():
+            text = ""
+            if task.stack:
+                at = task.stack[-1]
+                where = f"{at.span.path}:{at.span.line} ({at.routine})"
+                text = f" at {where}: {self._statement(at.span)}"
+            places.append(f"{name} is {task.state}{text}")
+        return (*events[-40:], *places)
+
+
+def add_lines(to: Lines, more: Lines) -> None:
+    """Add up how often lines were reached."""
+    for path, lines in more.items():
+        own = to.setdefault(path, {})
+        for line, hits in lines.items():
+            own[line] = own.get(line, 0) + hits
+
+
+def with_module(system: System, path: str, data: bytes) -> System:
+    """The system with the text of one module file replaced, in every task that loads it."""
+    return replace(
+        system,
+        tasks=tuple(
+            replace(
+                task,
+                modules=tuple(
+                    replace(m, data=data, origin=()) if m.path == path else m for m in task.modules
+                ),
+            )
+            for task in system.tasks
+        ),
+    )

@@ -1,0 +1,61 @@
+"""A process of a Dask worker that does its work: `python -m rapidgen.verification.worker_process`.
+rapidgen.verification.worker_process`.
+
+A Dask worker has threads; a controller that is copied by a fork wants none. What is written to the
+engine is what a local worker gets, behind the context.
+"""
+
+import socket
+import subprocess
+import sys
+from collections.abc import Callable
+from multiprocessing.connection import Connection
+
+from rapidgen.verification.worker_pool import serve
+
+
+class EngineLost(Exception):
+    """The engine ended with a piece of work."""
+
+
+class Engine:
+    """The process, from the side of its worker."""
+
+    def __init__(self, context: bytes) -> None:
+        """Start it with a pickled context."""
+        ours, theirs = socket.socketpair()
+        with theirs:
+            words = [
+                sys.executable,
+                "-m",
+                "rapidgen.verification.worker_process",
+                str(theirs.fileno()),
+            ]
+            self._process = subprocess.Popen(words, pass_fds=(theirs.fileno(),))
+        self._connection = Connection(ours.detach())
+        self._connection.send_bytes(context)
+
+    def work(self, function: Callable[..., object], item: object) -> tuple[bool, object]:
+        """Whether a call returned, and what it returned or raised. Raises EngineLost."""
+        try:
+            self._connection.send((function, item))
+            outcome: tuple[bool, object] = self._connection.recv()
+        except (EOFError, BrokenPipeError, ConnectionResetError) as gone:
+            self.close()
+            raise EngineLost(f"status {self._process.returncode}") from gone
+        return outcome
+
+    def close(self) -> None:
+        """Let it end what it is at, and go."""
+        self._connection.close()
+        self._process.wait()
+
+
+def main() -> None:
+    """Serve whoever has the other end of the socket."""
+    connection = Connection(int(sys.argv[1]))
+    serve(connection, connection.recv())
+
+
+if __name__ == "__main__":
+    main()

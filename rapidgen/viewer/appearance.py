@@ -1,0 +1,160 @@
+"""How robots and what stands around them look: drawings, and the files that these name.
+
+A robot is drawn from the meshes of its description where its configuration names one, else from its
+chain. Whatever is not to be had is said, and a solid stands in for it.
+"""
+
+import hashlib
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from types import MappingProxyType
+
+from rapidgen._reading import TooLarge, read_foreign
+from rapidgen.axes.frames import IDENTITY, Pose
+from rapidgen.config.cell import CellDescription
+from rapidgen.config.layers import Overrides
+from rapidgen.config.model import GroupConfig
+from rapidgen.config.urdf.source import xml_fault
+from rapidgen.config.urdf.visual_trees import Tree, trees
+from rapidgen.config.urdf.visuals import NoMesh, Visual, mesh_beside
+from rapidgen.viewer.messages import SeenThing
+from rapidgen.viewer.primitive_urdf import Drawing, described
+from rapidgen.viewer.robots import pose_of
+from rapidgen.viewer.urdf_visuals import drawn, shares
+
+LARGEST = 40_000_000
+"""Bytes of a mesh."""
+MOST = 200_000_000
+"""Bytes of all meshes."""
+
+
+@dataclass(frozen=True)
+class Appearance:
+    """What robots look like. Robots without a drawing of their own are drawn from their chain."""
+
+    drawings: Mapping[str, Drawing] = field(default_factory=dict)
+    files: Mapping[str, bytes] = field(default_factory=dict, repr=False)
+    """Meshes by the names under which the page asks for them."""
+    faults: tuple[str, ...] = ()
+    """What does not look as described."""
+
+    things: tuple[SeenThing, ...] = ()
+    """What stands around."""
+    bases: Mapping[str, Pose] = field(default_factory=dict)
+    """Where robots stand, by task in lower case, as far as that is told."""
+
+    def of(self, group: GroupConfig) -> Drawing:
+        """The drawing of a robot."""
+        drawing = self.drawings.get(group.name) or described(group)
+        base = self.bases.get(group.task.casefold())
+        return drawing if base is None else replace(drawing, base=base)
+
+
+PLAIN = Appearance()
+
+
+class Meshes:
+    """Files of meshes, each read once."""
+
+    def __init__(self) -> None:
+        self.files: dict[str, bytes] = {}
+        self.faults: list[str] = []
+        self._names: dict[Path, str] = {}
+
+    def name(self, visual: Visual) -> str:
+        """The name of a visual's mesh for the page; empty: there is none."""
+        if visual.mesh is None:
+            self._say(visual.fault)
+            return ""
+        return self.name_of(visual.mesh)
+
+    def beside(self, name: str, folder: Path) -> str:
+        """The same of a mesh in a folder."""
+        try:
+            return self.name_of(mesh_beside(name, folder))
+        except NoMesh as why:
+            self._say(str(why))
+            return ""
+
+    def name_of(self, mesh: Path) -> str:
+        """The same of a file."""
+        if mesh not in self._names:
+            self._names[mesh] = self._read(mesh)
+        return self._names[mesh]
+
+    def _read(self, path: Path) -> str:
+        room = min(LARGEST, MOST - sum(map(len, self.files.values())))
+        try:
+            data = read_foreign(path, room)
+        except TooLarge:
+            self._say(f"{path.name} is larger than {room / 1e6:.0f} MB")
+            return ""
+        except OSError as fault:
+            self._say(f"{path}: {fault.strerror}")
+            return ""
+        if path.suffix.lower() == ".dae" and (why := xml_fault(data)):
+            self._say(f"{path.name}: {why}")
+            return ""
+        name = f"mesh-{hashlib.sha256(data).hexdigest()[:20]}{path.suffix.lower()}"
+        self.files[name] = data
+        return name
+
+    def _say(self, fault: str) -> None:
+        if fault not in self.faults:
+            self.faults.append(fault)
+
+
+def appearance(
+    groups: Sequence[GroupConfig],
+    described: Mapping[str, Path],
+    overrides: Overrides = (),
+    cell: CellDescription | None = None,
+) -> Appearance:
+    """What robots look like whose configurations are `described`, by group, and what `cell` has.
+
+    Raises DiagnosticError for a configuration that `load_config` would not take.
+    """
+    found = {path: trees(path, overrides) for path in dict.fromkeys(described.values())}
+    own = {
+        group.name: tree
+        for group in groups
+        if group.name in described
+        and (tree := _fitting(group, found[described[group.name]])) is not None
+    }
+    links = shares(groups, own)
+    meshes = Meshes()
+    drawings: dict[str, Drawing] = {}
+    for group in groups:
+        if group.name not in own:
+            continue
+        drawing = drawn(group, own[group.name], links[group.name], meshes.name)
+        if drawing is not None:
+            alone = sum(tree is own[group.name] for tree in own.values()) == 1
+            free = alone and drawing.base == IDENTITY
+            drawings[group.name] = replace(drawing, base=None) if free else drawing
+        else:
+            meshes.faults.append(f"the description does not move as the chain of {group.name} does")
+    things = tuple(_things(cell, meshes)) if cell is not None else ()
+    placed = cell.bases if cell is not None else {}
+    bases = {task.casefold(): (at.position, at.orientation) for task, at in placed.items()}
+    return Appearance(drawings, MappingProxyType(meshes.files), tuple(meshes.faults), things, bases)
+
+
+def _things(cell: CellDescription, meshes: Meshes) -> Iterator[SeenThing]:
+    for thing in cell.things:
+        mesh = meshes.beside(thing.mesh, cell.folder)
+        pose = pose_of((thing.frame.position, thing.frame.orientation))
+        if mesh:
+            yield SeenThing(name=thing.name, mesh=mesh, scale=thing.scale, pose=pose)
+
+
+def _fitting(group: GroupConfig, found: Mapping[str, Tree]) -> Tree | None:
+    """The description with a group's joints that draws something; groups of other programs may have
+    other names."""
+    first = [found[group.name]] if group.name in found else []
+    names = {joint.name for joint in group.joints}
+    for tree in (*first, *found.values()):
+        if tree.visuals and names <= {joint.name for joint in tree.graph.robot.joints}:
+            return tree
+    return None

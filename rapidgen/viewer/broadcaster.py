@@ -1,0 +1,76 @@
+"""One look at what is watched, for all who view it: encoded once, given to everybody."""
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+
+from pydantic import BaseModel, ValidationError
+
+from rapidgen.viewer.messages import FromPage, Positions, Replied
+from rapidgen.viewer.provider import Aspect, Declined, Handler, Viewed
+
+
+@dataclass(frozen=True, slots=True)
+class Parcel:
+    """Messages in order, encoded as one array. `passing`: the next one makes it worthless."""
+
+    data: bytes
+    passing: bool = False
+
+
+@dataclass(eq=False)
+class Hub:
+    """What is told of one thing that is watched. All of it belongs to that one's thread."""
+
+    watched: Viewed
+    tell: Callable[[Parcel], None]
+    """Takes what all who view are told."""
+    _aspects: tuple[Aspect, ...] = ()
+    _handlers: dict[type, Handler] = field(default_factory=dict)
+
+    def renew(self) -> None:
+        """Something else is watched from now on: everybody is told all of it."""
+        self._aspects = self.watched.aspects()
+        self._handlers = {}
+        for aspect in self._aspects:
+            self._handlers |= aspect.handlers()
+        self.tell(self._whole())
+
+    def join(self) -> Parcel:
+        """All that a viewer who comes now has to know."""
+        # What it is told whole shall not come as news again.
+        self.look()
+        return self._whole()
+
+    def look(self) -> None:
+        """Tell everybody what is new."""
+        new = [message for aspect in self._aspects for message in aspect.changes()]
+        if new:
+            self.tell(_parcel(new))
+
+    def ask(self, data: str | bytes) -> Parcel:
+        """Carry a request out; the answer."""
+        try:
+            asked = FromPage.model_validate_json(data)
+        except ValidationError as error:
+            fault = error.errors(include_url=False, include_input=False)[0]
+            where = ".".join(str(part) for part in fault["loc"])
+            return _parcel([Replied(id=0, error=f"not understood: {where} {fault['msg']}")])
+        handler = self._handlers.get(type(asked.request))
+        text = refused = ""
+        if handler is None:
+            refused = "what is viewed here is not commanded from here"
+        else:
+            try:
+                text = handler(asked.request)
+            except Declined as why:
+                refused = str(why)
+        return _parcel([Replied(id=asked.id, error=refused, text=text)])
+
+    def _whole(self) -> Parcel:
+        return _parcel([message for aspect in self._aspects for message in aspect.whole()])
+
+
+def _parcel(messages: Iterable[BaseModel]) -> Parcel:
+    told = [*messages]
+    data = b",".join(message.model_dump_json().encode() for message in told)
+    return Parcel(b"[" + data + b"]", all(isinstance(message, Positions) for message in told))

@@ -1,0 +1,382 @@
+"""What server and page say to each other: one schema, of which the page's TypeScript is made.
+
+`python -m tests.viewer.page_types` writes page/src/messages.ts from this. Angles are rad, lengths
+m, times s; positions and quaternions (q1..q4, q1 the scalar) are lists. A message that is added
+belongs to the union of its direction at the end of this file.
+"""
+
+from collections.abc import Mapping
+from typing import Annotated, Literal, TypeAlias
+
+from pydantic import Field, TypeAdapter
+
+from rapidgen.viewer import network_messages as n
+from rapidgen.viewer import program_messages as p
+from rapidgen.viewer import trajectory_messages as t
+from rapidgen.viewer.message_base import Spoken
+
+Finite = Annotated[float, Field(allow_inf_nan=False)]
+
+
+class Pose(Spoken):
+    """A frame: position m, orientation q1..q4."""
+
+    position: tuple[float, float, float]
+    orientation: tuple[float, float, float, float]
+
+
+# -- to the page: what is there -------------------------------------------------------------------
+
+
+class Axis(Spoken):
+    """A joint and the controller axis that it drives; limits and speed are the axis' (rad, m)."""
+
+    name: str
+    axis: str
+    kind: Literal["revolute", "prismatic"]
+    lower: float
+    upper: float
+    speed: float
+
+
+class SeenRobot(Spoken):
+    """A robot. `urdf` is its description; its meshes are names on this server, empty for one that
+    is not to be had."""
+
+    name: str
+    task: str
+    unit: str
+    urdf: str
+    flange: str
+    """Link of the URDF that carries tools."""
+    movable: tuple[str, ...]
+    """Joints of the URDF, in the order of `RobotPlace.joints`."""
+    axes: tuple[Axis, ...]
+    """In wire order, that of `RobotPlace.axes`."""
+    has_geometry: bool
+    base: Pose = Pose(position=(0.0, 0.0, 0.0), orientation=(1.0, 0.0, 0.0, 0.0))
+    """Where its root is drawn: apart from robots that would stand in it."""
+
+
+class SeenThing(Spoken):
+    """A mesh of the cell, by its name on this server."""
+
+    name: str
+    mesh: str
+    scale: float
+    pose: Pose
+
+
+class Scene(Spoken):
+    """The first message of a connection, and of a controller that has restarted."""
+
+    type: Literal["scene"] = "scene"
+    title: str
+    kind: Literal["simulation", "robot", "recording"]
+    may_command: bool
+    """False: nothing that is sent moves or changes anything."""
+    groups: tuple[SeenRobot, ...]
+    things: tuple[SeenThing, ...] = ()
+    faults: tuple[str, ...] = ()
+    """What does not look as its description says."""
+
+
+# -- to the page: what changes --------------------------------------------------------------------
+
+
+class RobotPlace(Spoken):
+    """Where a robot is. `joints` and `commanded` are URDF values, `axes` the controller's."""
+
+    joints: tuple[float, ...]
+    commanded: tuple[float, ...]
+    axes: tuple[float, ...]
+    tcp: Pose | None
+    """In the world; None: the robot has no geometry."""
+    tool: Pose
+    """The TCP, in the flange (a stationary tool: in the world)."""
+    tool_held: bool
+    work_object: Pose
+    standing: bool
+
+
+class Positions(Spoken):
+    """Positions. Sent while something moves, and once when it stands."""
+
+    type: Literal["positions"] = "positions"
+    time: float
+    groups: tuple[RobotPlace, ...]
+
+
+class SeenTarget(Spoken):
+    """Where a move of a program goes: the TCP, in the world."""
+
+    group: str
+    name: str
+    """Of the datum; empty for what is written out."""
+    module: str
+    line: int
+    pose: Pose
+
+
+class Targets(Spoken):
+    """What the moves of the loaded programs go to."""
+
+    type: Literal["targets"] = "targets"
+    targets: tuple[SeenTarget, ...]
+
+
+class PanelState(Spoken):
+    """What the pendant's status bar says."""
+
+    type: Literal["panel"] = "panel"
+    time: float
+    mode: Literal["auto", "manual_reduced", "manual_full"] | None
+    motors_on: bool | None
+    e_stop: bool | None
+    execution_error: bool
+    failed: bool
+    running: bool | None
+    """A program runs; of a robot that is watched: it can move."""
+    connected: bool = True
+    tasks: Mapping[str, str]
+    """Positions of each task, in a word."""
+    override: float | None
+    """Speed of programs, 0..1."""
+    pace: float | None
+    """Simulated seconds in a second; 0: time stands."""
+
+
+class LogEntry(Spoken):
+    """One event with ABB's number."""
+
+    sequence: int
+    time: float
+    code: int
+    kind: Literal["info", "warning", "error"]
+    title: str
+    texts: tuple[str, ...]
+    task: str
+
+
+class Log(Spoken):
+    """Events that are new, oldest first."""
+
+    type: Literal["log"] = "log"
+    entries: tuple[LogEntry, ...]
+    fresh: bool = False
+    """Those that were told before are not of this moment."""
+
+
+class Screen(Spoken):
+    """Rows of the operator window."""
+
+    type: Literal["screen"] = "screen"
+    rows: tuple[str, ...]
+
+
+class Dialog(Spoken):
+    """A dialog that waits; without choices a text or number is typed."""
+
+    number: int
+    task: str
+    dialog: str
+    text: str
+    choices: tuple[str, ...]
+
+
+class Dialogs(Spoken):
+    """All dialogs that wait."""
+
+    type: Literal["dialogs"] = "dialogs"
+    waiting: tuple[Dialog, ...]
+
+
+class ShownSignal(Spoken):
+    """A signal; `largest` is None where nothing bounds it."""
+
+    name: str
+    kind: Literal["DI", "DO", "GI", "GO", "AI", "AO"]
+    device: str
+    value: float
+    largest: float | None
+
+
+class AllSignals(Spoken):
+    """All signals."""
+
+    type: Literal["signals"] = "signals"
+    signals: tuple[ShownSignal, ...]
+
+
+class SignalValues(Spoken):
+    """AllSignals that have changed."""
+
+    type: Literal["values"] = "values"
+    values: Mapping[str, float]
+
+
+class Replied(Spoken):
+    """The answer to a request; `error` is empty when it was carried out."""
+
+    type: Literal["reply"] = "reply"
+    id: int
+    error: str
+    text: str = ""
+
+
+# -- from the page --------------------------------------------------------------------------------
+
+
+class Act(Spoken):
+    """A button of the pendant, or something that goes wrong."""
+
+    do: Literal["act"] = "act"
+    action: Literal[
+        "e-stop",
+        "reset-e-stop",
+        "motors-on",
+        "motors-off",
+        "start",
+        "stop",
+        "pp-to-main",
+        "power-loss",
+    ]
+
+
+class SetMode(Spoken):
+    """Turn the key."""
+
+    do: Literal["mode"] = "mode"
+    mode: Literal["auto", "manual_reduced", "manual_full"]
+
+
+class SetOverride(Spoken):
+    """Speed of programs, 0..1."""
+
+    do: Literal["override"] = "override"
+    value: Annotated[float, Field(ge=0, le=1)]
+
+
+class SetPace(Spoken):
+    """Simulated seconds in a second. That it stands is the debugger's business (Proceed)."""
+
+    do: Literal["pace"] = "pace"
+    value: Annotated[float, Field(ge=0.1, le=100)]
+
+
+class SetSignal(Spoken):
+    """Give a signal a value."""
+
+    do: Literal["signal"] = "signal"
+    name: str
+    value: Finite
+
+
+class AnswerQuestion(Spoken):
+    """What the operator chose or typed."""
+
+    do: Literal["answer"] = "answer"
+    number: int
+    value: Annotated[str, Field(max_length=200)]
+
+
+class Jog(Spoken):
+    """Put a standing robot elsewhere: controller axes in wire order; None: where it is.
+
+    `relative`: by so much from where it is when the request is carried out.
+    """
+
+    do: Literal["jog"] = "jog"
+    group: str
+    relative: bool = False
+    axes: Annotated[tuple[Finite | None, ...], Field(max_length=12)]
+
+
+class JogTo(Spoken):
+    """Put a standing robot where its TCP is at a place (of its world), on the same branch.
+
+    None: as it is.
+    """
+
+    do: Literal["jog-to"] = "jog-to"
+    group: str
+    position: tuple[Finite | None, Finite | None, Finite | None]
+    orientation: tuple[Finite, Finite, Finite, Finite] | None
+
+
+class Copy(Spoken):
+    """Where a robot is, as text for a program; it is the reply's."""
+
+    do: Literal["copy"] = "copy"
+    group: str
+    form: Literal["jointtarget", "robtarget", "python"]
+
+
+# -- both ways ------------------------------------------------------------------------------------
+
+ToPage: TypeAlias = (
+    Scene
+    | Positions
+    | Targets
+    | PanelState
+    | Log
+    | Screen
+    | Dialogs
+    | AllSignals
+    | SignalValues
+    | n.Connections
+    | n.Conversation
+    | p.LoadedPrograms
+    | p.Pointers
+    | p.Debugging
+    | p.HeldValues
+    | p.Covered
+    | p.Playback
+    | t.DroppedTrajectory
+    | Replied
+)
+Request: TypeAlias = (
+    Act
+    | SetMode
+    | SetOverride
+    | SetPace
+    | AnswerQuestion
+    | Jog
+    | JogTo
+    | Copy
+    | SetSignal
+    | n.Cut
+    | n.Afflict
+    | n.Listen
+    | p.ReadSource
+    | p.ReadOrigin
+    | p.SetBreakpoint
+    | p.RemoveBreakpoint
+    | p.Proceed
+    | p.RunTo
+    | p.RunFor
+    | p.StopOnErrors
+    | p.LookAt
+    | p.Evaluate
+    | p.Assign
+    | p.SetWatch
+    | p.Cover
+    | p.Seek
+    | p.Play
+    | p.ReadCurves
+    | t.DropTrajectory
+    | t.RunTrajectory
+    | t.ForgetTrajectory
+)
+Answer: TypeAlias = p.SourceOrigin
+"""What is in the text of a reply, as JSON."""
+
+
+class FromPage(Spoken):
+    """A request and the number that its reply will have."""
+
+    id: int
+    request: Annotated[Request, Field(discriminator="do")]
+
+
+TO_PAGE: TypeAdapter[ToPage] = TypeAdapter(Annotated[ToPage, Field(discriminator="type")])

@@ -1,0 +1,554 @@
+// Made of rapidgen/viewer/messages.py by `python -m tests.viewer.page_types`; do not edit.
+
+/** A button of the pendant, or something that goes wrong. */
+export interface Act {
+  readonly do: "act";
+  readonly action: "e-stop" | "reset-e-stop" | "motors-on" | "motors-off" | "start" | "stop" | "pp-to-main" | "power-loss";
+}
+
+/** Let a connection be slow, silent and so on from now on. */
+export interface Afflict {
+  readonly do: "afflict";
+  readonly number: number;
+  readonly ailment: "well" | "delay" | "split" | "slow" | "silent" | "half-open";
+}
+
+/** All signals. */
+export interface AllSignals {
+  readonly type: "signals";
+  readonly signals: readonly ShownSignal[];
+}
+
+/** What the operator chose or typed. */
+export interface AnswerQuestion {
+  readonly do: "answer";
+  readonly number: number;
+  readonly value: string;
+}
+
+/** Set a datum, an element or a component where it is looked at. */
+export interface Assign {
+  readonly do: "assign";
+  readonly target: string;
+  readonly value: string;
+}
+
+/** A joint and the controller axis that it drives; limits and speed are the axis' (rad, m). */
+export interface Axis {
+  readonly name: string;
+  readonly axis: string;
+  readonly kind: "revolute" | "prismatic";
+  readonly lower: number;
+  readonly upper: number;
+  readonly speed: number;
+}
+
+/** All sockets in use. */
+export interface Connections {
+  readonly type: "connections";
+  readonly sockets: readonly ShownSocket[];
+}
+
+/** What sockets said, oldest first; only while somebody listens. */
+export interface Conversation {
+  readonly type: "conversation";
+  readonly listening: boolean;
+  readonly lines: readonly SpokenLine[];
+  readonly missed: number;
+  readonly fresh: boolean;
+}
+
+/** Where a robot is, as text for a program; it is the reply's. */
+export interface Copy {
+  readonly do: "copy";
+  readonly group: string;
+  readonly form: "jointtarget" | "robtarget" | "python";
+}
+
+/** Count how often lines are reached from now on, or no more. */
+export interface Cover {
+  readonly do: "cover";
+  readonly on: boolean;
+}
+
+/** How often the lines of a text were reached; only where a statement begins. */
+export interface Covered {
+  readonly type: "covered";
+  readonly source: number;
+  readonly lines: Readonly<Record<string, number>>;
+}
+
+/** Cut a connection: the task's socket is reset, and so is the other end. */
+export interface Cut {
+  readonly do: "cut";
+  readonly number: number;
+}
+
+/** Breakpoints, the pause, lines of log points, the latest last. */
+export interface Debugging {
+  readonly type: "debugging";
+  readonly halt: SeenHalt | null;
+  readonly breakpoints: readonly SeenBreakpoint[];
+  readonly errors: "never" | "unhandled" | "all";
+  readonly output: readonly string[];
+}
+
+/** A dialog that waits; without choices a text or number is typed. */
+export interface Dialog {
+  readonly number: number;
+  readonly task: string;
+  readonly dialog: string;
+  readonly text: string;
+  readonly choices: readonly string[];
+}
+
+/** All dialogs that wait. */
+export interface Dialogs {
+  readonly type: "dialogs";
+  readonly waiting: readonly Dialog[];
+}
+
+/** Check a file's text for a robot; nothing moves. */
+export interface DropTrajectory {
+  readonly do: "drop";
+  readonly group: string;
+  readonly file: string;
+  readonly text: string;
+}
+
+/** A trajectory as it was checked; the file's name is empty when there is none. */
+export interface DroppedTrajectory {
+  readonly type: "trajectory";
+  readonly group: string;
+  readonly file: string;
+  readonly seconds: number;
+  readonly points: number;
+  readonly way: readonly (readonly [number, number, number])[];
+  readonly pace: readonly number[];
+  readonly steps: number;
+  readonly findings: readonly TrajectoryFinding[];
+  readonly state: "refused" | "checked" | "running" | "done" | "failed";
+  readonly told: string;
+}
+
+/** The reply's text is the value of an expression where it is looked at. */
+export interface Evaluate {
+  readonly do: "evaluate";
+  readonly expression: string;
+}
+
+/** Take it off the page. */
+export interface ForgetTrajectory {
+  readonly do: "forget";
+}
+
+/** A request and the number that its reply will have. */
+export interface FromPage {
+  readonly id: number;
+  readonly request: Act | SetMode | SetOverride | SetPace | AnswerQuestion | Jog | JogTo | Copy | SetSignal | Cut | Afflict | Listen | ReadSource | ReadOrigin | SetBreakpoint | RemoveBreakpoint | Proceed | RunTo | RunFor | StopOnErrors | LookAt | Evaluate | Assign | SetWatch | Cover | Seek | Play | ReadCurves | DropTrajectory | RunTrajectory | ForgetTrajectory;
+}
+
+/** What the routine that is looked at holds, and the watch list. */
+export interface HeldValues {
+  readonly type: "held";
+  readonly task: string;
+  readonly level: number;
+  readonly variables: readonly SeenValue[];
+  readonly watch: readonly SeenValue[];
+}
+
+/** Put a standing robot elsewhere: controller axes in wire order; None: where it is. `relative`: by so much from where it is when the request is carried out. */
+export interface Jog {
+  readonly do: "jog";
+  readonly group: string;
+  readonly relative: boolean;
+  readonly axes: readonly (number | null)[];
+}
+
+/** Put a standing robot where its TCP is at a place (of its world), on the same branch. None: as it is. */
+export interface JogTo {
+  readonly do: "jog-to";
+  readonly group: string;
+  readonly position: readonly [number | null, number | null, number | null];
+  readonly orientation: readonly [number, number, number, number] | null;
+}
+
+/** Tell what sockets say from now on, or no more. */
+export interface Listen {
+  readonly do: "listen";
+  readonly on: boolean;
+}
+
+/** Modules of a task. A text that two tasks share has one number. */
+export interface LoadedModules {
+  readonly task: string;
+  readonly modules: Readonly<Record<string, number>>;
+}
+
+/** What is loaded; texts are asked for (ReadSource). */
+export interface LoadedPrograms {
+  readonly type: "loaded";
+  readonly tasks: readonly LoadedModules[];
+}
+
+/** Events that are new, oldest first. */
+export interface Log {
+  readonly type: "log";
+  readonly entries: readonly LogEntry[];
+  readonly fresh: boolean;
+}
+
+/** One event with ABB's number. */
+export interface LogEntry {
+  readonly sequence: number;
+  readonly time: number;
+  readonly code: number;
+  readonly kind: "info" | "warning" | "error";
+  readonly title: string;
+  readonly texts: readonly string[];
+  readonly task: string;
+}
+
+/** Show the values of a routine of a call stack from now on; -1: the innermost. */
+export interface LookAt {
+  readonly do: "look";
+  readonly task: string;
+  readonly level: number;
+}
+
+/** What the pendant's status bar says. */
+export interface PanelState {
+  readonly type: "panel";
+  readonly time: number;
+  readonly mode: "auto" | "manual_reduced" | "manual_full" | null;
+  readonly motors_on: boolean | null;
+  readonly e_stop: boolean | null;
+  readonly execution_error: boolean;
+  readonly failed: boolean;
+  readonly running: boolean | null;
+  readonly connected: boolean;
+  readonly tasks: Readonly<Record<string, string>>;
+  readonly override: number | null;
+  readonly pace: number | null;
+}
+
+/** Let it run, at so many seconds in a second; 0 stops. */
+export interface Play {
+  readonly do: "play";
+  readonly rate: number;
+}
+
+/** Where a recording is looked at; times in s. `rate` 0: it stands. */
+export interface Playback {
+  readonly type: "playback";
+  readonly begin: number;
+  readonly end: number;
+  readonly time: number;
+  readonly rate: number;
+  readonly fault: string;
+}
+
+/** Program pointers and motion pointers. */
+export interface Pointers {
+  readonly type: "pointers";
+  readonly time: number;
+  readonly tasks: readonly SeenTask[];
+}
+
+/** A frame: position m, orientation q1..q4. */
+export interface Pose {
+  readonly position: readonly [number, number, number];
+  readonly orientation: readonly [number, number, number, number];
+}
+
+/** Positions. Sent while something moves, and once when it stands. */
+export interface Positions {
+  readonly type: "positions";
+  readonly time: number;
+  readonly groups: readonly RobotPlace[];
+}
+
+/** Pause, go on, step a task. */
+export interface Proceed {
+  readonly do: "drive";
+  readonly how: "pause" | "resume" | "in" | "over" | "out";
+  readonly task: string;
+}
+
+/** The reply's text is PlotData (JSON) of a robot's axes or of a signal. */
+export interface ReadCurves {
+  readonly do: "curves";
+  readonly robot: string;
+  readonly signal: string;
+  readonly begin: number;
+  readonly end: number;
+}
+
+/** The reply's text is a SourceOrigin, of a source by its number. */
+export interface ReadOrigin {
+  readonly do: "origin";
+  readonly number: number;
+}
+
+/** The reply's text is a source. */
+export interface ReadSource {
+  readonly do: "source";
+  readonly number: number;
+}
+
+/** Take one away. */
+export interface RemoveBreakpoint {
+  readonly do: "unbreak";
+  readonly number: number;
+}
+
+/** The answer to a request; `error` is empty when it was carried out. */
+export interface Replied {
+  readonly type: "reply";
+  readonly id: number;
+  readonly error: string;
+  readonly text: string;
+}
+
+/** Where a robot is. `joints` and `commanded` are URDF values, `axes` the controller's. */
+export interface RobotPlace {
+  readonly joints: readonly number[];
+  readonly commanded: readonly number[];
+  readonly axes: readonly number[];
+  readonly tcp: Pose | null;
+  readonly tool: Pose;
+  readonly tool_held: boolean;
+  readonly work_object: Pose;
+  readonly standing: boolean;
+}
+
+/** Go on for so many seconds of the controller's time. */
+export interface RunFor {
+  readonly do: "run-for";
+  readonly seconds: number;
+}
+
+/** Go on to a line. */
+export interface RunTo {
+  readonly do: "run-to";
+  readonly task: string;
+  readonly module: string;
+  readonly line: number;
+}
+
+/** Execute what was checked, through the simulator's driver. */
+export interface RunTrajectory {
+  readonly do: "run";
+}
+
+/** The first message of a connection, and of a controller that has restarted. */
+export interface Scene {
+  readonly type: "scene";
+  readonly title: string;
+  readonly kind: "simulation" | "robot" | "recording";
+  readonly may_command: boolean;
+  readonly groups: readonly SeenRobot[];
+  readonly things: readonly SeenThing[];
+  readonly faults: readonly string[];
+}
+
+/** Rows of the operator window. */
+export interface Screen {
+  readonly type: "screen";
+  readonly rows: readonly string[];
+}
+
+/** Go to a moment. */
+export interface Seek {
+  readonly do: "seek";
+  readonly time: number;
+}
+
+/** A breakpoint, and in which line it lies (0: nowhere, `doubt` says why). */
+export interface SeenBreakpoint {
+  readonly number: number;
+  readonly task: string;
+  readonly module: string;
+  readonly line: number;
+  readonly condition: string;
+  readonly hits: string;
+  readonly log: string;
+  readonly count: number;
+  readonly doubt: string;
+}
+
+/** Why everything is paused. */
+export interface SeenHalt {
+  readonly reason: "breakpoint" | "step" | "cursor" | "error" | "pause" | "time";
+  readonly task: string;
+  readonly place: SeenPlace | null;
+  readonly text: string;
+  readonly time: number;
+}
+
+/** Where in a program. `made` is the template's line of a generated one. */
+export interface SeenPlace {
+  readonly module: string;
+  readonly routine: string;
+  readonly line: number;
+  readonly made: string;
+  readonly level: "program" | "trap" | "event";
+}
+
+/** A robot. `urdf` is its description; its meshes are names on this server, empty for one that is not to be had. */
+export interface SeenRobot {
+  readonly name: string;
+  readonly task: string;
+  readonly unit: string;
+  readonly urdf: string;
+  readonly flange: string;
+  readonly movable: readonly string[];
+  readonly axes: readonly Axis[];
+  readonly has_geometry: boolean;
+  readonly base: Pose;
+}
+
+/** Where a move of a program goes: the TCP, in the world. */
+export interface SeenTarget {
+  readonly group: string;
+  readonly name: string;
+  readonly module: string;
+  readonly line: number;
+  readonly pose: Pose;
+}
+
+/** A task: what it executes, outermost routine first, and what its robot executes. */
+export interface SeenTask {
+  readonly name: string;
+  readonly state: string;
+  readonly stack: readonly SeenPlace[];
+  readonly motion: SeenPlace | null;
+}
+
+/** A mesh of the cell, by its name on this server. */
+export interface SeenThing {
+  readonly name: string;
+  readonly mesh: string;
+  readonly scale: number;
+  readonly pose: Pose;
+}
+
+/** A value in RAPID's own words. */
+export interface SeenValue {
+  readonly name: string;
+  readonly kind: string;
+  readonly text: string;
+  readonly settable: boolean;
+}
+
+/** A new one, or another wish for one that is there; the reply's text is its number. */
+export interface SetBreakpoint {
+  readonly do: "break";
+  readonly number: number;
+  readonly module: string;
+  readonly line: number;
+  readonly task: string;
+  readonly condition: string;
+  readonly hits: string;
+  readonly log: string;
+}
+
+/** Turn the key. */
+export interface SetMode {
+  readonly do: "mode";
+  readonly mode: "auto" | "manual_reduced" | "manual_full";
+}
+
+/** Speed of programs, 0..1. */
+export interface SetOverride {
+  readonly do: "override";
+  readonly value: number;
+}
+
+/** Simulated seconds in a second. That it stands is the debugger's business (Proceed). */
+export interface SetPace {
+  readonly do: "pace";
+  readonly value: number;
+}
+
+/** Give a signal a value. */
+export interface SetSignal {
+  readonly do: "signal";
+  readonly name: string;
+  readonly value: number;
+}
+
+/** The watch list. */
+export interface SetWatch {
+  readonly do: "watch";
+  readonly expressions: readonly string[];
+}
+
+/** A signal; `largest` is None where nothing bounds it. */
+export interface ShownSignal {
+  readonly name: string;
+  readonly kind: "DI" | "DO" | "GI" | "GO" | "AI" | "AO";
+  readonly device: string;
+  readonly value: number;
+  readonly largest: number | null;
+}
+
+/** A socket of a task. Addresses are empty where there is none. */
+export interface ShownSocket {
+  readonly number: number;
+  readonly task: string;
+  readonly status: string;
+  readonly local: string;
+  readonly peer: string;
+  readonly ailment: "well" | "delay" | "split" | "slow" | "silent" | "half-open";
+}
+
+/** AllSignals that have changed. */
+export interface SignalValues {
+  readonly type: "values";
+  readonly values: Readonly<Record<string, number>>;
+}
+
+/** The answer to ReadOrigin: each line that a template made, the template and its line. */
+export interface SourceOrigin {
+  readonly lines: readonly (readonly [number, string, number])[];
+  readonly templates: Readonly<Record<string, string>>;
+}
+
+/** A frame of simple_message, or bytes that are none; `way` is seen from the program. */
+export interface SpokenLine {
+  readonly time: number;
+  readonly way: "open" | "in" | "out" | "close";
+  readonly task: string;
+  readonly local: string;
+  readonly peer: string;
+  readonly name: string;
+  readonly text: string;
+  readonly fault: boolean;
+}
+
+/** At which errors everything pauses. */
+export interface StopOnErrors {
+  readonly do: "errors";
+  readonly errors: "never" | "unhandled" | "all";
+}
+
+/** What the moves of the loaded programs go to. */
+export interface Targets {
+  readonly type: "targets";
+  readonly targets: readonly SeenTarget[];
+}
+
+/** What is wrong or doubtful; `point` counts from 0, None: it is of no point. */
+export interface TrajectoryFinding {
+  readonly code: string;
+  readonly severity: string;
+  readonly message: string;
+  readonly help: string;
+  readonly line: number | null;
+  readonly point: number | null;
+}
+
+export type ToPage = AllSignals | Connections | Conversation | Covered | Debugging | Dialogs | DroppedTrajectory | HeldValues | LoadedPrograms | Log | PanelState | Playback | Pointers | Positions | Replied | Scene | Screen | SignalValues | Targets;
+
+export type Request = Act | Afflict | AnswerQuestion | Assign | Copy | Cover | Cut | DropTrajectory | Evaluate | ForgetTrajectory | Jog | JogTo | Listen | LookAt | Play | Proceed | ReadCurves | ReadOrigin | ReadSource | RemoveBreakpoint | RunFor | RunTo | RunTrajectory | Seek | SetBreakpoint | SetMode | SetOverride | SetPace | SetSignal | SetWatch | StopOnErrors;

@@ -1,0 +1,161 @@
+"""A robot's URDF out of its chain: solids, for whoever has no meshes.
+
+The chain is what every configuration has, shipped or read from a URDF, so this always works, and
+the page draws what `axes` computes with. Passive joints (a palletiser's wrist) are joints here,
+too: URDF's mimic follows one joint only, ours may follow a sum.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import hypot
+from xml.etree.ElementTree import Element, SubElement, tostring
+
+from rapidgen.axes.frames import ORIGIN, Pose, add, scale
+from rapidgen.axes.mapping import JointMap
+from rapidgen.config.model import ChainLink, GroupConfig, Joint
+from rapidgen.viewer import primitives
+from rapidgen.viewer.primitives import text
+
+BASE = "base"
+_STOUT, _SLENDER = 0.058, 0.022
+"""Radius of the first and the last limb, as a share of the arm's length."""
+_LONGEST = 60.0
+"""m: a rail that is longer is none."""
+_SHORTEST = 0.05
+"""m: the length of an arm without lengths."""
+_UP = (0.0, 0.0, 1.0)
+ENDLESS = {"lower": "-1000000", "upper": "1000000", "effort": "0", "velocity": "0"}
+
+
+@dataclass(frozen=True, slots=True)
+class Drawing:
+    """A URDF, its movable joints and the link that carries tools."""
+
+    urdf: str
+    movable: tuple[str, ...]
+    """The group's joints in wire order, then the passive ones."""
+    flange: str
+    passive: tuple[tuple[tuple[int, float], ...], ...]
+    """Of each passive joint: places and factors of the joints that it follows the sum of."""
+    base: Pose | None = None
+    """Where its base stands among what else is drawn; None: nothing tells."""
+
+    def values(self, urdf: Sequence[float]) -> tuple[float, ...]:
+        """Values of `movable` (rad, m) for those of the group's joints."""
+        return (*urdf, *(sum(urdf[i] * k for i, k in terms) for terms in self.passive))
+
+
+def described(group: GroupConfig) -> Drawing:
+    """The description of a group; without geometry there is only its base.
+
+    Links of the arm are `link_1` and so on, one for each step of the chain; those of its
+    positioners have the unit's number in front.
+    """
+    robot = Element("robot", name=group.name)
+    base = SubElement(robot, "link", name=BASE)
+    radii = _radii(group.chain)
+    if not group.chain:
+        primitives.foot(base, radii[0], ORIGIN)
+    passive: dict[str, tuple[tuple[int, float], ...]] = {}
+    flange = _branch(robot, base, group, group.chain, radii, "link_", passive)
+    primitives.plate(flange, radii[-1] * 1.1)
+    for i, positioner in enumerate(group.positioners):
+        # What carries it is no larger than the arm's own foot, its plate is.
+        wide = [radii[0] * 1.2] * len(positioner.chain)
+        end = _branch(robot, base, group, positioner.chain, wide, f"unit_{i + 1}_", passive)
+        primitives.plate(end, radii[0] * 3.0)
+    movable = (*JointMap.of(group).names, *passive)
+    return Drawing(
+        tostring(robot, "unicode"), movable, flange.get("name", BASE), (*passive.values(),)
+    )
+
+
+def _branch(
+    robot: Element,
+    link: Element,
+    group: GroupConfig,
+    chain: Sequence[ChainLink],
+    radii: Sequence[float],
+    prefix: str,
+    passive: dict[str, tuple[tuple[int, float], ...]],
+) -> Element:
+    """Draw a chain from its base on; its last link. Passive joints are added to `passive`."""
+    names = JointMap.of(group).names
+    axis = _UP
+    stands = True
+    for i, step in enumerate(chain):
+        thin = radii[min(i + 1, len(radii) - 1)]
+        slide = next(
+            (j for j in group.joints if _slides(group, step) and j.name == step.joint), None
+        )
+        if slide is not None and stands:
+            _rail(link, step, slide, radii[i])
+        elif stands:
+            # What stands has its foot below its first axis, wherever that is.
+            primitives.foot(link, radii[i], step.xyz)
+            stands = False
+        else:
+            primitives.limb(link, axis, step.xyz, radii[i], thin)
+        name, kind = step.joint or f"fixed_{prefix}{i + 1}", "fixed"
+        if step.joint:
+            kind = "prismatic" if _slides(group, step) else "continuous"
+        elif step.follows:
+            kind, name = "continuous", f"passive_{prefix}{i + 1}"
+            passive[name] = tuple((names.index(joint), k) for joint, k in step.follows)
+        joint = SubElement(robot, "joint", name=name, type=kind)
+        SubElement(joint, "origin", xyz=text(step.xyz), rpy=text(step.rpy))
+        SubElement(joint, "parent", link=link.get("name", ""))
+        link = SubElement(robot, "link", name=f"{prefix}{i + 1}")
+        SubElement(joint, "child", link=f"{prefix}{i + 1}")
+        if kind != "fixed":
+            SubElement(joint, "axis", xyz=text(step.axis))
+            # What bounds it is said by its controller axis.
+            SubElement(joint, "limit", ENDLESS)
+        if kind == "continuous":
+            axis = step.axis
+            low = i == 0 and step.xyz[2] < radii[i] and axis == _UP
+            primitives.joint(link, radii[i], axis, scale(_UP, radii[i] * 1.3) if low else ORIGIN)
+        elif slide is not None and not stands:
+            _quill(link, step, slide, radii[i])
+    return link
+
+
+def _slides(group: GroupConfig, step: ChainLink) -> bool:
+    return any(j.name == step.joint and j.kind == "prismatic" for j in group.joints)
+
+
+def _radii(chain: Sequence[ChainLink]) -> list[float]:
+    """Of the limb to each step, stout at the base and slender at the flange."""
+    lengths = [hypot(*step.xyz) for step in chain]
+    whole = max(_SHORTEST, sum(lengths))
+    found, done = [], 0.0
+    for length in lengths or [0.0]:
+        share = done / whole
+        found.append(whole * (_STOUT + (_SLENDER - _STOUT) * share))
+        done += length
+    return found
+
+
+def _quill(link: Element, step: ChainLink, joint: Joint, radius: float) -> None:
+    """The rod that a sliding axis of an arm moves, as long as its way; its end comes out of it."""
+    first, last = _ends(joint)
+    length = abs(last - first)
+    if length < _LONGEST:
+        back = scale(step.axis, -length / 2 if first + last > 0 else length / 2)
+        primitives.cylinder(link, "body", radius * 0.35, length, back, step.axis)
+
+
+def _rail(link: Element, step: ChainLink, joint: Joint, radius: float) -> None:
+    """What a carriage slides on, from limit to limit."""
+    first, last = _ends(joint)
+    length = abs(last - first)
+    if not any(step.rpy) and length < _LONGEST:
+        middle = scale(step.axis, (first + last) / 2)
+        turned = primitives.standing(step.axis, (0.0, 1.0, 0.0))
+        size = (radius * 0.8, radius * 3.2, length + 4 * radius)
+        primitives.box(link, "housing", size, add(step.xyz, middle), turned)
+
+
+def _ends(joint: Joint) -> tuple[float, float]:
+    """Where its limits are in the sense of the URDF, m."""
+    return joint.sign * (joint.lower - joint.offset), joint.sign * (joint.upper - joint.offset)

@@ -1,0 +1,269 @@
+"""What server and page say about programs: sources, pointers, breakpoints, values."""
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from rapidgen.viewer.message_base import Spoken
+
+Name = Annotated[str, Field(max_length=200)]
+Text = Annotated[str, Field(max_length=1000)]
+Line = Annotated[int, Field(ge=1, le=1_000_000)]
+
+
+class LoadedModules(Spoken):
+    """Modules of a task. A text that two tasks share has one number."""
+
+    task: str
+    modules: dict[str, int]
+    """Numbers of their texts, by name."""
+
+
+class LoadedPrograms(Spoken):
+    """What is loaded; texts are asked for (ReadSource)."""
+
+    type: Literal["loaded"] = "loaded"
+    tasks: tuple[LoadedModules, ...]
+
+
+class SourceOrigin(Spoken):
+    """The answer to ReadOrigin: each line that a template made, the template and its line."""
+
+    lines: tuple[tuple[int, str, int], ...]
+    templates: dict[str, str]
+    """Their texts by name; none: they are not of this version."""
+
+
+class SeenPlace(Spoken):
+    """Where in a program. `made` is the template's line of a generated one."""
+
+    module: str
+    routine: str
+    line: int
+    made: str = ""
+    level: Literal["program", "trap", "event"] = "program"
+
+
+class SeenTask(Spoken):
+    """A task: what it executes, outermost routine first, and what its robot executes."""
+
+    name: str
+    state: str
+    stack: tuple[SeenPlace, ...]
+    motion: SeenPlace | None
+
+
+class Pointers(Spoken):
+    """Program pointers and motion pointers."""
+
+    type: Literal["pointers"] = "pointers"
+    time: float
+    tasks: tuple[SeenTask, ...]
+
+
+class SeenBreakpoint(Spoken):
+    """A breakpoint, and in which line it lies (0: nowhere, `doubt` says why)."""
+
+    number: int
+    task: str
+    module: str
+    line: int
+    condition: str
+    hits: str
+    log: str
+    count: int
+    doubt: str
+
+
+class SeenHalt(Spoken):
+    """Why everything is paused."""
+
+    reason: Literal["breakpoint", "step", "cursor", "error", "pause", "time"]
+    task: str
+    place: SeenPlace | None
+    text: str
+    time: float
+    """The controller's, s."""
+
+
+class Debugging(Spoken):
+    """Breakpoints, the pause, lines of log points, the latest last."""
+
+    type: Literal["debugging"] = "debugging"
+    halt: SeenHalt | None
+    breakpoints: tuple[SeenBreakpoint, ...]
+    errors: Literal["never", "unhandled", "all"]
+    output: tuple[str, ...]
+
+
+class SeenValue(Spoken):
+    """A value in RAPID's own words."""
+
+    name: str
+    kind: str
+    text: str
+    settable: bool
+
+
+class HeldValues(Spoken):
+    """What the routine that is looked at holds, and the watch list."""
+
+    type: Literal["held"] = "held"
+    task: str
+    level: int
+    """Place in the call stack, 0 the outermost; -1: nothing is executed."""
+    variables: tuple[SeenValue, ...]
+    watch: tuple[SeenValue, ...]
+
+
+class Covered(Spoken):
+    """How often the lines of a text were reached; only where a statement begins."""
+
+    type: Literal["covered"] = "covered"
+    source: int
+    lines: dict[int, int]
+
+
+# -- from the page --------------------------------------------------------------------------------
+
+
+class ReadSource(Spoken):
+    """The reply's text is a source."""
+
+    do: Literal["source"] = "source"
+    number: int
+
+
+class ReadOrigin(Spoken):
+    """The reply's text is a SourceOrigin, of a source by its number."""
+
+    do: Literal["origin"] = "origin"
+    number: int
+
+
+class SetBreakpoint(Spoken):
+    """A new one, or another wish for one that is there; the reply's text is its number."""
+
+    do: Literal["break"] = "break"
+    number: int = 0
+    """0: a new one."""
+    module: Name
+    line: Line
+    task: Name = ""
+    condition: Text = ""
+    hits: Name = ""
+    log: Text = ""
+
+
+class RemoveBreakpoint(Spoken):
+    """Take one away."""
+
+    do: Literal["unbreak"] = "unbreak"
+    number: int
+
+
+class Proceed(Spoken):
+    """Pause, go on, step a task."""
+
+    do: Literal["drive"] = "drive"
+    how: Literal["pause", "resume", "in", "over", "out"]
+    task: Name = ""
+
+
+class RunTo(Spoken):
+    """Go on to a line."""
+
+    do: Literal["run-to"] = "run-to"
+    task: Name
+    module: Name
+    line: Line
+
+
+class RunFor(Spoken):
+    """Go on for so many seconds of the controller's time."""
+
+    do: Literal["run-for"] = "run-for"
+    seconds: Annotated[float, Field(gt=0, le=3600)]
+
+
+class StopOnErrors(Spoken):
+    """At which errors everything pauses."""
+
+    do: Literal["errors"] = "errors"
+    errors: Literal["never", "unhandled", "all"]
+
+
+class LookAt(Spoken):
+    """Show the values of a routine of a call stack from now on; -1: the innermost."""
+
+    do: Literal["look"] = "look"
+    task: Name
+    level: Annotated[int, Field(ge=-1, le=10_000)] = -1
+
+
+class Evaluate(Spoken):
+    """The reply's text is the value of an expression where it is looked at."""
+
+    do: Literal["evaluate"] = "evaluate"
+    expression: Text
+
+
+class Assign(Spoken):
+    """Set a datum, an element or a component where it is looked at."""
+
+    do: Literal["assign"] = "assign"
+    target: Text
+    value: Text
+
+
+class SetWatch(Spoken):
+    """The watch list."""
+
+    do: Literal["watch"] = "watch"
+    expressions: Annotated[tuple[Text, ...], Field(max_length=50)]
+
+
+class Cover(Spoken):
+    """Count how often lines are reached from now on, or no more."""
+
+    do: Literal["cover"] = "cover"
+    on: bool
+
+
+# -- recordings -----------------------------------------------------------------------------------
+
+
+class Playback(Spoken):
+    """Where a recording is looked at; times in s. `rate` 0: it stands."""
+
+    type: Literal["playback"] = "playback"
+    begin: float
+    end: float
+    time: float
+    rate: float
+    fault: str
+    """What of it cannot be shown, or is lost."""
+
+
+class Seek(Spoken):
+    """Go to a moment."""
+
+    do: Literal["seek"] = "seek"
+    time: Annotated[float, Field(allow_inf_nan=False)]
+
+
+class Play(Spoken):
+    """Let it run, at so many seconds in a second; 0 stops."""
+
+    do: Literal["play"] = "play"
+    rate: Annotated[float, Field(ge=0, le=100)]
+
+
+class ReadCurves(Spoken):
+    """The reply's text is PlotData (JSON) of a robot's axes or of a signal."""
+
+    do: Literal["curves"] = "curves"
+    robot: Name = ""
+    signal: Name = ""
+    begin: Annotated[float, Field(allow_inf_nan=False)]
+    end: Annotated[float, Field(allow_inf_nan=False)]

@@ -1,0 +1,117 @@
+"""What robots looked like, in a recording: their drawings, and the meshes that these name.
+
+Meshes are attachments, each once, named by what is in it. A file may come from anywhere: what does
+not fit the robots, or is not what its name says, is not drawn, and that is said.
+"""
+
+import hashlib
+import re
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
+from types import MappingProxyType
+from typing import Final
+
+from pydantic import ValidationError
+
+from rapidgen.axes.frames import Pose
+from rapidgen.axes.mapping import JointMap
+from rapidgen.config.model import GroupConfig
+from rapidgen.config.urdf.source import xml_fault
+from rapidgen.viewer.appearance import Appearance
+from rapidgen.viewer.messages import SeenThing
+from rapidgen.viewer.primitive_urdf import Drawing
+from rapidgen.viewer.recording.messages import Recorded
+
+MOST: Final = 64_000_000
+"""Bytes of all meshes of a recording."""
+_MESH = re.compile(r"mesh-([0-9a-f]{20})(\.stl|\.obj|\.dae)", re.ASCII)
+
+
+class RecordedLook(Recorded):
+    """`Appearance` without the meshes."""
+
+    drawings: dict[str, Drawing]
+    things: tuple[SeenThing, ...]
+    bases: dict[str, Pose]
+    faults: tuple[str, ...]
+
+
+def carried(look: Appearance, most: int = MOST) -> Appearance:
+    """What of a look a recording has: meshes in their order while there is room."""
+    files: dict[str, bytes] = {}
+    left: list[int] = []
+    room = most
+    for name, data in look.files.items():
+        if len(data) > room:
+            left.append(len(data))
+        else:
+            room -= len(data)
+            files[name] = data
+    if not left:
+        return look
+    told = (
+        f"{len(left)} of {len(look.files)} meshes ({sum(left) / 1e6:.1f} MB) are not in the "
+        f"recording: it carries {most / 1e6:.0f} MB of them"
+    )
+    return replace(_with(look, files), faults=(*look.faults, told))
+
+
+def written(look: Appearance) -> bytes:
+    """All but the meshes, JSON."""
+    found = RecordedLook(
+        drawings=dict(look.drawings), things=look.things, bases=dict(look.bases), faults=look.faults
+    )
+    return found.model_dump_json().encode()
+
+
+def read(data: bytes, meshes: Mapping[str, bytes], groups: Iterable[GroupConfig]) -> Appearance:
+    """What was written. ValueError: it cannot be read."""
+    try:
+        found = RecordedLook.model_validate_json(data)
+    except ValidationError as error:
+        fault = error.errors(include_url=False, include_input=False)[0]
+        raise ValueError(fault["msg"]) from error
+    drawings, faults = {}, list(found.faults)
+    for group in groups:
+        drawing = found.drawings.get(group.name)
+        if drawing is not None and (why := _misfit(drawing, group)):
+            faults.append(f"the drawing of {group.name} is not its own: {why}")
+        elif drawing is not None:
+            drawings[group.name] = drawing
+    files = {name: mesh for name, mesh in meshes.items() if _is_mesh(name, mesh)}
+    if len(files) < len(meshes):
+        faults.append(f"{len(meshes) - len(files)} meshes are damaged")
+    look = Appearance(drawings, {}, tuple(faults), found.things, found.bases)
+    return _with(look, files)
+
+
+def _with(look: Appearance, files: Mapping[str, bytes]) -> Appearance:
+    """A look with these meshes alone: solids stand in for the others."""
+
+    def known(name: re.Match[str]) -> str:
+        return name[0] if name[0] in files else ""
+
+    drawings = {
+        name: replace(drawing, urdf=_MESH.sub(known, drawing.urdf))
+        for name, drawing in look.drawings.items()
+    }
+    things = tuple(thing for thing in look.things if thing.mesh in files)
+    return replace(look, drawings=drawings, things=things, files=MappingProxyType(dict(files)))
+
+
+def _misfit(drawing: Drawing, group: GroupConfig) -> str:
+    names = JointMap.of(group).names
+    if drawing.movable[: len(names)] != names:
+        return "it has other joints"
+    if len(drawing.movable) != len(names) + len(drawing.passive):
+        return "it has other passive joints"
+    if not all(0 <= i < len(names) for terms in drawing.passive for i, _ in terms):
+        return "a joint follows one that is not there"
+    return xml_fault(drawing.urdf.encode())
+
+
+def _is_mesh(name: str, data: bytes) -> bool:
+    told = _MESH.fullmatch(name)
+    if told is None or hashlib.sha256(data).hexdigest()[:20] != told[1]:
+        return False
+    return told[2] != ".dae" or not xml_fault(data)

@@ -1,0 +1,100 @@
+"""A configured robot in the page's words."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from math import hypot
+
+from rapidgen.axes import frames
+from rapidgen.axes.chain import along, steps_of
+from rapidgen.axes.kinematics import Kinematics, Posture
+from rapidgen.config.model import GroupConfig, Placement
+from rapidgen.viewer.messages import Axis, Pose, SeenRobot
+from rapidgen.viewer.primitive_urdf import Drawing
+
+_SAME = 0.05
+"""m between two feet that are one place."""
+_ROOM = 1.4
+"""Of an arm's length, between two robots."""
+
+
+def group_of(config: GroupConfig, description: Drawing) -> SeenRobot:
+    """What the page draws of a robot, and how its axes are called and bounded."""
+    return SeenRobot(
+        name=config.name,
+        task=config.task,
+        unit=config.mechanical_unit,
+        urdf=description.urdf,
+        flange=description.flange,
+        movable=description.movable,
+        axes=tuple(
+            Axis(
+                name=joint.name,
+                axis=joint.axis,
+                kind=joint.kind,
+                lower=joint.lower,
+                upper=joint.upper,
+                speed=joint.speed,
+            )
+            for joint in config.joints
+        ),
+        has_geometry=bool(config.chain),
+        base=pose_of(description.base or frames.IDENTITY),
+    )
+
+
+def side_by_side(
+    configs: Sequence[GroupConfig], drawings: Sequence[Drawing]
+) -> Iterator[SeenRobot]:
+    """The robots, those apart that would stand in one another where nothing tells their place."""
+    standing: list[frames.Vector] = []
+    y = 0.0
+    for config, drawing in zip(configs, drawings, strict=True):
+        robot = group_of(config, drawing)
+        foot = frames.transform(drawing.base or frames.IDENTITY, _foot(config))
+        if drawing.base is None and any(
+            hypot(foot[0] - x, foot[1] - y) < _SAME for x, y, _ in standing
+        ):
+            y += _ROOM * sum(hypot(*step.xyz) for step in config.chain)
+            robot = robot.model_copy(
+                update={"base": Pose(position=(0.0, -y, 0.0), orientation=frames.UNIT)}
+            )
+        standing.append(foot)
+        yield robot
+
+
+def _foot(config: GroupConfig) -> frames.Vector:
+    """Where the first axis is."""
+    steps = steps_of(config, config.chain)
+    first = next((i for i, step in enumerate(steps) if step.joint >= 0), -1)
+    return along(steps[: first + 1], (0.0,) * len(config.joints))[0]
+
+
+def pose_of(frame: frames.Pose) -> Pose:
+    """A frame as the page has it."""
+    return Pose(position=frame[0], orientation=frame[1])
+
+
+@dataclass(frozen=True, slots=True)
+class Carried:
+    """Tool and work object: in the flange what the robot holds, in the world what stands."""
+
+    tool: frames.Pose
+    held: bool
+    object: frames.Pose
+
+    @classmethod
+    def configured(cls, config: GroupConfig) -> "Carried":
+        """Those of the configuration."""
+        placed = config.work_object
+        whole = frames.compose(_frame(placed.user_frame), _frame(placed.object_frame))
+        return cls(_frame(config.tool.frame), config.tool.held, whole)
+
+    def tcp(self, kinematics: Kinematics | None, posture: Posture) -> frames.Pose | None:
+        """The TCP in the world (a stationary one stands); None: there is no geometry."""
+        if not self.held:
+            return self.tool
+        return frames.compose(kinematics.forward(posture), self.tool) if kinematics else None
+
+
+def _frame(placement: Placement) -> frames.Pose:
+    return placement.position, placement.orientation

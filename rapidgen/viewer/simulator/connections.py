@@ -1,0 +1,158 @@
+"""The network of a virtual controller: who is connected, what is said, what goes wrong."""
+
+from collections import deque
+from collections.abc import Iterable, Iterator, Mapping
+
+from rapidgen.controller.runner import Cabinet
+from rapidgen.machine.network.fault_injection import FaultyNetwork
+from rapidgen.machine.network.fault_rules import NetworkRule
+from rapidgen.machine.network.interface import SocketAddress
+from rapidgen.machine.network.sockets import SocketDevice, SocketNews
+from rapidgen.viewer.messages import Request, ToPage
+from rapidgen.viewer.network_messages import (
+    Afflict,
+    Ailment,
+    Connections,
+    Conversation,
+    Cut,
+    Listen,
+    ShownSocket,
+    SpokenLine,
+)
+from rapidgen.viewer.provider import Declined, Handler
+from rapidgen.viewer.socket_log import Interpreter, SocketPiece
+
+_KEPT = 500
+"""Pieces between two looks; older ones are counted only."""
+_TOLD = 300
+"""Lines that whoever comes is told."""
+RULES: Mapping[Ailment, NetworkRule] = {
+    "well": NetworkRule("delay", seconds=0.0),
+    "delay": NetworkRule("delay", seconds=0.5),
+    "split": NetworkRule("split", bytes=3, seconds=0.005),
+    "slow": NetworkRule("slow", bytes=400),
+    "silent": NetworkRule("silent"),
+    "half-open": NetworkRule("half-open"),
+}
+
+
+class ConnectionsAspect:
+    """Sockets in use, what they say while somebody listens, and cables that are pulled."""
+
+    def __init__(self, cabinet: Cabinet) -> None:
+        self._controller = cabinet.controller
+        self._sockets = cabinet.controller.sockets
+        self._told: tuple[ShownSocket, ...] = ()
+        self._ailments: dict[SocketDevice, Ailment] = {}
+        self._interpreter: Interpreter | None = None
+        self._heard: deque[SocketPiece] = deque(maxlen=_KEPT)
+        self._count = 0
+        self._latest: deque[Conversation] = deque(maxlen=_TOLD // 4)
+        self._listened = False
+
+    def whole(self) -> Iterable[ToPage]:
+        """All of them, and the latest that was said."""
+        yield Connections(sockets=self._now())
+        lines = [line for said in self._latest for line in said.lines][-_TOLD:]
+        listening = self._interpreter is not None
+        yield Conversation(listening=listening, lines=tuple(lines), fresh=True)
+
+    def changes(self) -> Iterable[ToPage]:
+        """All of them, where one has changed; what was said."""
+        now = self._now()
+        if now != self._told:
+            self._told = now
+            yield Connections(sockets=now)
+        listening = self._interpreter is not None
+        if self._count or listening != self._listened:
+            self._listened = listening
+            said = self._said()
+            self._latest.append(said)
+            yield said
+
+    def _said(self) -> Conversation:
+        heard, self._heard = self._heard, deque(maxlen=_KEPT)
+        missed, self._count = self._count - len(heard), 0
+        lines = [line for piece in heard for line in self._lines(piece)]
+        return Conversation(
+            listening=self._interpreter is not None, lines=tuple(lines), missed=missed
+        )
+
+    def _lines(self, piece: SocketPiece) -> Iterator[SpokenLine]:
+        if self._interpreter is not None:
+            yield from self._interpreter.lines(piece)
+
+    def handlers(self) -> Mapping[type, Handler]:
+        """Cutting one, making one ill, listening."""
+        return {Cut: self._cut, Afflict: self._afflict, Listen: self._listen}
+
+    def _now(self) -> tuple[ShownSocket, ...]:
+        return tuple(
+            _shown(device, task, self._ailments.get(device, "well"))
+            for device, task in self._sockets.in_use.items()
+        )
+
+    def _connected(self, number: int) -> SocketDevice:
+        for device in self._sockets.in_use:
+            if id(device) == number and _peer(device):
+                return device
+        raise Declined("this connection has gone")
+
+    def _cut(self, request: Request) -> str:
+        assert isinstance(request, Cut)
+        self._sockets.cut(self._connected(request.number))
+        return ""
+
+    def _afflict(self, request: Request) -> str:
+        assert isinstance(request, Afflict)
+        device, network = self._connected(request.number), self._controller.network
+        if not isinstance(network, FaultyNetwork) or device.endpoint is None or device.udp:
+            raise Declined("this connection cannot be made worse")
+        if self._ailments.get(device) in ("silent", "half-open") and request.ailment != "silent":
+            raise Declined("what was lost does not come again: cut it")
+        network.afflict(device.endpoint, RULES[request.ailment])
+        self._ailments = {d: a for d, a in self._ailments.items() if d in self._sockets.in_use}
+        self._ailments[device] = request.ailment
+        return ""
+
+    def _listen(self, request: Request) -> str:
+        assert isinstance(request, Listen)
+        listeners = self._sockets.listeners
+        if request.on and self._interpreter is None:
+            self._interpreter = Interpreter()
+            listeners.append(self._hear)
+        elif not request.on and self._interpreter is not None:
+            self._interpreter = None
+            listeners.remove(self._hear)
+            self._latest.clear()
+        return ""
+
+    def _hear(self, news: SocketNews) -> None:
+        peer = "" if news.peer is None else _text(news.peer)
+        self._count += 1
+        self._heard.append(
+            SocketPiece(
+                self._controller.now, news.change, news.task, _text(news.local), peer, news.data
+            )
+        )
+
+
+def _text(address: SocketAddress) -> str:
+    return f"{address[0]}:{address[1]}"
+
+
+def _peer(device: SocketDevice) -> str:
+    peer = device.endpoint.peer if device.endpoint else None
+    return _text(peer) if peer else ""
+
+
+def _shown(device: SocketDevice, task: str, ailment: Ailment) -> ShownSocket:
+    local = device.endpoint.local if device.endpoint else None
+    return ShownSocket(
+        number=id(device),
+        task=task,
+        status=device.status.name.lower(),
+        local=_text(local) if local else "",
+        peer=_peer(device),
+        ailment=ailment if _peer(device) else "well",
+    )

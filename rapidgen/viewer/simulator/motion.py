@@ -1,0 +1,149 @@
+"""The robots of a virtual controller: what they look like, and where they are."""
+
+from collections.abc import Iterable, Mapping
+
+from rapidgen.axes import frames
+from rapidgen.axes.kinematics import Posture
+from rapidgen.axes.limits import outside
+from rapidgen.controller.runner import Cabinet
+from rapidgen.motion.group import MotionGroup
+from rapidgen.motion.moves import Carrier
+from rapidgen.runtime.task.task import Task
+from rapidgen.viewer.appearance import PLAIN, Appearance
+from rapidgen.viewer.messages import Copy, Jog, JogTo, Positions, Request, RobotPlace, Scene, ToPage
+from rapidgen.viewer.pose_snippets import copied
+from rapidgen.viewer.primitive_urdf import Drawing
+from rapidgen.viewer.provider import Declined, Handler
+from rapidgen.viewer.robots import Carried, pose_of, side_by_side
+
+
+class MotionAspect:
+    """The scene, positions, and the robots put elsewhere by hand."""
+
+    def __init__(self, cabinet: Cabinet, look: Appearance = PLAIN) -> None:
+        self._controller = cabinet.controller
+        self._look = look
+        self._scheduler = cabinet.controller.scheduler
+        self._groups = tuple(self._controller.motion.groups.values())
+        self._drawings = tuple(look.of(group.config) for group in self._groups)
+        self._told: tuple[RobotPlace, ...] = ()
+        self._last: dict[str, Carrier] = {}
+
+    def whole(self) -> Iterable[ToPage]:
+        """What is there and where it is."""
+        configs = [group.config for group in self._groups]
+        yield Scene(
+            title=self._controller.system.name,
+            kind="simulation",
+            may_command=True,
+            groups=tuple(side_by_side(configs, self._drawings)),
+            things=self._look.things,
+            faults=self._look.faults,
+        )
+        yield self._state(self._now())
+
+    def changes(self) -> Iterable[ToPage]:
+        """Positions, where one has changed."""
+        now = self._now()
+        if now != self._told:
+            self._told = now
+            yield self._state(now)
+
+    def handlers(self) -> Mapping[type, Handler]:
+        """Jogging, and positions as text."""
+        return {Jog: self._jog, JogTo: self._jog_to, Copy: self._copy}
+
+    def _state(self, groups: tuple[RobotPlace, ...]) -> Positions:
+        return Positions(time=self._controller.now, groups=groups)
+
+    def _now(self) -> tuple[RobotPlace, ...]:
+        return tuple(map(self._of, self._groups, self._drawings))
+
+    def _of(self, group: MotionGroup, drawing: Drawing) -> RobotPlace:
+        actual = group.positions()
+        carried = self._carried(group)
+        tcp = carried.tcp(group.kinematics, actual)
+        return RobotPlace(
+            joints=drawing.values(group.map.to_urdf(actual)),
+            commanded=drawing.values(group.map.to_urdf(group.commanded())),
+            axes=actual,
+            tcp=None if tcp is None else pose_of(tcp),
+            tool=pose_of(carried.tool),
+            tool_held=carried.held,
+            work_object=pose_of(carried.object),
+            standing=group.is_standing,
+        )
+
+    def _carried(self, group: MotionGroup) -> Carried:
+        carrier = self._carrier(group)
+        if carrier is None:
+            return Carried.configured(group.config)
+        now = carrier.at(group.positions())
+        return Carried(now.tool, not now.stationary, now.object)
+
+    def _carrier(self, group: MotionGroup) -> Carrier | None:
+        """That of the last move, also when its path has been dropped since, as by a jog."""
+        move = group.motion.move(self._scheduler.now)
+        if move is not None:
+            self._last[group.name] = move.carrier
+        return self._last.get(group.name)
+
+    def _tasks(self) -> Iterable[Task]:
+        return self._controller.rapid_tasks.values()
+
+    def _jog(self, request: Request) -> str:
+        assert isinstance(request, Jog)
+        group = self._group(request.group)
+        joints = group.config.joints
+        if len(request.axes) != len(joints):
+            raise Declined(f"{group.name} has {len(joints)} axes")
+        here = group.positions()
+        axes = tuple(
+            now if own is None else now + own if request.relative else own
+            for own, now in zip(request.axes, here, strict=True)
+        )
+        self._put(group, axes)
+        return ""
+
+    def _jog_to(self, request: Request) -> str:
+        assert isinstance(request, JogTo)
+        group = self._group(request.group)
+        carried, kinematics = self._carried(group), group.kinematics
+        now = carried.tcp(kinematics, group.positions())
+        if kinematics is None or now is None or not carried.held:
+            raise Declined(f"{group.name} does not carry its TCP")
+        turned = request.orientation or now[1]
+        if not any(turned):
+            raise Declined("this is no orientation")
+        x, y, z = (
+            own if own is not None else at for own, at in zip(request.position, now[0], strict=True)
+        )
+        flange = frames.compose(((x, y, z), frames.normalise(turned)), frames.invert(carried.tool))
+        found = kinematics.follow(flange, group.positions())
+        if found is None:
+            raise Declined("the TCP does not reach that place as the arm is bent now")
+        self._put(group, found)
+        return ""
+
+    def _put(self, group: MotionGroup, axes: Posture) -> None:
+        for fault in outside(group.config.joints, axes):
+            raise Declined(f"{fault.joint.name} would leave its range")
+        if any(t.state == "running" and t.spec.motion for t in self._tasks()):
+            raise Declined("a program has the robot: stop it first")
+        self._carrier(group)  # Remembered: the path may be dropped.
+        try:
+            group.jog(axes)
+        except ValueError as error:
+            raise Declined(str(error)) from error
+
+    def _copy(self, request: Request) -> str:
+        assert isinstance(request, Copy)
+        group = self._group(request.group)
+        posture, carried = group.positions(), self._carried(group)
+        return copied(request, group.map, group.kinematics, posture, carried)
+
+    def _group(self, name: str) -> MotionGroup:
+        group = self._controller.motion.groups.get(name)
+        if group is None:
+            raise Declined(f"there is no robot {name}")
+        return group

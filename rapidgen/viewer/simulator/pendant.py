@@ -1,0 +1,84 @@
+"""The pendant of a virtual controller: its state, its buttons, its key, and how fast time is."""
+
+from collections.abc import Iterable, Mapping
+
+from rapidgen.controller.runner import Cabinet
+from rapidgen.viewer.messages import Act, PanelState, Request, SetMode, SetOverride, SetPace, ToPage
+from rapidgen.viewer.provider import Declined, Handler
+
+_EVERY = 0.5
+"""s of the controller's time after which its clock is told without another reason."""
+
+
+class PendantAspect:
+    """PanelState, and what changes it."""
+
+    def __init__(self, cabinet: Cabinet) -> None:
+        self._controller = cabinet.controller
+        self._told: PanelState | None = None
+
+    def whole(self) -> Iterable[ToPage]:
+        """The status."""
+        yield self._status()
+
+    def changes(self) -> Iterable[ToPage]:
+        """The status, where it differs or its time is old."""
+        now, told = self._status(), self._told
+        same = told is not None and now.model_copy(update={"time": told.time}) == told
+        if told is None or not same or now.time >= told.time + _EVERY:
+            self._told = now
+            yield now
+
+    def handlers(self) -> Mapping[type, Handler]:
+        """Buttons, key, speed and pace."""
+        return {
+            Act: self._act,
+            SetMode: self._mode,
+            SetOverride: self._override,
+            SetPace: self._pace,
+        }
+
+    def _status(self) -> PanelState:
+        c = self._controller
+        tasks = {task.name: task.state for task in c.rapid_tasks.values()}
+        return PanelState(
+            time=c.now,
+            mode=c.mode,
+            motors_on=c.motors_on,
+            e_stop=c.e_stop,
+            execution_error=c.execution_error,
+            failed=c.failed,
+            running=any(
+                t.state == "running" for t in c.rapid_tasks.values() if t.spec.type == "NORMAL"
+            ),
+            tasks=tasks,
+            override=min((g.override for g in c.motion.groups.values()), default=1.0),
+            pace=c.scheduler.speed,
+        )
+
+    def _act(self, request: Request) -> str:
+        assert isinstance(request, Act)
+        c = self._controller
+        if request.action == "start" and not c.start_program():
+            raise Declined("the start was refused: the event log says why")
+        if request.action == "pp-to-main" and self._status().running:
+            raise Declined("a program runs: stop it first")
+        if request.action != "start":
+            c.perform(request.action)
+        return ""
+
+    def _mode(self, request: Request) -> str:
+        assert isinstance(request, SetMode)
+        self._controller.set_mode(request.mode)
+        return ""
+
+    def _override(self, request: Request) -> str:
+        assert isinstance(request, SetOverride)
+        for group in self._controller.motion.groups.values():
+            group.override = request.value
+        return ""
+
+    def _pace(self, request: Request) -> str:
+        assert isinstance(request, SetPace)
+        self._controller.scheduler.pace(request.value)
+        return ""

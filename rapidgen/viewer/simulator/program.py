@@ -1,0 +1,327 @@
+"""The programs of a virtual controller: sources, pointers, and its debugger."""
+
+from collections.abc import Callable, Iterable, Mapping
+
+from rapidgen.controller.debugger import Breakpoint, Debugger, Halt, NotNow, Placed, Shown
+from rapidgen.controller.debugger.stack import Level, StackFrame
+from rapidgen.controller.runner import Cabinet
+from rapidgen.controller.tracing import Coverage
+from rapidgen.generate.source_map import origin_of
+from rapidgen.runtime.errors import Location
+from rapidgen.viewer import program_messages as p
+from rapidgen.viewer.messages import Request, ToPage
+from rapidgen.viewer.provider import Declined, Handler
+
+_LINES = 200
+"""Lines of log points that are told."""
+_COVERED_EVERY = 1.0
+"""s of the controller's time between two counts of lines."""
+
+
+class ProgramAspect:
+    """What is executed, and what stops it. Breakpoints stay over a restart."""
+
+    def __init__(self, cabinet: Cabinet) -> None:
+        self._controller = cabinet.controller
+        self._tasks = cabinet.controller.rapid_tasks
+        self._debugger = Debugger(cabinet.controller, cabinet.breakpoints)
+        self._asked = cabinet.breakpoints
+        self._texts: dict[str, int] = {}
+        self._task = next(iter(self._tasks), "")
+        self._level = -1
+        self._watch: tuple[str, ...] = ()
+        self._coverage: Coverage | None = None
+        self._counted = -_COVERED_EVERY
+        self._covered: dict[int, dict[int, int]] = {}
+        self._told: dict[type, ToPage] = {}
+
+    # -- what is told ----------------------------------------------------------------------------
+
+    def whole(self) -> Iterable[ToPage]:
+        """All of it."""
+        yield self._loaded()
+        yield self._pointers()
+        yield self._debugging()
+        yield self._values()
+        for source, lines in self._covered.items():
+            yield p.Covered(source=source, lines=lines)
+
+    def changes(self) -> Iterable[ToPage]:
+        """What differs from what was told."""
+        for now in (self._loaded(), self._pointers(), self._debugging(), self._values()):
+            before = self._told.get(type(now))
+            if isinstance(now, p.Pointers) and isinstance(before, p.Pointers):
+                before = before.model_copy(update={"time": now.time})
+            if now != before:
+                self._told[type(now)] = now
+                yield now
+        yield from self._lines()
+
+    def _loaded(self) -> p.LoadedPrograms:
+        return p.LoadedPrograms(
+            tasks=tuple(
+                p.LoadedModules(
+                    task=name,
+                    modules={
+                        module.name: self._number(module.tree.source.text)
+                        for module in task.program.modules.values()
+                        if not module.installed
+                    },
+                )
+                for name, task in self._tasks.items()
+            )
+        )
+
+    def _number(self, text: str) -> int:
+        return self._texts.setdefault(text, len(self._texts))
+
+    def _pointers(self) -> p.Pointers:
+        seen = []
+        for name, task in self._tasks.items():
+            motion = self._debugger.motion_pointer(name)
+            seen.append(
+                p.SeenTask(
+                    name=name,
+                    state=task.state,
+                    stack=tuple(map(_of_frame, self._debugger.frames(name))),
+                    motion=_place(motion) if motion is not None else None,
+                )
+            )
+        return p.Pointers(time=self._controller.now, tasks=tuple(seen))
+
+    def _debugging(self) -> p.Debugging:
+        debugger = self._debugger
+        return p.Debugging(
+            halt=_halt(debugger.halt, self._controller.now) if debugger.halt is not None else None,
+            breakpoints=tuple(map(_breakpoint, debugger.placed.values())),
+            errors=debugger.errors,
+            output=tuple(
+                f"{told.time:.3f}  {told.task}  {told.text}" for told in debugger.output[-_LINES:]
+            ),
+        )
+
+    def _values(self) -> p.HeldValues:
+        """Values are told while everything stands: they would flicker else, and cost."""
+        debugger = self._debugger
+        halted = debugger.halt is not None
+        frames = debugger.frames(self._task) if halted and self._task in self._tasks else ()
+        level = len(frames) - 1 if self._level < 0 else min(self._level, len(frames) - 1)
+        variables = debugger.variables(self._task, level) if frames else ()
+        return p.HeldValues(
+            task=self._task,
+            level=level,
+            variables=tuple(map(_value, variables)),
+            watch=tuple(self._watched(text, level) for text in self._watch),
+        )
+
+    def _watched(self, text: str, level: int) -> p.SeenValue:
+        if self._debugger.halt is None:
+            return p.SeenValue(name=text, kind="", text="", settable=False)
+        try:
+            return _value(self._debugger.evaluate(self._task, text, level))
+        except NotNow as reason:
+            return p.SeenValue(name=text, kind="", text=f"({reason})", settable=False)
+
+    def _lines(self) -> Iterable[ToPage]:
+        now = self._controller.now
+        if self._coverage is None or now < self._counted + _COVERED_EVERY:
+            return
+        self._counted = now
+        found = self._coverage.lines()
+        for task in self._tasks.values():
+            for module in task.program.modules.values():
+                lines, number = (
+                    found.get(module.file.path, {}),
+                    self._texts.get(module.tree.source.text),
+                )
+                if number is not None and self._covered.get(number) != lines:
+                    self._covered[number] = lines
+                    yield p.Covered(source=number, lines=lines)
+
+    # -- what is asked ---------------------------------------------------------------------------
+
+    def handlers(self) -> Mapping[type, Handler]:
+        """Everything that the debugger does."""
+        found: dict[type, Handler] = {
+            p.ReadSource: self._source,
+            p.ReadOrigin: self._origin,
+            p.SetBreakpoint: self._break,
+            p.RemoveBreakpoint: self._unbreak,
+            p.Proceed: self._drive,
+            p.RunTo: self._run_to,
+            p.RunFor: self._run_for,
+            p.StopOnErrors: self._stop_on,
+            p.LookAt: self._look,
+            p.Evaluate: self._evaluate,
+            p.Assign: self._assign,
+            p.SetWatch: self._set_watch,
+            p.Cover: self._cover,
+        }
+        return {kind: _told(handler) for kind, handler in found.items()}
+
+    def _source(self, request: Request) -> str:
+        assert isinstance(request, p.ReadSource)
+        found = next((t for t, number in self._texts.items() if number == request.number), None)
+        if found is None:
+            raise Declined("it is not loaded any more")
+        return found
+
+    def _origin(self, request: Request) -> str:
+        assert isinstance(request, p.ReadOrigin)
+        for task in self._tasks.values():
+            for module in task.program.modules.values():
+                text = module.tree.source.text
+                if self._texts.get(text) == request.number and module.file.origin:
+                    found = origin_of(text, module.file.origin)
+                    told = p.SourceOrigin(lines=found.lines, templates=dict(found.templates))
+                    return told.model_dump_json()
+        raise Declined("no template made it")
+
+    def _break(self, request: Request) -> str:
+        assert isinstance(request, p.SetBreakpoint)
+        asked = Breakpoint(
+            request.module,
+            request.line,
+            request.task,
+            request.condition,
+            request.hits,
+            request.log,
+        )
+        try:
+            if request.number:
+                self._debugger.change(request.number, asked)
+                self._keep()
+                return str(request.number)
+            placed = self._debugger.add(asked)
+        except KeyError as error:
+            raise Declined("that breakpoint has been taken away") from error
+        except ValueError as error:
+            raise Declined(str(error)) from error
+        if not placed.line:
+            self._debugger.remove(placed.number)
+            raise Declined(placed.doubt)
+        self._keep()
+        return str(placed.number)
+
+    def _unbreak(self, request: Request) -> str:
+        assert isinstance(request, p.RemoveBreakpoint)
+        self._debugger.remove(request.number)
+        self._keep()
+        return ""
+
+    def _keep(self) -> None:
+        self._asked[:] = [placed.asked for placed in self._debugger.placed.values()]
+
+    def _drive(self, request: Request) -> str:
+        assert isinstance(request, p.Proceed)
+        match request.how:
+            case "pause":
+                self._debugger.pause()
+            case "resume":
+                self._debugger.resume()
+            case kind:
+                self._known(request.task)
+                self._debugger.step(request.task, kind)
+        return ""
+
+    def _run_to(self, request: Request) -> str:
+        assert isinstance(request, p.RunTo)
+        self._known(request.task)
+        self._debugger.run_to(request.task, request.module, request.line)
+        return ""
+
+    def _run_for(self, request: Request) -> str:
+        assert isinstance(request, p.RunFor)
+        self._debugger.run_for(request.seconds)
+        return ""
+
+    def _stop_on(self, request: Request) -> str:
+        assert isinstance(request, p.StopOnErrors)
+        self._debugger.errors = request.errors
+        return ""
+
+    def _look(self, request: Request) -> str:
+        assert isinstance(request, p.LookAt)
+        self._known(request.task)
+        self._task, self._level = request.task, request.level
+        return ""
+
+    def _evaluate(self, request: Request) -> str:
+        assert isinstance(request, p.Evaluate)
+        found = self._debugger.evaluate(self._task, request.expression, self._here())
+        return f"{found.text}  ({found.type})"
+
+    def _assign(self, request: Request) -> str:
+        assert isinstance(request, p.Assign)
+        here = self._here()
+        return self._debugger.assign(self._task, request.target, request.value, here).text
+
+    def _here(self) -> int:
+        return min(self._level, len(self._debugger.frames(self._task)) - 1)
+
+    def _set_watch(self, request: Request) -> str:
+        assert isinstance(request, p.SetWatch)
+        self._watch = request.expressions
+        return ""
+
+    def _cover(self, request: Request) -> str:
+        assert isinstance(request, p.Cover)
+        if request.on and self._coverage is None:
+            self._coverage = Coverage(self._controller)
+            for task in self._tasks.values():
+                task.report_statements()
+        elif not request.on and self._coverage is not None:
+            self._coverage.stop()
+            self._coverage = None
+        return ""
+
+    def _known(self, task: str) -> None:
+        if task not in self._tasks:
+            raise Declined(f"there is no task {task}")
+
+
+def _told(handler: Callable[[Request], str]) -> Handler:
+    """What the debugger cannot do is not done."""
+
+    def carried_out(request: Request) -> str:
+        try:
+            return handler(request)
+        except NotNow as reason:
+            raise Declined(str(reason)) from reason
+
+    return carried_out
+
+
+def _place(at: Location, level: Level = "program") -> p.SeenPlace:
+    made = f"{at.origin[0]}:{at.origin[1]}" if at.origin is not None else ""
+    return p.SeenPlace(
+        module=at.module, routine=at.routine, line=at.span.line, made=made, level=level
+    )
+
+
+def _of_frame(frame: StackFrame) -> p.SeenPlace:
+    return _place(frame.place, frame.level)
+
+
+def _halt(halt: Halt, time: float) -> p.SeenHalt:
+    place = _place(halt.place) if halt.place is not None else None
+    return p.SeenHalt(reason=halt.reason, task=halt.task, place=place, text=halt.text, time=time)
+
+
+def _breakpoint(placed: Placed) -> p.SeenBreakpoint:
+    asked = placed.asked
+    return p.SeenBreakpoint(
+        number=placed.number,
+        task=asked.task,
+        module=asked.module,
+        line=placed.line,
+        condition=asked.condition,
+        hits=asked.hits,
+        log=asked.log,
+        count=placed.count,
+        doubt=placed.doubt,
+    )
+
+
+def _value(shown: Shown) -> p.SeenValue:
+    return p.SeenValue(name=shown.name, kind=shown.type, text=shown.text, settable=shown.settable)

@@ -1,0 +1,62 @@
+"""The signals of a virtual controller."""
+
+import math
+from collections.abc import Iterable, Mapping
+
+from rapidgen.controller.runner import Cabinet
+from rapidgen.machine.io import Signal
+from rapidgen.viewer.messages import (
+    AllSignals,
+    Request,
+    SetSignal,
+    ShownSignal,
+    SignalValues,
+    ToPage,
+)
+from rapidgen.viewer.provider import Declined, Handler
+
+
+class SignalsAspect:
+    """All signals, then those that have changed."""
+
+    def __init__(self, cabinet: Cabinet) -> None:
+        self._io = cabinet.controller.io
+        self._told: dict[Signal, float] = {}
+
+    def whole(self) -> Iterable[ToPage]:
+        """All of them."""
+        yield AllSignals(signals=tuple(map(_shown, self._io.signals.values())))
+
+    def changes(self) -> Iterable[ToPage]:
+        """The values that are new."""
+        told = self._told
+        new = [s for s in self._io.signals.values() if told.get(s) != s.value]
+        if new:
+            told.update((signal, signal.value) for signal in new)
+            yield SignalValues(values={signal.name: signal.value for signal in new})
+
+    def handlers(self) -> Mapping[type, Handler]:
+        """Setting one: inputs are meant, outputs are possible."""
+        return {SetSignal: self._set}
+
+    def _set(self, request: Request) -> str:
+        assert isinstance(request, SetSignal)
+        signal = self._io.get(request.name)
+        if signal is None:
+            raise Declined(f"there is no signal {request.name}")
+        try:
+            self._io.set(signal, request.value)
+        except ValueError as error:
+            raise Declined(str(error)) from error
+        return ""
+
+
+def _shown(signal: Signal) -> ShownSignal:
+    largest = signal.largest
+    return ShownSignal(
+        name=signal.name,
+        kind=signal.spec.type,
+        device=signal.spec.device,
+        value=signal.value,
+        largest=None if math.isinf(largest) else largest,
+    )

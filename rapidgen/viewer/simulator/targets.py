@@ -1,0 +1,76 @@
+"""Where the moves of the loaded programs go, for the page to draw."""
+
+from collections.abc import Iterable, Iterator, Mapping
+
+from rapidgen.axes import frames
+from rapidgen.controller.inference.move_targets import Meant, meant
+from rapidgen.controller.runner import Cabinet
+from rapidgen.motion.group import MotionGroup
+from rapidgen.runtime.compiler.symbols import LoadedModule
+from rapidgen.viewer.messages import SeenTarget, Targets, ToPage
+from rapidgen.viewer.provider import Handler
+from rapidgen.viewer.robots import pose_of
+
+_MOST = 400
+"""Targets that are drawn; the first ones of each program."""
+
+
+class TargetsAspect:
+    """The targets that programs declare, anew when modules have been loaded."""
+
+    def __init__(self, cabinet: Cabinet) -> None:
+        self._tasks = cabinet.controller.rapid_tasks
+        self._groups = {g.config.task: g for g in cabinet.controller.motion.groups.values()}
+        self._known: tuple[LoadedModule, ...] = ()
+        self._now = Targets(targets=())
+
+    def whole(self) -> Iterable[ToPage]:
+        """All of them."""
+        yield from self.changes()
+        yield self._now
+
+    def changes(self) -> Iterable[ToPage]:
+        """All of them, where modules have come or gone."""
+        modules = tuple(self._modules())
+        if modules != self._known:
+            self._known = modules
+            found = Targets(targets=tuple(self._targets())[:_MOST])
+            if found != self._now:
+                self._now = found
+                yield found
+
+    def handlers(self) -> Mapping[type, Handler]:
+        """Nothing is asked."""
+        return {}
+
+    def _modules(self) -> Iterator[LoadedModule]:
+        for name in self._groups:
+            task = self._tasks.get(name)
+            if task is not None:
+                yield from (m for m in task.program.modules.values() if not m.installed)
+
+    def _targets(self) -> Iterator[SeenTarget]:
+        for name, group in self._groups.items():
+            task = self._tasks.get(name)
+            modules = task.program.modules.values() if task is not None else ()
+            seen = set()
+            for module in modules:
+                for target in () if module.installed else meant(module.scope):
+                    made = _seen(group, module.name, target)
+                    same = made and (made.name, made.pose)
+                    if made is not None and same not in seen:
+                        seen.add(same)
+                        yield made
+
+
+def _seen(group: MotionGroup, module: str, target: Meant) -> SeenTarget | None:
+    place = target.place
+    if place is None and group.kinematics is not None:
+        still = (0.0,) * len(group.config.joints)
+        posture = group.map.from_rapid(target.axes, target.external, still)
+        place = frames.compose(group.kinematics.forward(posture), target.tool)
+    if place is None:
+        return None
+    return SeenTarget(
+        group=group.name, name=target.name, module=module, line=target.line, pose=pose_of(place)
+    )

@@ -1,0 +1,191 @@
+"""A trajectory that is dropped on the page: checked as the client does, shown, and executed through
+the simulator's own driver, as from any other client."""
+
+import tempfile
+import threading
+from collections.abc import Iterable, Iterator, Mapping
+from pathlib import Path
+
+import numpy as np
+
+from rapidgen.axes.frames import distance
+from rapidgen.axes.kinematics import Posture
+from rapidgen.client import Robot, Trajectory
+from rapidgen.client.core.checks import CheckedTrajectory, check_trajectory
+from rapidgen.client.core.group import Group
+from rapidgen.client.errors import InvalidTrajectory, RobotError
+from rapidgen.client.trajectory import Array
+from rapidgen.config.model import TrajectoryPolicy
+from rapidgen.controller.runner import Cabinet
+from rapidgen.diagnostics import Diagnostic
+from rapidgen.motion.group import MotionGroup
+from rapidgen.viewer.messages import Request, ToPage
+from rapidgen.viewer.provider import Declined, Handler
+from rapidgen.viewer.robots import Carried
+from rapidgen.viewer.trajectory_messages import (
+    DroppedTrajectory,
+    DropTrajectory,
+    ForgetTrajectory,
+    RunTrajectory,
+    TrajectoryFinding,
+)
+
+_AXES = 10
+"""Values of a frame."""
+_PLACES = 2000
+"""Of a way that is drawn, about, unless the trajectory has more points."""
+_ANY = TrajectoryPolicy(capacity=1_000_000)
+"""How many points a driver holds is said by that driver."""
+
+
+class TrajectoryAspect:
+    """The trajectory that lies on the page; all viewers see the same one."""
+
+    def __init__(self, cabinet: Cabinet) -> None:
+        self._cabinet = cabinet
+        self._controller = cabinet.controller
+        self._shown = self._told = DroppedTrajectory()
+        self._checked: CheckedTrajectory | None = None
+
+    def whole(self) -> Iterable[ToPage]:
+        """The trajectory, if there is one."""
+        yield self._shown
+
+    def changes(self) -> Iterable[ToPage]:
+        """The trajectory, where it or its state is new."""
+        if self._shown is not self._told:
+            self._told = self._shown
+            yield self._shown
+
+    def handlers(self) -> Mapping[type, Handler]:
+        """Checking, executing, forgetting."""
+        return {
+            DropTrajectory: self._drop,
+            RunTrajectory: self._run,
+            ForgetTrajectory: self._forget,
+        }
+
+    # -- checking -----------------------------------------------------------------------------
+
+    def _drop(self, request: Request) -> str:
+        assert isinstance(request, DropTrajectory)
+        self._rests()
+        group = self._controller.motion.groups.get(request.group)
+        if group is None:
+            raise Declined(f"there is no robot {request.group}")
+        self._checked = None
+        name = Path(request.file).name
+        try:
+            trajectory = _read(request)
+            start = [*group.positions(), *[0.0] * _AXES][:_AXES]
+            wanted = Group(group.name, group.map, _ANY)
+            self._checked = check_trajectory(trajectory, wanted, start=start)
+        except InvalidTrajectory as wrong:
+            self._shown = DroppedTrajectory(
+                group=group.name,
+                file=name,
+                findings=tuple(_finding(found, ()) for found in wrong.diagnostics),
+                state="refused",
+            )
+            return ""
+        self._shown = self._described(group, name, self._checked)
+        return ""
+
+    def _described(
+        self, group: MotionGroup, name: str, checked: CheckedTrajectory
+    ) -> DroppedTrajectory:
+        steps = max(1, min(20, _PLACES // len(checked.wire)))
+        way = tuple(_way(group, _between(checked.wire, steps)))
+        times = np.repeat(checked.durations[1:] / steps, steps).tolist()
+        legs = zip(way, way[1:], times, strict=False)
+        lines = checked.trajectory.lines
+        return DroppedTrajectory(
+            group=group.name,
+            file=name,
+            seconds=checked.total,
+            points=len(checked.trajectory),
+            way=way,
+            pace=(0.0, *(distance(a, b) / s for a, b, s in legs)) if way else (),
+            steps=steps,
+            findings=tuple(_finding(found, lines) for found in checked.warnings),
+        )
+
+    # -- executing ----------------------------------------------------------------------------
+
+    def _run(self, _request: Request) -> str:
+        self._rests()
+        checked = self._checked
+        if checked is None:
+            raise Declined("there is no trajectory that could be executed")
+        group = self._controller.motion.groups[self._shown.group]
+        listeners, ports = self._controller.network.listeners, group.config.ports
+        if ports.motion not in listeners or ports.state not in listeners:
+            raise Declined("this program is no driver: it takes no trajectories")
+        numbers = (ports.motion, ports.state, ports.control)
+        known = [str(listeners[port][1]) for port in numbers if port in listeners]
+        address = f"{listeners[ports.motion][0]}:{','.join(known)}"
+        self._shown = self._shown.model_copy(update={"state": "running", "told": ""})
+        trajectory = Trajectory(checked.trajectory.times, checked.trajectory.positions)
+        threading.Thread(target=self._execute, args=(address, trajectory), daemon=True).start()
+        return ""
+
+    def _execute(self, address: str, trajectory: Trajectory) -> None:
+        """On a thread of its own, as a client: the controller's has to answer meanwhile."""
+        told = ""
+        try:
+            with Robot(address) as robot:
+                robot.execute(trajectory).result()
+        except RobotError as error:
+            told = "; ".join(found.message for found in error.diagnostics)
+
+        def end() -> None:
+            state = "failed" if told else "done"
+            self._shown = self._shown.model_copy(update={"state": state, "told": told})
+
+        self._cabinet.post(end)
+
+    def _forget(self, _request: Request) -> str:
+        self._rests()
+        self._shown, self._checked = DroppedTrajectory(), None
+        return ""
+
+    def _rests(self) -> None:
+        if self._shown.state == "running":
+            raise Declined("the trajectory is being executed")
+
+
+def _read(request: DropTrajectory) -> Trajectory:
+    """What the text says. InvalidTrajectory."""
+    is_json = request.file.lower().endswith(".json")
+    with tempfile.TemporaryDirectory(prefix="rapidgen-view-") as folder:
+        path = Path(folder) / ("dropped.json" if is_json else "dropped.csv")
+        path.write_text(request.text, encoding="utf-8", errors="replace")
+        return Trajectory.from_json(path) if is_json else Trajectory.from_csv(path)
+
+
+def _between(wire: Array, steps: int) -> Iterator[Posture]:
+    """The points and what is between them: joints go straight from one to the next."""
+    places = np.arange((len(wire) - 1) * steps + 1) / steps
+    columns = [np.interp(places, np.arange(len(wire)), column) for column in wire.T]
+    return (tuple(row) for row in np.array(columns).T.tolist())
+
+
+def _way(group: MotionGroup, wire: Iterable[Posture]) -> Iterable[tuple[float, float, float]]:
+    """Places of the configured TCP."""
+    carried, count = Carried.configured(group.config), len(group.config.joints)
+    for values in wire:
+        tcp = carried.tcp(group.kinematics, values[:count])
+        if tcp is not None:
+            yield tcp[0]
+
+
+def _finding(found: Diagnostic, lines: tuple[int, ...]) -> TrajectoryFinding:
+    line = found.span.line if found.span is not None else None
+    return TrajectoryFinding(
+        code=found.code,
+        severity=found.severity.name.lower(),
+        message=found.message,
+        help=found.help,
+        line=line,
+        point=lines.index(line) if line in lines else None,
+    )

@@ -1,0 +1,103 @@
+"""What is said on the sockets of a program, in words: frames of simple_message decoded by `wire`.
+
+Who listens may come in the middle of a frame, and a program may speak another protocol: bytes that
+are no frame are shown as they are, and the next ones are tried anew.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import Final
+
+from rapidgen.machine.network.sockets import SocketChange
+from rapidgen.viewer.network_messages import SpokenLine
+from rapidgen.wire.simple_message.codec import decode
+from rapidgen.wire.simple_message.declaration import Content
+from rapidgen.wire.simple_message.frames import ContentError, Frame, FrameSplitter, FramingError
+from rapidgen.wire.simple_message.messages import MESSAGES
+from rapidgen.wire.simple_message.spec import Comm
+
+_NAMES: Final = {message.number: message.name for message in MESSAGES}
+_LONGEST: Final = 400
+"""Characters of a line."""
+
+
+@dataclass(frozen=True, slots=True)
+class SocketPiece:
+    """Bytes of a socket, or its beginning or end."""
+
+    time: float
+    change: SocketChange
+    task: str
+    local: str
+    peer: str
+    data: bytes = b""
+
+
+@dataclass
+class Interpreter:
+    """Turns what was heard into lines; one frame may come in several pieces."""
+
+    _splitters: dict[tuple[str, str, str, SocketChange], FrameSplitter] = field(
+        default_factory=dict
+    )
+
+    def lines(self, heard: SocketPiece) -> Iterator[SpokenLine]:
+        """The lines that a piece completes."""
+        if heard.change in ("open", "close"):
+            for way in ("in", "out"):
+                self._splitters.pop((heard.task, heard.local, heard.peer, way), None)
+            yield _line(heard, "", "connected" if heard.change == "open" else "closed")
+            return
+        key = (heard.task, heard.local, heard.peer, heard.change)
+        splitter = self._splitters.setdefault(key, FrameSplitter())
+        splitter.feed(heard.data)
+        try:
+            while (frame := splitter.next()) is not None:
+                yield _framed(heard, frame)
+        except FramingError:
+            del self._splitters[key]
+            yield _line(heard, "", _plain(heard.data))
+
+
+def _framed(heard: SocketPiece, frame: Frame) -> SpokenLine:
+    name = _NAMES.get(frame.number, f"type {frame.number}")
+    try:
+        content = decode(frame)
+    except ContentError as why:
+        return _line(heard, name, f"{why}: {frame.data[:40].hex(' ')}", fault=True)
+    reply = "reply " if frame.comm == Comm.REPLY else ""
+    return _line(heard, f"{reply}{name}", _said(content))
+
+
+def _said(content: Content) -> str:
+    fields = content._asdict() if hasattr(content, "_asdict") else {}
+    parts = [f"{name} {_value(value)}" for name, value in fields.items()]
+    return ", ".join(parts) or type(content).__name__.lower()
+
+
+def _value(value: object) -> str:
+    if isinstance(value, float):
+        return f"{value:.4g}"
+    if isinstance(value, bytes):
+        return _plain(value)
+    if isinstance(value, tuple | list):
+        return "[" + " ".join(map(_value, value)) + "]"
+    return str(value)
+
+
+def _plain(data: bytes) -> str:
+    text = data.decode("latin-1")
+    return text if text.isprintable() else data[: _LONGEST // 3].hex(" ")
+
+
+def _line(heard: SocketPiece, name: str, text: str, *, fault: bool = False) -> SpokenLine:
+    return SpokenLine(
+        time=heard.time,
+        way=heard.change,
+        task=heard.task,
+        local=heard.local,
+        peer=heard.peer,
+        name=name,
+        text=text if len(text) <= _LONGEST else text[:_LONGEST] + "…",
+        fault=fault,
+    )

@@ -1,0 +1,59 @@
+"""What server and page say about a trajectory that was dropped on the page."""
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from rapidgen.viewer.message_base import Spoken
+
+
+class TrajectoryFinding(Spoken):
+    """What is wrong or doubtful; `point` counts from 0, None: it is of no point."""
+
+    code: str
+    severity: str
+    message: str
+    help: str
+    line: int | None
+    point: int | None
+
+
+class DroppedTrajectory(Spoken):
+    """A trajectory as it was checked; the file's name is empty when there is none."""
+
+    type: Literal["trajectory"] = "trajectory"
+    group: str = ""
+    file: str = ""
+    seconds: float = 0.0
+    points: int = 0
+    way: tuple[tuple[float, float, float], ...] = ()
+    """The TCP, m in the world, at every point and in between; empty without geometry."""
+    pace: tuple[float, ...] = ()
+    """TCP speed from the place before to each of `way`, m/s."""
+    steps: int = 1
+    """Places of `way` from a point to the next."""
+    findings: tuple[TrajectoryFinding, ...] = ()
+    state: Literal["refused", "checked", "running", "done", "failed"] = "checked"
+    told: str = ""
+    """Why it failed."""
+
+
+class DropTrajectory(Spoken):
+    """Check a file's text for a robot; nothing moves."""
+
+    do: Literal["drop"] = "drop"
+    group: str
+    file: Annotated[str, Field(max_length=200)]
+    text: Annotated[str, Field(max_length=900_000)]
+
+
+class RunTrajectory(Spoken):
+    """Execute what was checked, through the simulator's driver."""
+
+    do: Literal["run"] = "run"
+
+
+class ForgetTrajectory(Spoken):
+    """Take it off the page."""
+
+    do: Literal["forget"] = "forget"

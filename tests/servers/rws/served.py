@@ -1,0 +1,98 @@
+"""A cabinet with a small program, and desks over it, for tests of web services."""
+
+from dataclasses import replace
+
+from rapidgen.config import load_config
+from rapidgen.controller.runner import Cabinet
+from rapidgen.servers.rws.application import SESSION, Desk
+from rapidgen.servers.rws.context import Accounts
+from rapidgen.servers.rws.messages import Received
+from rapidgen.system import read_files
+from rapidgen.system.model import SignalSpec
+from rapidgen.wire.rws import media
+from rapidgen.wire.rws.bodies import Generation
+from rapidgen.wire.rws.forms import form_type, write_form
+
+MAIN = """MODULE MainModule
+    PERS num x := 1;
+    PERS string name := "a";
+    PERS num list{3} := [1,2,3];
+    PERS robtarget puck_target := [[0,0,600],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+    VAR num count := 0;
+    CONST num c := 4;
+    PROC main()
+        WHILE TRUE DO
+            count := count + x;
+            WaitTime 0.1;
+        ENDWHILE
+    ENDPROC
+ENDMODULE
+"""
+RELEASES = {Generation.ONE: (6, 15), Generation.TWO: (7, 6), Generation.EIGHT: (7, 6)}
+SIGNALS = (
+    SignalSpec("do x;1", "DO", access="All"),
+    SignalSpec("doDefault", "DO"),
+    SignalSpec("diStart", "DI", access="All", device="DRV_1"),
+    SignalSpec("aoSpeed", "AO", access="All"),
+)
+STARTED = {
+    "regain": "continue", "execmode": "continue", "cycle": "asis", "condition": "none",
+    "stopatbp": "disabled", "alltaskbytsp": "false",
+}  # fmt: skip
+
+
+def make_cabinet(folder, generation=Generation.ONE, program=MAIN, **options) -> Cabinet:
+    """A controller with T_ROB1 and a main, and no driver: motors on, the program stands."""
+    path = folder / "MainModule.mod"
+    path.write_text(program)
+    system = replace(read_files([path]), robotware=RELEASES[generation], signals=SIGNALS)
+    chosen = {"robots": load_config("irb120").groups, "autostart": False, **options}
+    return Cabinet(system, **chosen)
+
+
+class Caller:
+    """A session at a desk: no network, the controller's own thread."""
+
+    def __init__(self, desk: Desk, user: str = "Default User") -> None:
+        self.desk = desk
+        self.session = desk.sessions.begin(user)
+        self.accept = media.HAL
+
+    @property
+    def is_one(self):
+        """Whether it speaks RWS 1.0."""
+        return self.desk.generation is Generation.ONE
+
+    def send(self, method, target, form=None, body=None, **headers):
+        """A request of this session; its HttpReply."""
+        one = self.desk.generation is Generation.ONE
+        sent = {"host": "h", "cookie": f"{SESSION}={self.session.key}"}
+        if not one:
+            sent["accept"] = self.accept
+        if method in ("POST", "DELETE", "PUT"):
+            sent["content-type"] = form_type(self.desk.generation)
+        data = body if body is not None else write_form(form or {})
+        given = {name.replace("_", "-"): value for name, value in headers.items()}
+        sent = {k: v for k, v in {**sent, **given}.items() if v is not None}
+        return self.desk.handle(Received(method, target, sent, data, 1))
+
+    def get(self, target, **headers):
+        """The items of a GET that succeeds."""
+        reply = self.send("GET", target, **headers)
+        assert reply.status == 200, reply
+        return media.read(reply.body, reply.header("content-type")).items
+
+    def post(self, target, form=None, **headers):
+        """The status of a POST."""
+        return self.send("POST", target, form, **headers).status
+
+
+def code_of(reply):
+    """ABB's code in a refusal."""
+    return media.read(reply.body, reply.header("content-type")).fault.code
+
+
+def make_desk(cabinet, generation=Generation.ONE, strict=True, **denied) -> Desk:
+    """A desk with ABB's own login."""
+    accounts = Accounts({"Default User": "robotics", "Admin": "robotics"}, **denied)
+    return Desk(cabinet, generation, accounts, strict=strict)

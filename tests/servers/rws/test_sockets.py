@@ -1,0 +1,174 @@
+"""Websockets as controllers have them, over the network [VC 6.16, VC 7.21]."""
+
+import base64
+import http.client
+import os
+import socket
+import ssl
+
+import pytest
+from served import make_cabinet
+from websockets.exceptions import ConnectionClosed, InvalidStatus
+from websockets.sync.client import connect
+
+from rapidgen.servers.rws.application import SESSION
+from rapidgen.servers.rws.server import serve_rws
+from rapidgen.wire.rws import media
+from rapidgen.wire.rws.bodies import Generation
+from rapidgen.wire.rws.events import WantedResource, read_events, write_wanted
+from rapidgen.wire.rws.forms import form_type, write_form
+
+BASIC = "Basic " + base64.b64encode(b"Default User:robotics").decode()
+
+
+def trusting():
+    """TLS to whoever is there. Not 1.3: these websockets read in a thread of their own, and beside
+    the reading of a ticket a request is lost (transport.py)."""
+    context = ssl.create_default_context()
+    context.check_hostname, context.verify_mode = False, ssl.CERT_NONE
+    context.maximum_version = ssl.TLSVersion.TLSv1_2
+    return context
+
+
+@pytest.fixture
+def port(tmp_path):
+    with make_cabinet(tmp_path, Generation.TWO, clock="real") as cabinet:
+        cabinet.start()
+        service = serve_rws(cabinet, Generation.TWO)
+        yield service.port
+        service.close()
+
+
+@pytest.fixture
+def subscribe(port):
+    """Opens a subscription; the websocket's keywords, and a function that asks for more."""
+    context = trusting()
+    link = http.client.HTTPSConnection("127.0.0.1", port, context=context)
+
+    def ask(*resources):
+        form = write_form(
+            write_wanted([WantedResource(r, 2 if "signals" in r else 1) for r in resources])
+        )
+        headers = {"Authorization": BASIC, "Accept": media.HAL}
+        link.request(
+            "POST", "/subscription", form, {**headers, "Content-Type": form_type(Generation.TWO)}
+        )
+        answer = link.getresponse()
+        body = answer.read()
+        assert answer.status == 201, body
+        cookies = dict(c.split(";")[0].split("=") for c in answer.headers.get_all("Set-Cookie"))
+        headers = {"Cookie": f"{SESSION}={cookies[SESSION]}"}
+        path = "/poll/" + answer.headers["Location"].rpartition("/")[2]
+        return {
+            "uri": f"wss://127.0.0.1:{port}{path}", "ssl": context, "additional_headers": headers,
+            "subprotocols": ["rws_subscription"], "proxy": None, "ping_interval": None,
+        }  # fmt: skip
+
+    yield ask
+    link.close()
+
+
+def test_events_come_and_the_address_is_good_once(subscribe):
+    wanted = subscribe("/rw/panel/opmode", "/rw/iosystem/signals/do%20x%3B1;state")
+    with connect(**wanted) as socket:
+        other = subscribe("/rw/panel/opmode")
+        assert other["uri"] != wanted["uri"]
+        with pytest.raises(InvalidStatus) as caught, connect(**wanted):
+            pass
+        assert caught.value.response.status_code == 404
+        assert socket.subprotocol == "rws_subscription"
+
+
+def test_a_client_that_sends_is_cut_off(subscribe):
+    with connect(**subscribe("/rw/panel/opmode")) as socket:
+        socket.send("anything")
+        with pytest.raises(ConnectionClosed) as caught:
+            socket.recv(60)
+    assert caught.value.rcvd.code == 1008
+
+
+@pytest.mark.parametrize(
+    ("changed", "status"),
+    [({"subprotocols": ["robapi2_subscription"]}, 400), ({"additional_headers": {}}, 403)],
+)
+def test_strangers_are_turned_away(subscribe, changed, status):
+    wanted = {**subscribe("/rw/panel/opmode"), **changed}
+    with pytest.raises(InvalidStatus) as caught, connect(**wanted):
+        pass
+    assert caught.value.response.status_code == status
+
+
+def test_nothing_is_lost_between_the_answer_and_the_upgrade(tmp_path):
+    with make_cabinet(tmp_path, Generation.TWO, clock="real") as cabinet:
+        cabinet.start()
+        service = serve_rws(cabinet, Generation.TWO)
+        context = trusting()
+        link = http.client.HTTPSConnection("127.0.0.1", service.port, context=context)
+        form = write_form(write_wanted([WantedResource("/rw/iosystem/signals/diStart;state", 2)]))
+        headers = {"Accept": media.HAL, "Content-Type": form_type(Generation.TWO)}
+        link.request("POST", "/subscription", form, {**headers, "Authorization": BASIC})
+        answer = link.getresponse()
+        answer.read()
+        cookies = "; ".join(c.split(";")[0] for c in answer.headers.get_all("Set-Cookie"))
+        headers |= {"Cookie": cookies}
+        for value in (b"lvalue=1", b"lvalue=0", b"lvalue=1"):
+            target = "/rw/iosystem/signals/diStart/set-value"
+            link.request("POST", target, value, headers)
+            assert link.getresponse().read() == b""
+        number = answer.headers["Location"].rpartition("/")[2]
+        with connect(
+            f"wss://127.0.0.1:{service.port}/poll/{number}",
+            ssl=context, additional_headers={"Cookie": cookies},
+            subprotocols=["rws_subscription"], proxy=None,
+        ) as socket:  # fmt: skip
+            told = [read_events(socket.recv(60).encode())[0].text("lvalue") for _ in range(3)]
+        assert told == ["1", "0", "1"]
+        link.close()
+        service.close()
+
+
+def test_who_leaves_late_takes_nothing_from_who_came_since(one):
+    """A poll URL of RWS 1.0 can be opened again while the old websocket is still closing."""
+    form = {"resources": "1", "1": "/rw/iosystem/signals/aoSpeed;state", "1-p": "2"}
+    assert one.post("/subscription", form) == 201
+    groups, old, new = one.desk.groups, [], []
+    group = groups.find("1", one.session)
+    groups.listen(group, old.append, lambda: None)
+    first = group.send
+    groups.listen(group, new.append, lambda: None)
+    groups.leave("1", first)
+    assert one.post("/rw/iosystem/signals/aoSpeed?action=set", {"lvalue": "2"}) == 204
+    assert len(new) == 1
+    assert not old
+
+
+def test_what_public_clients_subscribe_to_can_be(one, two):
+    """[code: abb-rws-client]: all in one group; one that is refused leaves it without events."""
+    for caller, state in ((one, "ctrlstate"), (two, "ctrl-state")):
+        paths = (
+            f"/rw/panel/{state}",
+            "/rw/panel/opmode",
+            "/rw/panel/speedratio",
+            "/rw/rapid/execution;ctrlexecstate",
+            "/rw/panel/coldetstate",
+            "/rw/elog/0",
+        )
+        form = {"resources": str(len(paths))}
+        for number, path in enumerate(paths, 1):
+            form |= {str(number): path, f"{number}-p": "1"}
+        assert caller.post("/subscription", form) == 201
+
+
+def test_a_stop_leaves_no_connection_open(tmp_path):
+    with make_cabinet(tmp_path, Generation.TWO, clock="real") as cabinet:
+        cabinet.start()
+        service = serve_rws(cabinet, Generation.TWO)
+        raw = socket.create_connection(("127.0.0.1", service.port))
+        with trusting().wrap_socket(raw) as silent:  # does not answer the end of TLS
+            silent.sendall(b"GET / HTTP/1.1\r\nHost: here\r\n\r\n")
+            assert silent.recv(8) == b"HTTP/1.1"
+            service.close()
+            with socket.socket(fileno=os.dup(silent.fileno())) as below:
+                below.settimeout(10)
+                while below.recv(4096):
+                    pass

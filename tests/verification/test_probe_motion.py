@@ -1,0 +1,74 @@
+"""The moving probe, run on the virtual controller, tells how that one's motion is switched."""
+
+import re
+from dataclasses import replace
+from functools import partial
+
+import pytest
+
+from rapidgen._data import data_folder
+from rapidgen.cli.app import main
+from rapidgen.config import load_config
+from rapidgen.controller import VirtualController
+from rapidgen.machine.operator import Answer
+from rapidgen.motion.settings import MotionSettings
+from rapidgen.rapid import check, parse
+from rapidgen.verification.settings import answers_to, said
+from tests.verification.probing import answers, asked
+
+PROBE = data_folder("templates") / "ROS_probe_motion.mod"
+TEXT = PROBE.read_text(encoding="ascii")
+ASKED = asked(TEXT)
+CASES = [
+    (n, value) for n, own in answers_to(MotionSettings()).items() if n in ASKED for value in own
+]
+
+
+def run(path, settings, places, consent="Yes"):
+    """Lines on the pendant, and whether an error stopped the program; axis 6 goes to `places`."""
+    lines = []
+    robots = load_config("irb120").groups
+    with VirtualController.from_files([path], robots=robots, answers=[Answer(consent)]) as it:
+        it.motion.settings = settings
+        it.operator.subscribe(lambda _task, text: lines.append(text))
+        for _ in range(180):
+            it.run_for(0.5)
+            places.append(it.motion.group("rob1").positions()[5])
+        return lines, it.task("T_ROB1").state == "error"
+
+
+@pytest.mark.parametrize(("name", "value"), CASES)
+def test_an_answer_is_the_switch(name, value, tmp_path):
+    settings, places = replace(MotionSettings(), **{name: value}), []
+    told = answers(TEXT, tmp_path / PROBE.name, partial(run, settings=settings, places=places))
+    assert len(told) == len(ASKED)
+    assert set(told) == {said(asks, getattr(settings, asks)) for asks in ASKED}
+    assert max(places) < 0.19
+    assert min(places) > -0.01
+
+
+def test_it_asks():
+    wanted = {"cleared_move", "stop_move_reset", "zero_length", "range_error", "velset_timed"}
+    wanted |= {"refresh_timed", "refresh_lasts", "refresh_standing"}
+    assert wanted <= set(ASKED)
+
+
+@pytest.mark.parametrize("lead", [0.05, 0.2])
+def test_the_planning_lead_is_told(lead):
+    lines, _ = run(PROBE, replace(MotionSettings(), planning_lead=lead, ramp_time=0.0), [])
+    (line,) = [line for line in lines if "before its point" in line]
+    assert float(re.search(r"[\d.]+", line)[0]) == pytest.approx(lead, abs=0.12)
+
+
+def test_without_consent_nothing_moves():
+    places = []
+    assert run(PROBE, MotionSettings(), places, consent="No") == ([], False)
+    assert set(places) == {0.0}
+
+
+def test_the_probe_is_clean_rapid(tmp_path):
+    module = parse(PROBE.read_bytes(), path=str(PROBE))
+    assert not module.diagnostics
+    assert not list(check([module]))
+    assert main(["probe", "--moving", "--output", str(tmp_path / "p.mod")]) == 0
+    assert (tmp_path / "p.mod").read_bytes() == PROBE.read_bytes()

@@ -1,0 +1,327 @@
+"""The suite holds for every kind of robot, and sees defects when there are some."""
+
+import json
+import re
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+
+from rapidgen import __version__
+from rapidgen.cli.app import main
+from rapidgen.config import load_config
+from rapidgen.diagnostics import refusal
+from rapidgen.generate import build, make_system
+from rapidgen.verification.model import Broken, Proof, Verdict
+from rapidgen.verification.report import slowest, write_html
+from rapidgen.verification.schedule_exploration import explore
+from rapidgen.verification.settings import Setting, assumed, rows, settings
+from rapidgen.verification.suite import CASES
+from rapidgen.verification.suite_runner import Starter, prove
+from rapidgen.verification.testbench import Bench, with_module
+
+KINDS = ("irb2400", "irb14000", "irb120_track", "irb910sc", "irb460")
+SIX_AXES = load_config("irb120")
+BY_NAME = {case.name: case for case in CASES}
+# What depends on the joints of a robot ...
+OF_THE_ROBOT = (
+    "whole-trajectory",
+    "at-the-limits",
+    "outside-limits",
+    "start-too-far",
+    "padding",
+    "limits-as-told",
+    "first-of-all",
+    "stream-joints",
+    "away-from-zero",
+    "stop-on-path",
+    "e-stop",
+    "corners",
+    "largest-corner",
+    "resting-corner",
+)
+# ... and what depends on when which task runs, and on what is assumed about controllers.
+OF_THE_CONTROLLER = (
+    "whole-trajectory",
+    "hole",
+    "stop-on-path",
+    "stop-any-moment",
+    "superseded",
+    "leaves-moving",
+    "newest-takes-over",
+    "program-stop",
+    "stop-pp-to-main",
+    "power-loss",
+    "not-executing",
+)
+
+
+# What the smallest configuration has not.
+NOT_OF_SIX_AXES = (
+    "batch-full-ring",
+    "program-without-signals",
+    "two-groups",
+    "data-reading-fails",
+    "routine-missing",
+    "routine-results",
+    "routine-alone",
+    "routine-targets",
+    "slowed-down",
+    "strangers",
+    "tcp-too-fast",
+    "tcp-arc",
+    "tcp-turns",
+    "tcp-recorded",
+)
+
+
+def broken(config, names, setting=None, untried=()):
+    """What did not hold, of the named cases, or was not tried and is not known to be so."""
+    starter = Starter(config, make_system(config, build(config)), setting or Setting())
+    outcomes = [starter.attempt(BY_NAME[name]) for name in names]
+    starter.close()
+    assert {o.case for o in outcomes if o.untried} == set(untried)
+    return {outcome.case: outcome.detail for outcome in outcomes if not outcome.passed}
+
+
+@pytest.mark.parametrize("group", dict.fromkeys(case.group for case in CASES))
+def test_everything_holds_for_six_axes(group):
+    names = [case.name for case in CASES if case.group == group]
+    untried = [name for name in names if name in NOT_OF_SIX_AXES]
+    assert broken(load_config("irb120"), names, untried=untried) == {}
+
+
+@pytest.mark.parametrize("name", KINDS)
+def test_what_depends_on_the_joints_holds_for_every_kind(name):
+    # Its arms have a ceiling that is too low for large corners.
+    untried = ("largest-corner",) if name == "irb14000" else ()
+    assert broken(load_config(name), OF_THE_ROBOT, untried=untried) == {}
+
+
+@pytest.mark.parametrize("texts", [texts for texts in rows().values() if texts])
+def test_it_holds_whatever_is_assumed(texts):
+    assert broken(SIX_AXES, OF_THE_CONTROLLER, assumed(texts)) == {}
+
+
+def test_no_schedule_breaks_the_invariant():
+    report = prove(load_config("irb120"), seeds=12, jobs=1, only=(), strength=0, cases=False)
+    assert report.schedules == 12
+    assert report.findings == []
+
+
+def generated():
+    config = load_config("irb120")
+    return config, make_system(config, build(config))
+
+
+def patched(system, module, old, new):
+    file = next(m for t in system.tasks for m in t.modules if m.name == module)
+    assert file.data.count(old.encode()) == 1, f"{module} no longer has: {old}"
+    return with_module(system, file.path, file.data.replace(old.encode(), new.encode()))
+
+
+DEFECTS = {
+    # The sequence check of the motion server, left out.
+    "hole": (
+        "ROS_download",
+        "ELSEIF sequence = ROS_count OR sequence = ROS_SEQ_END OR ROS_count = 0 THEN",
+        "ELSEIF TRUE THEN",
+    ),
+    "too-many-points": (
+        "ROS_download",
+        "ROS_refuse_download ROS_REASON_CAPACITY, ROS_count, sequence = ROS_SEQ_END;",
+        "",
+    ),
+    "padding": ("ROS_download", "IF NOT (padding = 0) ROS_object", "IF FALSE ROS_object"),
+    "newest-takes-over": (
+        "ROS_motionServer",
+        "taken_over := (quiet >= PATIENCE);",
+        "taken_over := FALSE;",
+    ),
+    "leaves-moving": (
+        "ROS_motionServer",
+        "IF NOT (taken_over AND ROS_active()) ROS_end_session ROS_REASON_CLIENT_LOST;",
+        "",
+    ),
+    # The event routines count no stop of the program.
+    "order-before-stop": (
+        "ROS_events",
+        "ROS_program_stops := ROS_next(ROS_program_stops);",
+        "",
+    ),
+    # What waits behind a client counts as new when it is read.
+    "waiting-before-stop": (
+        "ROS_motionServer",
+        "IF ROS_peek(newcomer) = 0 stops_before_newcomer := stops;",
+        "stops_before_newcomer := stops;",
+    ),
+    "power-loss-after-stop": (
+        "ROS_supervisor",
+        "ROS_start_clock since_bell;\n        ROS_start",
+        "ROS_start",
+    ),
+    "task-ends-moving": ("ROS_common", "RETURN unchanged >= ROS_MISSED_PULSES;", "RETURN FALSE;"),
+    "speed-keeps-own": ("ROS_motion", "program_share := refreshed();", "program_share := 100;"),
+}
+
+
+@pytest.mark.parametrize("name", DEFECTS)
+def test_a_defect_turns_its_case_red(name):
+    config, system = generated()
+    bench = Bench(config, patched(system, *DEFECTS[name]))
+    with pytest.raises(Broken):
+        BY_NAME[name].prove(bench)
+    bench.close()
+
+
+def test_the_exploration_replays_exactly():
+    config, system = generated()
+    logs = []
+    for _ in range(2):
+        bench_log = explore(config, system, "5")
+        logs.append(bench_log)
+    assert logs[0] == logs[1]
+
+
+def test_the_verb_writes_reports_and_says_what_failed(tmp_path, capsys):
+    junit, html = tmp_path / "r.xml", tmp_path / "r.html"
+    words = ["test", "irb120", "--quick", "--jobs", "1", "--case", "whole-trajectory"]
+    assert main([*words, "--junit", str(junit), "--html", str(html)]) == 0
+    assert "everything held" in capsys.readouterr().out
+    suite = ElementTree.parse(junit).getroot()[0]
+    assert suite.get("failures") == "0"
+    page = html.read_text(encoding="utf-8")
+    assert "<svg" in page
+    assert f"rapidgen {__version__} · Python " in page
+    assert '<input id="search" type="search"' in page
+    assert '<summary>compatible: <span class="ok">1 of 1 held</span>' in page
+    assert main(["test", "irb120", "--case", "whole-trajectry"]) == 2
+    assert "whole-trajectory" in capsys.readouterr().err
+
+
+def test_a_group_is_open_where_one_did_not_hold(tmp_path):
+    outcomes = [
+        Verdict("fine", "A", "holds", "", True, elapsed=1.0),
+        Verdict("fine", "A", "holds", "", True, setting="other", elapsed=3.0),
+        Verdict("poor", "B", "does not", "", False, "because", elapsed=2.0),
+    ]
+    report = Proof("cell", "0123456789ab", outcomes)
+    write_html(report, tmp_path / "r.html")
+    page = (tmp_path / "r.html").read_text(encoding="utf-8")
+    assert re.findall(r'<details class="group"(.*?)><summary>(\w)', page) == [
+        ("", "A"),
+        (" open", "B"),
+    ]
+    assert slowest(report, 1) == [("fine", 4.0, 2)]
+
+
+def test_the_cases_are_listed(capsys):
+    assert main(["test", "irb120", "--list"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert "  hello " in "\n".join(lines)
+    assert main(["test", "irb120", "--list", "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert [case["case"] for case in told] == [case.name for case in CASES]
+    assert len(lines) == len(told) + len({case["group"] for case in told})
+
+
+@pytest.mark.parametrize("jobs", ["1", "2"])
+def test_a_run_that_is_broken_off_reports_what_it_saw(jobs, monkeypatch, capsys):
+    def interrupted(bars, what, done, total):
+        if done == 1:
+            raise KeyboardInterrupt
+
+    monkeypatch.setattr("rapidgen.cli.progress.Bars._step", interrupted)
+    words = ["--case", "hello", "--case", "single-point", "--quick", "--jobs", jobs, "--json"]
+    assert main(["test", "irb120", *words]) == 130
+    told = json.loads(capsys.readouterr().out)
+    assert [outcome["passed"] for outcome in told["outcomes"]] == [True]
+    assert (told["broken_off"], told["passed"]) == (True, False)
+
+
+def test_the_table_of_faults_names_cases_that_exist():
+    page = Path(__file__).parents[2] / "docs" / "develop" / "testing.md"
+    text = page.read_text(encoding="utf-8")
+    rows = re.findall(r"^\| (\d+) \| .+? \| (.+?) \|$", text, re.MULTILINE)
+    assert [int(number) for number, _ in rows] == list(range(1, 26))
+    for number, cases in rows:
+        named = re.findall(r"(?<![`\w-])[a-z0-9]+(?:-[a-z0-9]+)*", cases.split(" (")[0])
+        known = [name for name in named if name in BY_NAME]
+        assert (known and known == named) or "every case" in cases, f"fault {number}: {cases}"
+
+
+def test_every_case_has_a_name_of_its_own():
+    assert len(BY_NAME) == len(CASES)
+
+
+def test_every_robot_has_settings_for_its_groups():
+    assert "rob_r" in settings(load_config("irb14000"), rows(0))
+
+
+EXAMPLES = sorted((Path(__file__).parents[2] / "robots" / "examples").glob("*.yaml"))
+
+
+@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
+def test_every_example_can_be_proven(path, capsys):
+    """One commissions, one has a main of its own, one several groups."""
+    words = ["test", str(path), "--quick", "--case", "ping", "--case", "sent-meanwhile"]
+    assert main([*words, "--jobs", "2"]) == 0, capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("name", "case", "words"),
+    [
+        # Its axes accelerate slowly.
+        ("irb460-rw7", "one-place", ()),
+        # A ceiling of the TCP, and a zone whose parts are not as 2 to 3.
+        ("irb2400-rw5", "unknown-corner", ()),
+        ("irb2400-rw5", "e-stop-at-speed", ()),
+        # A TCP too slow to get off its path.
+        ("crb15000-rw7", "e-stop-at-speed", ()),
+        ("irb120-rw6", "another-program", ("--set", "main=own")),
+        ("irb120-rw6", "program-prefix", ("--set", "commissioning=true")),
+        ("irb120-rw6", "own-main", ("--set", "commissioning=true")),
+    ],
+)
+def test_a_case_holds_on_robots_and_configurations_unlike_others(name, case, words, capsys):
+    path = next(str(path) for path in EXAMPLES if path.stem == name)
+    words = ["test", path, "--quick", "--jobs", "1", "--case", case, *words]
+    assert main(words) == 0, capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("override", "case", "why"),
+    [
+        ("commissioning=true", "not-executing", "while commissioning, background tasks stop"),
+        ("ports.control=0", "program-paused", "there is no control port"),
+        ("profile=basic", "stream", "the profile is basic"),
+        ("name=cell", "two-groups", "there is one group"),
+    ],
+)
+def test_a_case_that_has_nothing_to_prove_is_not_said_to_hold(
+    override, case, why, tmp_path, capsys
+):
+    report = tmp_path / "r.xml"
+    words = ["test", "irb120", "--set", override, "--quick", "--jobs", "1", "--case"]
+    assert main([*words, case, "--junit", str(report)]) == 2
+    told = capsys.readouterr()
+    assert "RG811" in told.err
+    assert why in told.err
+    assert "held" not in told.out
+    assert not report.exists()
+    assert main([*words, case, "--case", "ping", "--junit", str(report)]) == 0
+    told = capsys.readouterr().out
+    assert f"nothing to prove: {why}" in told
+    assert re.findall(r"^ (\w+) +(\d+) +(\d+)", told, re.MULTILINE) == [("compatible", "1", "1")]
+    suite = ElementTree.parse(report).getroot()[0]
+    assert (suite.get("skipped"), len(suite.findall("testcase/skipped"))) == ("1", 1)
+
+
+def test_a_fault_of_the_configuration_is_a_diagnostic_in_workers_too(monkeypatch, capsys):
+    def at_fault(system, _config):
+        raise refusal("RG402", None, "no main", "write one")
+
+    monkeypatch.setattr("rapidgen.verification.suite_runner.in_its_cell", at_fault)
+    words = ["test", "irb120", "--set", "main=own", "--quick", "--case", "ping", "--jobs", "2"]
+    assert main(words) == 2
+    assert "RG402" in capsys.readouterr().err

@@ -1,7 +1,0 @@
-"""The page's message types are those of the schema."""
-
-from tests.view.page_types import TARGET, made
-
-
-def test_the_types_are_those_of_the_schema():
-    assert TARGET.read_text() == made(), "python -m tests.view.page_types"

@@ -1,0 +1,99 @@
+"""A release has the page, or there is no release; a clone without Node.js does without."""
+
+import importlib.util
+import io
+import subprocess
+import sys
+import tarfile
+import zipfile
+
+import pytest
+
+from rapidgen.viewer.server import ASSETS
+from tests.docs.tree import PACKAGE, ROOT
+from tests.viewer.conftest import absent
+
+
+@pytest.fixture
+def hook(tmp_path, monkeypatch):
+    path = PACKAGE / "viewer" / "page" / "build_page.py"
+    spec = importlib.util.spec_from_file_location("build_page", path)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    monkeypatch.setattr(module, "ASSETS", tmp_path)
+    monkeypatch.setattr(module, "find_spec", lambda name: None)
+    monkeypatch.setattr(module.shutil, "which", lambda name: None)
+    return module
+
+
+def initialized(hook, version):
+    own = hook.PageHook(str(PACKAGE), {}, None, None, str(PACKAGE), "wheel")
+    own.initialize(version, {})
+
+
+def test_without_node_the_page_is_left_out_and_a_page_that_is_there_is_kept(hook, tmp_path, capsys):
+    initialized(hook, "editable")
+    assert capsys.readouterr().err == ""
+    initialized(hook, "standard")
+    assert "the page of `rapidgen view` is left out" in capsys.readouterr().err
+    (tmp_path / "index.html").write_text("built before")
+    initialized(hook, "standard")
+    assert capsys.readouterr().err == ""
+
+
+FILES = ("index.html", "page.js", "page.css", "plot.js", "plot.css", "icon.svg", "licences.txt")
+
+
+def archive(path, files):
+    """A wheel or a source archive with these files of the page."""
+    members = {f"rapidgen/viewer/assets/{name}": data for name, data in files.items()}
+    if path.suffix == ".whl":
+        with zipfile.ZipFile(path, "w") as wheel:
+            for name, data in {"rapidgen/__init__.py": b"", **members}.items():
+                wheel.writestr(name, data)
+    else:
+        with tarfile.open(path, "w:gz") as source:
+            for name, data in {"pyproject.toml": b"", **members}.items():
+                member = tarfile.TarInfo(f"rapidgen-1.0/{name}")
+                member.size = len(data)
+                source.addfile(member, io.BytesIO(data))
+    return path
+
+
+def lacking(*paths):
+    """What `.ci/has_page` says; None: nothing lacks."""
+    command = [sys.executable, ROOT / ".ci" / "has_page", *paths]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == (1 if done.stderr else 0)
+    return done.stderr or None
+
+
+def test_an_archive_without_the_page_is_no_release(tmp_path):
+    whole = dict.fromkeys(FILES, b"x")
+    wheel = archive(tmp_path / "a.whl", whole)
+    source = archive(tmp_path / "a.tar.gz", whole)
+    assert lacking(wheel, source) is None
+    for name in FILES:
+        without = {other: data for other, data in whole.items() if other != name}
+        assert f"b.whl has no rapidgen/viewer/assets/{name}" in lacking(
+            wheel, archive(tmp_path / "b.whl", without)
+        )
+    for name in ("c.tar.gz", "c.whl"):
+        empty = archive(tmp_path / name, {**whole, "page.js": b""})
+        assert f"{name} has no rapidgen/viewer/assets/page.js" in lacking(empty, wheel)
+    assert "no file is named" in lacking()
+
+
+def test_a_release_looks_for_the_page_in_all_that_it_has_built():
+    told = (ROOT / ".ci" / "release").read_text(encoding="utf-8").splitlines()
+    (asked,) = (number for number, line in enumerate(told) if "has_page" in line)
+    assert told[asked] == '"$bin/python" .ci/has_page dist/*.whl dist/*.tar.gz'
+    assert "-m build" in told[asked - 1]
+    assert told[1:4].count("set -euo pipefail") == 1
+
+
+def test_what_is_looked_for_is_what_is_built():
+    """A name in the list that no build makes would end every release."""
+    if not ASSETS.is_dir():
+        absent("built page: `make page`")
+    assert {path.name for path in ASSETS.iterdir()} == set(FILES)

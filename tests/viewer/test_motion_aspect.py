@@ -1,0 +1,91 @@
+"""Robots put elsewhere by hand, without a page."""
+
+import math
+
+import pytest
+
+from rapidgen.controller.boot_targets import Wishes, load_target
+from rapidgen.controller.runner import Cabinet
+from rapidgen.viewer.messages import Jog, JogTo
+from rapidgen.viewer.provider import Declined
+from rapidgen.viewer.simulator.motion import MotionAspect
+
+AT_THE_LIMIT = """MODULE Far
+  PROC main()
+    MoveAbsJ [[0,0,0,0,100.3,0],[9E9,9E9,9E9,9E9,9E9,9E9]], v1000, fine, tool0;
+  ENDPROC
+ENDMODULE
+"""
+WITH_A_TOOL = """MODULE Held
+  PERS tooldata grip := [TRUE, [[0,0,120],[1,0,0,0]], [1,[0,0,60],[1,0,0,0],0,0,0]];
+  CONST robtarget pick := [[10,20,50],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+  PERS wobjdata table := [FALSE, TRUE, "", [[300,0,100],[1,0,0,0]], [[0,0,0],[1,0,0,0]]];
+  PROC main()
+    MoveAbsJ [[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]], v1000, fine, grip;
+    MoveL pick, v500, fine, grip \\WObj:=table;
+    WaitTime 1000;
+  ENDPROC
+ENDMODULE
+"""
+
+
+def test_a_robot_that_is_jogged_keeps_its_tool(tmp_path):
+    """It was that of the flange afterwards: the next jog to a TCP went 120 mm too far."""
+    module = tmp_path / "held.mod"
+    module.write_text(WITH_A_TOOL)
+    target = load_target([str(module)], Wishes(robot="irb120"))
+    with Cabinet.boot(target, clock="virtual") as cabinet:
+        cabinet.controller.run_for(20)
+        cabinet.controller.stop_program()
+        cabinet.controller.run_for(1)
+        aspect = MotionAspect(cabinet)
+        handlers = aspect.handlers()
+        (name,) = cabinet.controller.motion.groups
+
+        def shown():
+            _, positions = aspect.whole()
+            return positions.groups[0]
+
+        axes = list(cabinet.controller.motion.groups[name].positions())
+        axes[0] += 0.1
+        handlers[Jog](Jog(group=name, axes=tuple(axes)))
+        assert shown().tool.position == pytest.approx((0, 0, 0.12))
+        assert shown().work_object.position == pytest.approx((0.3, 0, 0.1))
+        for place in ((0.31, 0.02, 0.15), (0.3, 0.05, 0.16)):
+            tcp = shown().tcp
+            handlers[JogTo](JogTo(group=name, position=place, orientation=tcp.orientation))
+            assert shown().tcp.position == pytest.approx(place)
+            assert shown().tool.position == pytest.approx((0, 0, 0.12))
+        # What is not asked for stays.
+        here = shown()
+        position = (here.tcp.position[0], 0.06, here.tcp.position[2])
+        handlers[JogTo](JogTo(group=name, position=(None, 0.06, None), orientation=None))
+        assert shown().tcp.position == pytest.approx(position)
+        assert shown().tcp.orientation == pytest.approx(here.tcp.orientation)
+        here = shown().axes
+        handlers[Jog](Jog(group=name, axes=(None, None, None, None, None, 0.3)))
+        assert shown().axes == pytest.approx((*here[:5], 0.3))
+
+
+def test_a_robot_that_stands_at_its_limit_is_jogged(tmp_path):
+    """The num 100.3 of its program is a little more than the 100.3 of its configuration."""
+    cell, module = tmp_path / "cell.yaml", tmp_path / "far.mod"
+    cell.write_text("model: irb120\njoints: {joint_5: {upper: 100.3}}\n")
+    module.write_text(AT_THE_LIMIT)
+    target = load_target([str(module)], Wishes(robot=str(cell)))
+    with Cabinet.boot(target, clock="virtual") as cabinet:
+        controller = cabinet.controller
+        controller.run_for(20)
+        controller.stop_program()
+        controller.run_for(1)
+        (group,) = controller.motion.groups.values()
+        here = list(group.positions())
+        assert here[4] > math.radians(100.3)
+        aspect = MotionAspect(cabinet)
+        jog = aspect.handlers()[Jog]
+        here[0] = 0.2
+        jog(Jog(group=group.name, axes=tuple(here)))
+        assert group.positions() == pytest.approx(here)
+        here[4] = math.radians(100.4)
+        with pytest.raises(Declined, match="joint_5 would leave its range"):
+            jog(Jog(group=group.name, axes=tuple(here)))

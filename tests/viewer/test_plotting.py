@@ -1,0 +1,188 @@
+"""What a plot shows, and the files that it becomes."""
+
+import json
+import math
+
+import numpy as np
+import pytest
+
+from rapidgen.client import Trajectory
+from rapidgen.client.core.group import Group
+from rapidgen.client.core.state_port import Sample
+from rapidgen.client.recording import JointRecording
+from rapidgen.config import load_config
+from rapidgen.diagnostics import DiagnosticError
+from rapidgen.viewer import plot, plotting
+
+TIMES = np.arange(0, 4.01, 0.2)
+
+
+@pytest.fixture
+def built(tmp_path, monkeypatch):
+    """A built page, whatever it holds."""
+    (tmp_path / "assets").mkdir()
+    for name in ("plot.js", "plot.css"):
+        (tmp_path / "assets" / name).write_text(f"/* {name} */")
+    monkeypatch.setattr(plotting, "ASSETS", tmp_path / "assets")
+
+
+@pytest.fixture(scope="module")
+def irb120():
+    config = load_config("irb120")
+    return Group.of(config, config.groups[0])
+
+
+def wave(group):
+    return np.stack([0.5 * np.sin(TIMES * (i + 1) / 2) for i in range(len(group.names))], axis=1)
+
+
+def recorded(group, *, feedback, jitter=0.0, begins=1.0, off=0.0):
+    """What a robot tells ten times a second that begins a wave after `begins` s; `off` away."""
+    recording, random = JointRecording(group), np.random.default_rng(3)
+    positions = wave(group)
+    for n in range(60):
+        now = n * 0.1
+        joints = [float(np.interp(now - begins, TIMES, column)) + off for column in positions.T]
+        axes = (*group.map.to_controller(joints), 0.0, 0.0, 0.0, 0.0)
+        came = 100 + now + float(random.uniform(0, jitter)) if jitter else 100 + now
+        if n == round(begins * 10):
+            recording.taken(came)
+        recording.add(Sample(came, axes))
+        if feedback:
+            recording.add(Sample(came, axes, 7000 + now))
+    return recording
+
+
+def data_of(page):
+    text = page.split('id="plot-data">')[1].split("</script>")[0]
+    return json.loads(text)
+
+
+def test_a_recording_by_the_controllers_clock_lies_on_what_was_commanded(irb120):
+    commanded = Trajectory(TIMES, wave(irb120), irb120.names)
+    late = recorded(irb120, feedback=True, jitter=0.4)
+    assert late.by_controller
+    assert late.times.tolist() == pytest.approx(np.arange(60) * 0.1)
+    made = plot(commanded, late)
+    difference = made.charts[-1]
+    assert difference.title == "executed minus commanded"
+    assert [curve.label for curve in difference.curves] == list(irb120.names)
+    assert max(np.abs(curve.values).max() for curve in difference.curves) < 1.0
+    # By the stamps of reception it is some degrees away.
+    stamps = plot(commanded, recorded(irb120, feedback=False, jitter=0.4)).charts[-1]
+    assert max(np.abs(curve.values).max() for curve in stamps.curves) > 5.0
+
+
+def test_a_difference_is_not_fitted_away(irb120):
+    commanded = Trajectory(TIMES, wave(irb120), irb120.names)
+    made = plot(commanded, recorded(irb120, feedback=True, off=0.02))
+    for curve in made.charts[-1].curves:
+        assert np.median(curve.values) == pytest.approx(math.degrees(0.02), abs=0.2)
+
+
+def test_limits_are_drawn_where_they_are_near(irb120):
+    joint = irb120.joints[0]
+    near = np.zeros((3, 6))
+    near[:, 0] = [0, joint.upper * 0.9, 0]
+    path = Trajectory([0, 1, 2], near, irb120.names)
+    first, second, *_ = plot(path, group=irb120).charts
+    (limit,) = [curve for curve in first.curves if curve.is_limit]
+    assert limit.values.tolist() == pytest.approx([math.degrees(joint.upper)] * 2)
+    assert not any(curve.is_limit for curve in second.curves)
+    assert not any(curve.is_limit for chart in plot(path).charts for curve in chart.curves)
+
+
+def test_metres_are_millimetres():
+    path = Trajectory([0, 1], [[0.0, 0.0], [0.1, 0.1]], ("track", "turn"))
+    track, turn = plot(path, linear=["track"]).charts
+    assert (track.heading, turn.heading) == ("track [mm]", "turn [deg]")
+    assert track.curves[0].values.tolist() == [0, 100]
+
+
+def test_a_recording_of_a_simulation_shows_tool_and_moves(tmp_path):
+    from rapidgen.motion.recorder import Recording
+
+    joints = np.linspace(0, 1, 20)[:, None]
+    tcp = np.hstack([joints, joints, joints, np.tile([1.0, 0, 0, 0], (20, 1))])
+    pointers = ("",) * 10 + ("MoveJ p1",) * 10
+    made = plot(
+        Recording(("a",), np.arange(20) * 0.1, joints, joints - 0.01, tcp, pointers, pointers)
+    )
+    headings = [chart.heading for chart in made.charts]
+    assert headings[0] == "a [deg]"
+    assert headings[2:5] == ["x [mm]", "y [mm]", "z [mm]"]
+    assert headings[5] == "actual minus commanded [deg]"
+    assert "moves" in headings[1]
+
+
+def test_a_move_that_the_program_left_between_two_samples_comes_behind_the_one_before():
+    from rapidgen.motion.recorder import Recording
+
+    joints = np.zeros((6, 1))
+    reached = ("", "p1", "p3", "p4", "p5", "p5")
+    under_way = ("", "", "p1", "p2", "p3", "p5")
+    made = plot(Recording(("a",), np.arange(6) * 0.1, joints, joints, None, reached, under_way))
+    (moves,) = [chart for chart in made.charts if chart.heading.startswith("moves")]
+    program, robot = (curve.values.tolist() for curve in moves.curves)
+    assert program == [0, 1, 3, 4, 5, 5]
+    assert robot == [0, 0, 1, 2, 3, 5]
+
+
+def test_a_page_has_all_curves_on_one_time(built, tmp_path, irb120):
+    commanded = Trajectory(TIMES, wave(irb120), irb120.names)
+    made = plot(commanded, recorded(irb120, feedback=True))
+    page = made.save(tmp_path / "p.html").read_text()
+    assert "/* plot.js */" in page
+    assert "http" not in page
+    data = data_of(page)
+    assert data["time"] == sorted(set(data["time"]))
+    assert len(data["charts"]) == 7
+    for chart in data["charts"]:
+        for curve in chart["curves"]:
+            assert len(curve["values"]) == len(data["time"])
+    assert "srcdoc" in made._repr_html_()
+
+
+def test_names_that_want_out_stay_in(built):
+    path = Trajectory([0, 1], [[0.0], [1.0]], ("</script><b>",))
+    page = plot(path, title="<i>").html()
+    assert "</script><b>" not in page
+    assert "<i>" not in page
+    assert data_of(page)["charts"][0]["title"] == "</script><b>"
+
+
+def test_long_recordings_are_thinned_and_keep_what_sticks_out(built):
+    times = np.arange(200_000) * 0.01
+    values = np.sin(times)[:, None]
+    values[123_456] = 9.0
+    values[5] = np.nan
+    page = plot(Trajectory(times, values, ("a",))).html()
+    assert len(page) < 200_000
+    assert "515.662" in page
+
+
+@pytest.mark.parametrize(
+    ("kind", "head"), [("png", b"\x89PNG\r\n\x1a\n"), ("svg", b"<?xml")], ids=["png", "svg"]
+)
+@pytest.mark.parametrize("count", [0, 1, 3])
+def test_pictures(tmp_path, kind, head, count):
+    path = Trajectory(np.arange(count), np.zeros((count, 2)), ("$_a", "b"))
+    drawn = plot(path).save(tmp_path / f"p.{kind}").read_bytes()
+    assert drawn.startswith(head)
+
+
+@pytest.mark.parametrize(
+    ("name", "code"), [("p.pdf", "RG626"), ("p", "RG626"), ("p.png", "RG626"), ("p.html", "RG920")]
+)
+def test_what_cannot_be_written_is_refused(tmp_path, monkeypatch, name, code):
+    monkeypatch.setattr(plotting, "ASSETS", tmp_path / "none")
+    monkeypatch.setattr(plotting, "_has_matplotlib", lambda: False)
+    with pytest.raises(DiagnosticError) as error:
+        plot(Trajectory([0], [[0.0]])).save(tmp_path / name)
+    assert error.value.diagnostics[0].code == code
+    assert not list(tmp_path.iterdir())
+
+
+def test_what_is_no_trajectory_is_told():
+    with pytest.raises(TypeError, match="not str"):
+        plot("path.csv")
