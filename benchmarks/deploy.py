@@ -20,7 +20,7 @@ from pathlib import Path
 from queue import Queue
 
 from rapidgen.deploy import Access, connect, make_plan, parse_target
-from rapidgen.deploy.command_run import Job, apply_all, plan_all, wanted_set
+from rapidgen.deploy.command_run import Job, apply_all, desired_set, plan_all
 from rapidgen.servers import serve_ftp
 
 PASSWORD = "benchmark"
@@ -91,7 +91,7 @@ class Slow:
 def figures() -> None:
     """Print the figures."""
     os.environ["RAPIDGEN_PASSWORD"] = PASSWORD
-    wanted = wanted_set("irb120")
+    wanted = desired_set("irb120")
     with tempfile.TemporaryDirectory() as name, contextlib.ExitStack() as stack:
         urls, slow = [], []
         for number in range(COUNT + 1):

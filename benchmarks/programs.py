@@ -22,7 +22,7 @@ from rapidgen.generate import build, make_system
 from rapidgen.system.model import ModuleFile
 from rapidgen.verification.batches import millionths
 from rapidgen.verification.messages import RawInstruction, RawStreamFlag
-from rapidgen.verification.raw_programs import Programmer, RawOrder, bent, reached
+from rapidgen.verification.raw_programs import Programmer, RawMove, bent, reached
 from rapidgen.verification.stream import Streamer
 from rapidgen.verification.testbench import Bench
 
@@ -66,10 +66,10 @@ def reading() -> None:
     with Bench(config, make_system(config, build(config))) as bench:
         bench.run(0.5)
         place, client = bent(bench), Programmer(bench)
-        client.takes("the beginning", [RawOrder(RawInstruction.MOVE_ABSJ, place, None, zone=None)])
+        client.takes("the beginning", [RawMove(RawInstruction.MOVE_ABSJ, place, None, zone=None)])
         bench.wait_until_at(place)
         bench.run(0.5)
-        pose = RawOrder(RawInstruction.MOVE_L, place, reached(bench, place), zone=None)
+        pose = RawMove(RawInstruction.MOVE_L, place, reached(bench, place), zone=None)
         joints = replace(pose, kind=RawInstruction.MOVE_ABSJ, pose=None)
         found = {}
         for what, order in (("to a pose", pose), ("to joints", joints)):
@@ -95,7 +95,7 @@ def reading() -> None:
             print(f"one instruction {what}: {1e3 * each:.2f} ms, {each / point:.2f} x a point")
 
 
-def _bare(order: RawOrder) -> list[int]:
+def _bare(order: RawMove) -> list[int]:
     """Without speed and zone."""
     values = [] if order.pose is None else [*order.pose[0], *order.pose[1]]
     return [int(order.kind), *millionths([*values, *order.joints])]

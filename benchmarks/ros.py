@@ -21,7 +21,7 @@ from driven import booted, robot_of  # noqa: E402
 from ready import goal, station  # noqa: E402
 
 from rapidgen.ros.goal_execution import Policy  # noqa: E402
-from rapidgen.ros.goals import Ending  # noqa: E402
+from rapidgen.ros.goals import FinalStatus  # noqa: E402
 from rapidgen.ros.robot_link import RobotLink  # noqa: E402
 from rapidgen.testing.asyncio_clock import VirtualLoop  # noqa: E402
 
@@ -59,7 +59,7 @@ async def soon(s, asked):
         await asyncio.sleep(LOOK)
     latency = s.loop.time() - began
     outcome = await following
-    assert outcome.status is Ending.SUCCEEDED, outcome
+    assert outcome.status is FinalStatus.SUCCEEDED, outcome
     return latency
 
 

@@ -27,7 +27,7 @@ from rclpy.signals import SignalHandlerOptions
 from sensor_msgs.msg import JointState
 
 from rapidgen.client import AsyncRobot
-from rapidgen.ros.time_stamps import Stamps
+from rapidgen.ros.time_stamps import RosTimeEstimator
 
 LATER, MORE = 2.0, 5.0
 """ms of p99, and points of CPU, that the node may add."""
@@ -36,7 +36,7 @@ LATER, MORE = 2.0, 5.0
 async def bare(address):
     """A client, and a publisher of what it hears."""
     rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
-    node, stamps = rclpy.create_node("bare"), Stamps()
+    node, stamps = rclpy.create_node("bare"), RosTimeEstimator()
     publisher = node.create_publisher(JointState, "/bare/joint_states", QoSProfile(depth=10))
     async with AsyncRobot("irb120", address=address, feedback=True, watch=True) as robot:
         while True:

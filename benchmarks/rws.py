@@ -24,7 +24,7 @@ from websockets.sync.client import connect
 from rapidgen.client.rws import Controller, topics
 from rapidgen.client.rws.transport import socket_options
 from rapidgen.config import load_config
-from rapidgen.controller.runner import Cabinet
+from rapidgen.controller.runner import ControllerRunner
 from rapidgen.servers.rws.server import serve_rws
 from rapidgen.system import read_files
 from rapidgen.system.model import SignalSpec
@@ -54,7 +54,7 @@ def serve(generation, pipe, strict):
         read_files([folder / "MainModule.mod"]), robotware=RELEASE[generation], signals=signals
     )
     groups = load_config("irb120").groups
-    with Cabinet(system, robots=groups, clock="real", autostart=False) as cabinet:
+    with ControllerRunner(system, robots=groups, clock="real", autostart=False) as cabinet:
         cabinet.start()
         service = serve_rws(cabinet, generation, strict=strict)
         pipe.send((service.port, service.host_key))

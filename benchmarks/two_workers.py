@@ -12,13 +12,13 @@ from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
 
 from rapidgen.config import load_config
-from rapidgen.verification.suite_runner import prove
+from rapidgen.verification.suite_runner import run_suite
 
 
 def seconds(schedules: int, jobs: int) -> float:
     """Wall time of a campaign of schedules on the driver of an IRB 120."""
     started = time.perf_counter()
-    report = prove(load_config("irb120"), seeds=schedules, jobs=jobs, cases=False)
+    report = run_suite(load_config("irb120"), seeds=schedules, jobs=jobs, cases=False)
     assert report.schedules == schedules
     return time.perf_counter() - started
 

@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Any
 
 from rapidgen.verification.result_file import Results
-from rapidgen.verification.worker_pool import Call, Known, Local, in_order
+from rapidgen.verification.worker_pool import CachedResult, Call, LocalPool, in_order
 
 
 def outcomes(
@@ -16,11 +16,11 @@ def outcomes(
     `path` keeps results `of` one campaign (None: they are not kept); what it has is not done again.
     """
     keys = list(pieces)
-    with Results(path, of, resume=True) as results, Local(None, jobs) as workers:
+    with Results(path, of, resume=True) as results, LocalPool(None, jobs) as workers:
 
-        def make(number: int) -> Call | Known:
+        def make(number: int) -> Call | CachedResult:
             known = results.known(keys[number])
-            return Call(number, one, pieces[keys[number]]) if known is None else Known(known)
+            return Call(number, one, pieces[keys[number]]) if known is None else CachedResult(known)
 
         for key, found in zip(keys, in_order(workers, len(keys), make), strict=True):
             results.add(key, found)

@@ -41,7 +41,7 @@ from rapidgen.verification.result_file import Results
 from rapidgen.verification.settings import possible, settings
 from rapidgen.verification.settings import rows as assumptions
 from rapidgen.verification.suite import CASES
-from rapidgen.verification.worker_pool import Local
+from rapidgen.verification.worker_pool import LocalPool
 from tools.mutation.driver import mutants
 from tools.mutation.judging import HANGS, VERDICTS, Learning, Question, grounds, verdicts
 
@@ -56,7 +56,7 @@ def key_of(mutant):
 def hired(context):
     """Who works: processes of this machine, or the workers of a cluster."""
     if ARGUMENTS.cluster is None:
-        return Local(context, ARGUMENTS.jobs)
+        return LocalPool(context, ARGUMENTS.jobs)
     return Cluster(ARGUMENTS.cluster, context, lambda text: print(text, file=sys.stderr))
 
 

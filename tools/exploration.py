@@ -29,9 +29,9 @@ from rapidgen.cli.progress import Bars
 from rapidgen.config import load_config
 from rapidgen.generate import build, make_system
 from rapidgen.verification.schedule_exploration import ground_of
-from rapidgen.verification.schedule_selection import Guide
-from rapidgen.verification.suite_runner import DriverUnderTest, prove, schedules
-from rapidgen.verification.worker_pool import Call, Local, in_order
+from rapidgen.verification.schedule_selection import ScheduleSelector
+from rapidgen.verification.suite_runner import DriverUnderTest, run_suite, schedules
+from rapidgen.verification.worker_pool import Call, LocalPool, in_order
 from tests.verification.defective import CAPACITY, DEFECTS, small_driver
 from tools.foreign.abb_driver import read_system
 
@@ -54,7 +54,7 @@ def kind_of(finding):
 
 def explored(config, system, seeds, workers, first=0, enough=lambda found: False):
     """Findings by number, until `enough` of them; how many schedules; s; the guide."""
-    guide = Guide(ground_of(config, system), first)
+    guide = ScheduleSelector(ground_of(config, system), first)
     started, found, count = time.monotonic(), {}, 0
     work = schedules(seeds, guide)
 
@@ -88,7 +88,7 @@ def long_run(robot, seeds, jobs, folder):
     known = path.read_bytes().count(b"\n") - 1 if path and path.exists() else 0
     started, before = time.monotonic(), cpu()
     with Bars() as progress:
-        report = prove(
+        report = run_suite(
             load_config(robot),
             seeds=seeds,
             jobs=jobs,
@@ -132,7 +132,7 @@ def main():
     small = replace(config, trajectory=replace(config.trajectory, capacity=CAPACITY))
     for defect in DEFECTS:
         system, firsts, seconds = small_driver(defect), [], 0.0
-        with Local(DriverUnderTest(small, system), given.jobs) as workers:
+        with LocalPool(DriverUnderTest(small, system), given.jobs) as workers:
             for campaign in range(given.campaigns):
                 found, count, spent, _ = explored(
                     small, system, given.seeds, workers, 10_000 * campaign, bool
@@ -149,7 +149,7 @@ def main():
         ("no defect", small, small_driver()),
         ("generated", config, make_system(config, build(config))),
     ):
-        with Local(DriverUnderTest(own, system), given.jobs) as workers:
+        with LocalPool(DriverUnderTest(own, system), given.jobs) as workers:
             found, count, seconds, guide = explored(own, system, given.seeds, workers)
         print(f"{name:10} {len(found)} findings in {count} schedules, {seconds:.0f} s", flush=True)
         print(f"           pairs: {' '.join(f'{n}:{pairs}' for n, pairs in guide.curve[::10])}")
@@ -158,7 +158,7 @@ def main():
     if given.folder is not None:
         foreign = replace(config, trajectory=replace(config.trajectory, capacity=ABB_CAPACITY))
         system = read_system(given.folder)
-        with Local(DriverUnderTest(foreign, system), given.jobs) as workers:
+        with LocalPool(DriverUnderTest(foreign, system), given.jobs) as workers:
             found, count, seconds, _ = explored(foreign, system, given.seeds, workers)
         print(f"abb_driver {len(found)} findings in {count} schedules, {seconds:.0f} s")
         for kind in (*DEFECTS, "other"):

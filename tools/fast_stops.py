@@ -24,7 +24,7 @@ from rapidgen.generate import build, make_system
 from rapidgen.verification.fast_stops import fast_stop
 from rapidgen.verification.settings import assumed, rows
 from rapidgen.verification.testbench import Bench
-from rapidgen.verification.worker_pool import Local, each, in_a_fork
+from rapidgen.verification.worker_pool import LocalPool, each, run_in_fork
 
 ROBOTS = ("irb120", "irb6700", "irb2400", "irb120_track", "irb14000")
 FAR = (0.01, 0.1, 0.5)
@@ -45,7 +45,7 @@ def booted(robot, texts):
 
 def one(benches, seed):
     bench = benches[seed % len(benches)]
-    return in_a_fork(lambda: fast_stop(bench, seed))
+    return run_in_fork(lambda: fast_stop(bench, seed))
 
 
 def cpu():
@@ -63,7 +63,7 @@ def told(done):
 def main():
     seeds = list(range(GIVEN.first, GIVEN.first + GIVEN.count))
     stops = []
-    with Local(BENCHES, GIVEN.jobs) as workers:
+    with LocalPool(BENCHES, GIVEN.jobs) as workers:
         for stop in each(workers, seeds, one):
             stops.append(stop)
             told(len(stops))

@@ -30,7 +30,7 @@ from rapidgen.client.rws.address import parse_address  # noqa: E402
 from rapidgen.client.rws.core import Login, RwsCore  # noqa: E402
 from rapidgen.servers.rws import routing  # noqa: E402
 from rapidgen.servers.rws.disks import VOLUMES  # noqa: E402
-from rapidgen.servers.rws.messages import Received  # noqa: E402
+from rapidgen.servers.rws.messages import HttpRequest  # noqa: E402
 from rapidgen.wire.rws import media  # noqa: E402
 from rapidgen.wire.rws.bodies import Generation  # noqa: E402
 from rapidgen.wire.rws.operations import Route  # noqa: E402
@@ -178,7 +178,7 @@ def _sent(caller: Caller, request: tuple[str, str, bytes, dict[str, str]]) -> tu
     begun = time.perf_counter()
     try:
         status = caller.send(method, target, body=body, **headers).status
-        caller.desk.handle(Received(method, target, {"authorization": target}, body))
+        caller.desk.handle(HttpRequest(method, target, {"authorization": target}, body))
     except Exception as fault:  # noqa: BLE001 - told, with the seed that makes it again
         return 0, repr(fault)
     if time.perf_counter() - begun > SLOW:

@@ -23,7 +23,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from rapidgen.config import load_config
 from rapidgen.verification.covering_array import covering
 from rapidgen.verification.report import as_json
-from rapidgen.verification.suite_runner import prove
+from rapidgen.verification.suite_runner import run_suite
 
 ROOT = Path(__file__).resolve().parents[1]
 BASE = ROOT / "robots" / "examples" / "irb120-rw6.yaml"
@@ -72,7 +72,7 @@ def proven(label, path, overrides, of):
     config = load_config(str(path), overrides=overrides)
     kept = GIVEN.output.with_suffix("") / of / f"{label.replace(' ', '_')}-{GIVEN.together}.jsonl"
     kept.parent.mkdir(parents=True, exist_ok=True)
-    proof = prove(
+    proof = run_suite(
         config,
         seeds=100,
         jobs=GIVEN.jobs,

@@ -24,7 +24,7 @@ from rapidgen.verification.boundary import prepare
 from rapidgen.verification.raw_connection import STOP
 from rapidgen.verification.settings import assumed
 from rapidgen.verification.testbench import FAILURES
-from rapidgen.verification.worker_pool import in_a_fork
+from rapidgen.verification.worker_pool import run_in_fork
 from tools.campaigns import outcomes
 
 STATES = ("receiving", "moving", "streaming", "program")
@@ -89,7 +89,7 @@ def recovered(bench):
 def one(_, seed):
     state = STATES[seed % len(STATES)]
     prepared(state)
-    return in_a_fork(lambda: trial(state, seed))
+    return run_in_fork(lambda: trial(state, seed))
 
 
 def main():

@@ -17,7 +17,7 @@ Array = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)
-class Demand:
+class LimitUsage:
     """What a timed trajectory asks of the axes, as shares of their limits (1 = at the limit).
 
     `speed[k]` belongs to the segment from point k to k + 1, `acceleration[k]` to point k.
@@ -32,7 +32,7 @@ class Demand:
         return float(max(self.speed.max(initial=0.0), self.acceleration.max(initial=0.0)))
 
 
-def demand(times: Array, positions: Array, speed: Array, acceleration: Array) -> Demand:
+def limit_usage(times: Array, positions: Array, speed: Array, acceleration: Array) -> LimitUsage:
     """Shares of the limits that a trajectory needs.
 
     `times` (N,) s ascending, `positions` (N, n), `speed` and `acceleration` (n,).
@@ -101,7 +101,7 @@ def _next_share(
 
 def slow_down(times: Array, positions: Array, speed: Array, acceleration: Array) -> Array:
     """The same times, stretched as a whole until the limits hold (unchanged when they do)."""
-    worst = demand(times, positions, speed, acceleration)
+    worst = limit_usage(times, positions, speed, acceleration)
     factor = max(1.0, float(worst.speed.max()), float(np.sqrt(worst.acceleration.max())))
     stretched: Array = times[0] + (np.asarray(times) - times[0]) * factor
     return stretched
@@ -125,7 +125,7 @@ def resample(times: Array, positions: Array, period: float) -> tuple[Array, Arra
     return fresh, np.stack(columns, axis=1)
 
 
-def thin(times: Array, positions: Array, shortest: float, tolerance: float) -> Array:
+def decimate(times: Array, positions: Array, shortest: float, tolerance: float) -> Array:
     """Indices of points to keep: no segment below `shortest` s if that can be, and no dropped
     point further than `tolerance` (rad, m) from the way between its kept neighbours."""
     stamps = np.asarray(times, dtype=np.float64)
@@ -162,7 +162,7 @@ def _segments(times: Array, positions: Array) -> tuple[Array, Array]:
     return periods, np.diff(points, axis=0)
 
 
-def _demand(periods: Array, deltas: Array, speed: Array, acceleration: Array) -> Demand:
+def _demand(periods: Array, deltas: Array, speed: Array, acceleration: Array) -> LimitUsage:
     rates = deltas / periods[:, None]
     shares = np.max(np.abs(rates) / speed, axis=1)
     mean = (periods[1:] + periods[:-1]) / 2
@@ -173,4 +173,4 @@ def _demand(periods: Array, deltas: Array, speed: Array, acceleration: Array) ->
     first = ramps * np.abs(deltas[0]) / periods[0] ** 2
     final = ramps * np.abs(deltas[-1]) / periods[-1] ** 2
     accelerations = np.concatenate((first[None], inner, final[None]))
-    return Demand(shares, np.max(accelerations / acceleration, axis=1))
+    return LimitUsage(shares, np.max(accelerations / acceleration, axis=1))

@@ -11,8 +11,8 @@ from rapidgen.diagnostics import DiagnosticError, Severity, refusal, render
 
 if TYPE_CHECKING:
     from rapidgen.controller.boot_targets import Bootable
-    from rapidgen.controller.cell_setup import Guessed
-    from rapidgen.controller.inference.cell import Named
+    from rapidgen.controller.cell_setup import InferenceLog
+    from rapidgen.controller.inference.cell import UndeclaredName
     from rapidgen.controller.inference.dialog_answers import Said
 
 
@@ -33,9 +33,9 @@ def chosen(
 
     Notes, and what was guessed, are told on stderr. Raises DiagnosticError.
     """
-    from rapidgen.controller.boot_targets import Wishes, load_target
+    from rapidgen.controller.boot_targets import BootOptions, load_target
 
-    wishes = Wishes(
+    wishes = BootOptions(
         _tasks(tasks or ()),
         robot=robot,
         robotware=_release(robotware),
@@ -96,7 +96,7 @@ def _numbers(text: str) -> tuple[float, ...]:
         raise refusal("RG901", None, f"--start '{text}' is no list of numbers", mend) from fault
 
 
-def _table(title: str, rows: "Sequence[Named]") -> str:
+def _table(title: str, rows: "Sequence[UndeclaredName]") -> str:
     if not rows:
         return ""
     width = max(len(row.name) for row in rows)
@@ -107,7 +107,7 @@ def _table(title: str, rows: "Sequence[Named]") -> str:
     return f"{title}:\n{''.join(lines)}"
 
 
-def guessed_told(guessed: "Guessed") -> str:
+def inference_report(guessed: "InferenceLog") -> str:
     """What guessed inputs became, how dialogs were answered, and where the guessed robot did not
     go as programmed."""
     why = "guessed, because the program waited for it"

@@ -37,20 +37,20 @@ def deploy(
     rapidgen deploy cell1.yaml --to "ftp://192.168.125.1/hd0a/SYSTEM/HOME"
     """
     from rapidgen.cli.driver_query import hello
-    from rapidgen.cli.plan_execution import carry_out, make_sure, show_plans
+    from rapidgen.cli.plan_execution import confirm_plan, execute, show_plans
     from rapidgen.cli.rws_session import agree
     from rapidgen.deploy.command_run import (
         FleetJob,
         check_plans,
+        desired_set,
         plan_all,
         refuse_conflicts,
         save_neighbours,
-        wanted_set,
     )
     from rapidgen.deploy.fleet import parse_targets
     from rapidgen.deploy.target import Access
 
-    wanted = wanted_set(config, overrides or ())
+    wanted = desired_set(config, overrides or ())
     access = Access(
         user, secrets, identity, known_hosts, ask=True, fingerprint=fingerprint, agree=agree()
     )
@@ -75,6 +75,6 @@ def deploy(
         typer.echo(f"kept a copy of what loads the other driver: {path}", err=True)
     refuse_conflicts(job, plans)
     if all(made.is_empty for made in plans):
-        return carry_out(job, plans, as_json=True) if as_json else 0
-    make_sure(f"Change {sum(not p.is_empty for p in plans)} controller(s)?", yes=yes)
-    return carry_out(job, plans, as_json=as_json)
+        return execute(job, plans, as_json=True) if as_json else 0
+    confirm_plan(f"Change {sum(not p.is_empty for p in plans)} controller(s)?", yes=yes)
+    return execute(job, plans, as_json=as_json)

@@ -40,16 +40,16 @@ def doctor(
 
     from rapidgen.cli.driver_query import error_reason, hello
     from rapidgen.cli.rws_session import agree
-    from rapidgen.deploy.command_run import wanted_set
-    from rapidgen.deploy.doctor import examine
+    from rapidgen.deploy.command_run import desired_set
+    from rapidgen.deploy.doctor import run_checks
     from rapidgen.deploy.target import Access, parse_target
 
-    checks = examine(
+    checks = run_checks(
         parse_target(to),
         Access(
             user, secrets, identity, known_hosts, ask=True, fingerprint=fingerprint, agree=agree()
         ),
-        wanted_set(config, overrides or ()),
+        desired_set(config, overrides or ()),
         hello=hello,
         told=error_reason,
         robot_host=host,

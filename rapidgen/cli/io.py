@@ -84,13 +84,13 @@ def _over_web_services(
     secrets: Path | None,
     fingerprint: str,
 ) -> list[_Read]:
-    from rapidgen.cli.plan_execution import make_sure
+    from rapidgen.cli.plan_execution import confirm_plan
     from rapidgen.cli.rws_session import controller
 
     with controller(host, user, secrets, fingerprint) as found:
         if value is not None:
             if not found.identity().is_virtual:
-                make_sure(f"set {name} to {_shown(value)} at {host}?", yes=yes)
+                confirm_plan(f"set {name} to {_shown(value)} at {host}?", yes=yes)
             signals = [found.set_signal(name, value)]
         else:
             signals = [found.signal(name)] if name else list(found.signals())

@@ -44,7 +44,7 @@ def jog(
     rapidgen jog cell.yaml joint_1=5 joint_3=-2 --to sim
     rapidgen jog cell.yaml z=20 --to sim
     """
-    from rapidgen.cli.motion_commands import confirm_at, permitted, told_of_a_cut
+    from rapidgen.cli.motion_commands import confirm_at, permitted, report_interruption
     from rapidgen.client import Robot
 
     units = Units(rad)
@@ -57,7 +57,7 @@ def jog(
         steps = _steps(robot, units, asked)
         if must_ask:
             confirm_at(robot)
-        with told_of_a_cut(robot, units):
+        with report_interruption(robot, units):
             result = robot.jog(speed=speed / units.length[1] or _SLOW, **steps)
         if as_json:
             import json

@@ -38,7 +38,7 @@ def monitor(
     from rapidgen.viewer import state_lines
 
     robot = Robot(config, address=to or None, group=group, watch=True, reconnect=reconnect)
-    watcher = state_lines.Watcher()
+    watcher = state_lines.StateStatistics()
     is_live = not (plain or as_json) and sys.stdout.isatty()
     with robot, Live(refresh_per_second=10) if is_live else nullcontext() as screen:
         for number, state in enumerate(robot.states(), 1):

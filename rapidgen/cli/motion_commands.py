@@ -38,19 +38,19 @@ def confirm_at(robot: "Robot") -> None:
     typer.confirm(f"Move the robot at {robot.address}?", abort=True, err=True)
 
 
-def carried_out(robot: "Robot", trajectory: "Trajectory", way: "Way", units: Units) -> "Result":
+def execute_motion(robot: "Robot", trajectory: "Trajectory", way: "Way", units: Units) -> "Result":
     """Execute a trajectory. Ctrl-C stops the robot, and tells where it stands and how far it came.
 
     Raises as `Robot.execute` and `Execution.result`, KeyboardInterrupt.
     """
-    with told_of_a_cut(robot, units) as under_way:
+    with report_interruption(robot, units) as under_way:
         execution = robot.execute(trajectory, way=way)
         under_way.append(execution)
         return follow(execution)
 
 
 @contextmanager
-def told_of_a_cut(robot: "Robot", units: Units) -> "Iterator[list[Execution]]":
+def report_interruption(robot: "Robot", units: Units) -> "Iterator[list[Execution]]":
     """Around a motion, which goes into the list once it is under way: Ctrl-C, which stops the
     robot, is told with where it stands and how far it came. Raises StopFailed where it does not."""
     under_way: list[Execution] = []

@@ -89,7 +89,7 @@ def move(
 
     rapidgen move cell.yaml --joints 0,10,0,0,30,0 --to sim
     """
-    from rapidgen.cli.motion_commands import carried_out, confirm_at, permitted
+    from rapidgen.cli.motion_commands import confirm_at, execute_motion, permitted
     from rapidgen.cli.plot import draw_motion
     from rapidgen.client import Robot
     from rapidgen.client.permission import first_speed, remember
@@ -131,7 +131,7 @@ def move(
             confirm_at(robot)
         with robot.recording() as recording:
             try:
-                result = carried_out(robot, trajectory, way, units)
+                result = execute_motion(robot, trajectory, way, units)
             finally:
                 if record is not None:
                     recording.to_csv(record)

@@ -76,7 +76,7 @@ def new(
 ) -> None:
     """Write a commented configuration that checks and builds. What stays open is marked in it."""
     from rapidgen.cli.wizard import ask_open, ask_source, is_terminal
-    from rapidgen.config.from_description import Answers
+    from rapidgen.config.from_description import DescriptionChoices
     from rapidgen.config.scaffold import assignments, from_model, from_urdf, ranges, write_new
 
     if robot is None and urdf is None and is_terminal():
@@ -96,11 +96,13 @@ def new(
             "`rapidgen robots` lists the shipped models",
         )
     if robot is not None:
-        text = from_model(robot, Answers(speed=speed, controller=controller, robotware=robotware))
+        text = from_model(
+            robot, DescriptionChoices(speed=speed, controller=controller, robotware=robotware)
+        )
     else:
         described = urdf
         assert described is not None
-        said = Answers(
+        said = DescriptionChoices(
             joints=assignments([*(joint or ()), *(track or ())]),
             ignore=tuple(ignore or ()),
             tips=tuple(tip or ()),
@@ -112,7 +114,7 @@ def new(
             robotware=robotware,
         )
 
-        def make(answers: Answers) -> str:
+        def make(answers: DescriptionChoices) -> str:
             return from_urdf(
                 described,
                 folder=file.parent,

@@ -39,7 +39,7 @@ def plan(
 
     from rapidgen.cli.run_outputs import refuse_unwritable
     from rapidgen.cli.rws_session import agree
-    from rapidgen.deploy.command_run import FleetJob, plan_all, wanted_set, write_plans
+    from rapidgen.deploy.command_run import FleetJob, desired_set, plan_all, write_plans
     from rapidgen.deploy.fleet import parse_targets
     from rapidgen.deploy.plan import plan_json
     from rapidgen.deploy.plan_text import plans_text
@@ -47,7 +47,7 @@ def plan(
 
     if out is not None:
         refuse_unwritable([out])
-    wanted = wanted_set(config, overrides or ())
+    wanted = desired_set(config, overrides or ())
     access = Access(
         user, secrets, identity, known_hosts, ask=True, fingerprint=fingerprint, agree=agree()
     )

@@ -20,14 +20,14 @@ def show_plans(plans: "Sequence[Plan]") -> None:
     typer.echo(plans_text(plans), err=True, nl=False)
 
 
-def make_sure(question: str, *, yes: bool) -> None:
+def confirm_plan(question: str, *, yes: bool) -> None:
     """Ask before anything is changed. Raises DiagnosticError RG533."""
     from rapidgen.deploy.command_run import confirm
 
     confirm(question, yes=yes, ask=lambda text: typer.confirm(text, err=True))
 
 
-def carry_out(job: "FleetJob", plans: "Sequence[Plan]", *, as_json: bool = False) -> int:
+def execute(job: "FleetJob", plans: "Sequence[Plan]", *, as_json: bool = False) -> int:
     """Do what was planned; a table of the controllers, or JSON with their errors; the exit code.
 
     Raises DiagnosticError where one failed and that was not told in JSON, KeyboardInterrupt behind
@@ -36,13 +36,13 @@ def carry_out(job: "FleetJob", plans: "Sequence[Plan]", *, as_json: bool = False
 
     from rapidgen.cli.termination import on_signal
     from rapidgen.deploy.command_run import apply_all
-    from rapidgen.deploy.fleet import GivingUp
+    from rapidgen.deploy.fleet import Interruption
     from rapidgen.deploy.plan_text import outcomes_json, table
 
     def say(line: str) -> None:
         typer.echo(line, err=True)
 
-    giving_up = GivingUp(say)
+    giving_up = Interruption(say)
     with on_signal(giving_up.begin):
         outcomes = apply_all(replace(job, giving_up=giving_up), plans, say)
     if as_json:

@@ -18,7 +18,7 @@ def robots(
     """List the shipped models. `robots show NAME` prints axes, reach and sources."""
     from rapidgen.config.catalogue import shipped_models, variant_named, variant_text
     from rapidgen.config.variant_library import variants
-    from rapidgen.config.variant_model import lacks, model_name, names
+    from rapidgen.config.variant_model import missing_figures, model_name, names
     from rapidgen.diagnostics import refusal
 
     if words and words[0] == "show":
@@ -39,7 +39,7 @@ def robots(
         lines.append(f"{model.name:<{width}}  {model.description} ({versions})")
     if known or wanted:
         for variant in (v for v in variants() if not v.model):
-            missing = lacks(variant)
+            missing = missing_figures(variant)
             name = "-" if missing else model_name(variant)
             lines.append(f"{name:<{width}}  ABB {variant.name}" + _shown(missing))
     shown = [line for line in lines if all(word in line.casefold() for word in wanted)]

@@ -39,7 +39,7 @@ def rollback(
     import json
 
     from rapidgen.cli.driver_query import hello
-    from rapidgen.cli.plan_execution import carry_out, make_sure, show_plans
+    from rapidgen.cli.plan_execution import confirm_plan, execute, show_plans
     from rapidgen.cli.rws_session import agree
     from rapidgen.deploy.command_run import (
         FleetJob,
@@ -86,5 +86,5 @@ def rollback(
     plans = plan_all(job)
     show_plans(plans)
     refuse_conflicts(job, plans)
-    make_sure(f"Roll back {len(plans)} controller(s)?", yes=yes)
-    return carry_out(job, plans, as_json=as_json)
+    confirm_plan(f"Roll back {len(plans)} controller(s)?", yes=yes)
+    return execute(job, plans, as_json=as_json)

@@ -80,7 +80,7 @@ def run(
     code 1 when a task stopped with an error, on a deadlock, and at the limits of time, statements
     and memory.
     """
-    from rapidgen.cli.boot_options import chosen, guessed_told
+    from rapidgen.cli.boot_options import chosen, inference_report
     from rapidgen.cli.memory_limit import at_most
     from rapidgen.cli.run_outputs import Observed, Outputs
     from rapidgen.controller.controller import VirtualController
@@ -121,7 +121,7 @@ def run(
         observed = Observed(controller, wanted)
         controller.start_program()
         wrong = _run(controller, max_time, max_statements, cell)
-        sys.stderr.write(guessed_told(controller.guessed))
+        sys.stderr.write(inference_report(controller.guessed))
         observed.write()
     if wrong:
         raise DiagnosticError(wrong, exit_code=1)
@@ -170,9 +170,9 @@ def _run(
     controller: "VirtualController", max_time: float, max_statements: int, cell: str
 ) -> list[Diagnostic]:
     """Run to the end; what went wrong."""
-    from rapidgen.controller.inference.restarts import run_through
+    from rapidgen.controller.inference.restarts import run_past_stops
 
-    ended = run_through(controller, max_time=max_time, max_statements=max_statements)
+    ended = run_past_stops(controller, max_time=max_time, max_statements=max_statements)
     found = [
         _fault(task.name, task.fault, cell)
         for task in controller.tasks.values()

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
     from rapidgen.controller.controller import VirtualController
-    from rapidgen.controller.runner import Cabinet
+    from rapidgen.controller.runner import ControllerRunner
     from rapidgen.controller.tracing import Coverage, Profile
     from rapidgen.motion.recorder import Recorder
 
@@ -103,7 +103,7 @@ class Observed:
 
 
 @contextmanager
-def observing(cabinet: "Cabinet", wanted: Outputs) -> "Iterator[None]":
+def observing(cabinet: "ControllerRunner", wanted: Outputs) -> "Iterator[None]":
     """Write what was asked for when a controller is switched off, and when it restarts: then under
     names of their own, `F-1.html`, since nothing of before is in it any more."""
     now = Observed(cabinet.controller, wanted)

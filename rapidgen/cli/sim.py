@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from rapidgen._json import Members
     from rapidgen.controller.boot_targets import Bootable
     from rapidgen.controller.controller import VirtualController
-    from rapidgen.controller.runner import Cabinet
+    from rapidgen.controller.runner import ControllerRunner
     from rapidgen.viewer.appearance import Appearance
 
 
@@ -107,7 +107,7 @@ def sim(
     from rapidgen.cli.boot_options import chosen
     from rapidgen.cli.run_outputs import Outputs, observing
     from rapidgen.controller.faults import FaultPlan, read_plan
-    from rapidgen.controller.runner import Cabinet
+    from rapidgen.controller.runner import ControllerRunner
     from rapidgen.machine.operator import read_answers
 
     if ports is not None and port_offset:
@@ -135,7 +135,7 @@ def sim(
     if ports is None and found.driver:
         _check_ports(found, host, port_offset)
     look = _look(found) if view or record is not None else None
-    with Cabinet.boot(
+    with ControllerRunner.boot(
         found,
         clock="real",
         speed=speed,
@@ -160,7 +160,7 @@ def sim(
 
 
 def _serve(
-    cabinet: "Cabinet", target: "Bootable", host: str, speed: float, faces: "Members"
+    cabinet: "ControllerRunner", target: "Bootable", host: str, speed: float, faces: "Members"
 ) -> int:
     """Run until a signal comes; the exit code."""
     import json
@@ -219,7 +219,7 @@ def _serve(
 
 
 @contextmanager
-def _control(cabinet: "Cabinet") -> "Iterator[Members]":
+def _control(cabinet: "ControllerRunner") -> "Iterator[Members]":
     """The control socket, again after each restart; its port and token."""
     from rapidgen.servers.control_commands import READABLE, commands, subscribe
     from rapidgen.servers.control_socket import ControlSocket
@@ -256,7 +256,7 @@ def _control(cabinet: "Cabinet") -> "Iterator[Members]":
 
 @contextmanager
 def _faces(
-    cabinet: "Cabinet",
+    cabinet: "ControllerRunner",
     host: str,
     ftp: int | None,
     sftp: int | None,
@@ -318,7 +318,7 @@ def _look(target: "Bootable") -> "Appearance":
 
 @contextmanager
 def _page(
-    cabinet: "Cabinet", look: "Appearance | None", host: str, port: int
+    cabinet: "ControllerRunner", look: "Appearance | None", host: str, port: int
 ) -> "Iterator[Members]":
     """The page that shows the robot; what `ready` tells of it.
 
@@ -340,7 +340,10 @@ def _page(
 
 @contextmanager
 def _recording(
-    cabinet: "Cabinet", look: "Appearance | None", path: Path | None, watches: "Iterable[str]"
+    cabinet: "ControllerRunner",
+    look: "Appearance | None",
+    path: Path | None,
+    watches: "Iterable[str]",
 ) -> "Iterator[None]":
     """A recording while it runs, another one after each restart. Raises OSError."""
     pairs = [(task, text) for task, _, text in (watch.partition(":") for watch in watches)]

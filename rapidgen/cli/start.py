@@ -25,7 +25,7 @@ def start(
 
     Shows mode, speed, selected tasks and their pointers, asks, switches the motors on and starts.
     """
-    from rapidgen.cli.plan_execution import make_sure
+    from rapidgen.cli.plan_execution import confirm_plan
     from rapidgen.cli.rws_session import ask_pendant, controller
     from rapidgen.cli.status import show, state
 
@@ -33,7 +33,7 @@ def start(
         told = state(found)
         show(told)
         first = " with all program pointers at main" if main else ""
-        make_sure(f"THE ROBOT MAY MOVE: start the program at {host}{first}?", yes=yes)
+        confirm_plan(f"THE ROBOT MAY MOVE: start the program at {host}{first}?", yes=yes)
         ask_pendant(found, "exec", str(told["mode"]))
         if main:
             found.pp_to_main()

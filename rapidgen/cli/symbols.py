@@ -29,7 +29,7 @@ def symbols(
     import json
     from dataclasses import asdict
 
-    from rapidgen.cli.plan_execution import make_sure
+    from rapidgen.cli.plan_execution import confirm_plan
     from rapidgen.cli.rws_session import ask_pendant, controller
     from rapidgen.client.rws.values import read
 
@@ -43,7 +43,7 @@ def symbols(
     with controller(host, user, secrets, fingerprint) as found:
         if literal is not None:
             if not found.identity().is_virtual:
-                make_sure(f"set {name} to {value} at {host}?", yes=yes)
+                confirm_plan(f"set {name} to {value} at {host}?", yes=yes)
             ask_pendant(found, "modify", found.panel().mode)
             found.set_symbol(name, literal)
         if len(parts) == 3:

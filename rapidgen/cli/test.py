@@ -17,9 +17,9 @@ if TYPE_CHECKING:
     from rapidgen.config.layers import Overrides
     from rapidgen.config.model import RobotConfig
     from rapidgen.controller.controller import VirtualController
-    from rapidgen.verification.model import Proof
+    from rapidgen.verification.model import SuiteResult
     from rapidgen.verification.suite_runner import DriverUnderTest
-    from rapidgen.verification.worker_pool import Workers
+    from rapidgen.verification.worker_pool import WorkerPool
 
 
 def test(
@@ -110,7 +110,7 @@ def test(
     from rapidgen.verification.report import as_json as report_as_json
     from rapidgen.verification.report import write_html, write_junit
     from rapidgen.verification.settings import assumed
-    from rapidgen.verification.suite_runner import prove
+    from rapidgen.verification.suite_runner import run_suite
     from rapidgen.verification.worker_pool import WorkersLost
 
     model = load_config(config, overrides=overrides or ())
@@ -131,7 +131,7 @@ def test(
         _check_writable(path)
     try:
         with Bars() as progress:
-            report = prove(
+            report = run_suite(
                 model,
                 seeds=seeds,
                 programs=programs,
@@ -166,7 +166,7 @@ def test(
     return 0 if report.passed else 1
 
 
-def _nothing(report: "Proof") -> DiagnosticError:
+def _nothing(report: "SuiteResult") -> DiagnosticError:
     """What was asked for is about what this driver does not have."""
     names = ", ".join(dict.fromkeys(f"'{o.case}'" for o in report.outcomes))
     whys = ", ".join(dict.fromkeys(o.untried for o in report.outcomes))
@@ -219,7 +219,7 @@ def _check_writable(path: Path | None) -> None:
         ) from fault
 
 
-def _of_cluster(address: str) -> "Callable[[DriverUnderTest], Workers]":
+def _of_cluster(address: str) -> "Callable[[DriverUnderTest], WorkerPool]":
     from rapidgen.verification.cluster import Cluster
 
     return lambda driver: Cluster(address, driver, lambda text: typer.echo(text, err=True))
@@ -275,7 +275,7 @@ def _list(as_json: bool) -> int:
     return 0
 
 
-def _show(report: "Proof", uncovered: bool, durations: int, command: str) -> None:
+def _show(report: "SuiteResult", uncovered: bool, durations: int, command: str) -> None:
     from rich.console import Console
     from rich.table import Table
 

@@ -35,7 +35,7 @@ def uninstall(
     rapidgen uninstall cell1.yaml --to "sftp://admin@192.168.125.1/HOME"
     """
     from rapidgen.cli.driver_query import hello
-    from rapidgen.cli.plan_execution import carry_out, make_sure, show_plans
+    from rapidgen.cli.plan_execution import confirm_plan, execute, show_plans
     from rapidgen.cli.rws_session import agree
     from rapidgen.deploy.command_run import (
         FleetJob,
@@ -69,7 +69,7 @@ def uninstall(
     check_names(plans, name)
     show_plans(plans)
     refuse_conflicts(job, plans)
-    make_sure(f"Uninstall from {len(plans)} controller(s)?", yes=yes)
+    confirm_plan(f"Uninstall from {len(plans)} controller(s)?", yes=yes)
     for path in save_edits(plans, Path(".rapidgen") / "edited"):
         typer.echo(f"kept a copy of a hand edit: {path}", err=True)
-    return carry_out(job, plans, as_json=as_json)
+    return execute(job, plans, as_json=as_json)

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from rapidgen.client.address import Address
     from rapidgen.config.model import GroupConfig
     from rapidgen.viewer.appearance import Appearance
-    from rapidgen.viewer.provider import Viewed
+    from rapidgen.viewer.provider import Subject
 
 _LOOK = 3.0
 """s that a controller may take to answer a look at a port."""
@@ -84,7 +84,7 @@ def _is_recording(target: str) -> bool:
     )
 
 
-def _serve(viewed: "Viewed", host: str, port: int, files: "Mapping[str, bytes]") -> int:
+def _serve(viewed: "Subject", host: str, port: int, files: "Mapping[str, bytes]") -> int:
     """Serve the page until a signal comes; the exit code."""
     import json
     import threading
@@ -108,7 +108,7 @@ def _serve(viewed: "Viewed", host: str, port: int, files: "Mapping[str, bytes]")
 
 def _robots(
     stack: ExitStack, target: str, to: str, group: str, take: bool, reconnect: float
-) -> "tuple[Viewed, Appearance]":
+) -> "tuple[Subject, Appearance]":
     """All robots of a configuration, or one at an address, connected until the stack closes; and
     what they look like."""
     from rapidgen.client import Robot

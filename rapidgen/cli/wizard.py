@@ -8,7 +8,7 @@ from pathlib import Path
 
 import typer
 
-from rapidgen.config.from_description import Answers
+from rapidgen.config.from_description import DescriptionChoices
 from rapidgen.config.placeholders import OPEN
 from rapidgen.config.scaffold import ranges
 from rapidgen.diagnostics import DiagnosticError, render
@@ -47,7 +47,9 @@ def drawn(text: str) -> str:
     return "\n".join(lines)
 
 
-def ask_open(make: Callable[[Answers], str], answers: Answers) -> Answers:
+def ask_open(
+    make: Callable[[DescriptionChoices], str], answers: DescriptionChoices
+) -> DescriptionChoices:
     """Show what is known, and ask until nothing is open that one answer settles."""
     text = make(answers)
     typer.echo(drawn(text), err=True)

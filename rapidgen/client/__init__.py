@@ -29,12 +29,12 @@ from rapidgen.client.errors import (
     TrajectoryRefused,
 )
 from rapidgen.client.program import (
-    OwnTool,
-    OwnWorkObject,
     Program,
     Speed,
     Target,
     Trigger,
+    UserTool,
+    UserWorkObject,
     Zone,
     pulse,
 )
@@ -73,8 +73,6 @@ __all__ = [
     "MotionStopped",
     "NotReady",
     "NotSupported",
-    "OwnTool",
-    "OwnWorkObject",
     "Program",
     "ProgramRun",
     "Progress",
@@ -97,6 +95,8 @@ __all__ = [
     "TrajectoryRefused",
     "TrajectoryState",
     "Trigger",
+    "UserTool",
+    "UserWorkObject",
     "Waypoint",
     "Zone",
     "pulse",

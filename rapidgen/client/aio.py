@@ -12,7 +12,7 @@ from typing import TypeVar, cast
 from rapidgen._compat import Self
 from rapidgen.client import deadline, flows
 from rapidgen.client.address import Address
-from rapidgen.client.api import ExecutionSurface, MakeCore, RobotSurface, RunSurface, StreamSurface
+from rapidgen.client.api import ExecutionApi, MakeCore, RobotApi, RunApi, StreamApi
 from rapidgen.client.core.job import batches
 from rapidgen.client.core.robot import STOP_FRAME
 from rapidgen.client.core.state import State
@@ -46,7 +46,7 @@ _BREATH = 64
 class _Link(asyncio.Protocol):
     """One connection as asyncio sees it."""
 
-    def __init__(self, loop: "Loop", port: Port) -> None:
+    def __init__(self, loop: "AsyncFlowRunner", port: Port) -> None:
         self.port = port
         self.transport: asyncio.Transport | None = None
         self.room = asyncio.Event()
@@ -76,7 +76,7 @@ class _Link(asyncio.Protocol):
         self.room.set()
 
 
-class Loop:
+class AsyncFlowRunner:
     """Carries out flows on the loop that runs."""
 
     def __init__(self, address: Address, make_core: MakeCore) -> None:
@@ -262,15 +262,15 @@ def _wake(waiter: "asyncio.Future[None]") -> None:
         waiter.set_result(None)
 
 
-class AsyncExecution(ExecutionSurface[Loop]):
+class AsyncExecution(ExecutionApi[AsyncFlowRunner]):
     """As `Execution`; its methods are awaited."""
 
 
-class AsyncProgramRun(RunSurface[Loop]):
+class AsyncProgramRun(RunApi[AsyncFlowRunner]):
     """As `ProgramRun`; its methods are awaited."""
 
 
-class AsyncStream(StreamSurface[Loop]):
+class AsyncStream(StreamApi[AsyncFlowRunner]):
     """As `Stream`; its methods are awaited, and the block is `async with robot.stream()`."""
 
     async def __aenter__(self) -> Self:
@@ -299,10 +299,10 @@ class AsyncStream(StreamSurface[Loop]):
             await self.append(times, positions)
 
 
-class AsyncRobot(RobotSurface[Loop, AsyncExecution, AsyncStream, AsyncProgramRun]):
+class AsyncRobot(RobotApi[AsyncFlowRunner, AsyncExecution, AsyncStream, AsyncProgramRun]):
     """One motion group of a robot; see `Robot`, whose arguments and methods it has."""
 
-    _carrier_type = Loop
+    _carrier_type = AsyncFlowRunner
     _execution_type = AsyncExecution
     _stream_type = AsyncStream
     _run_type = AsyncProgramRun

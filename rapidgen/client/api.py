@@ -39,7 +39,7 @@ MakeCore = Callable[[Callable[[], float]], Core]
 """A core on a clock, which gives s."""
 
 
-class FlowCarrier(Protocol):
+class FlowRunner(Protocol):
     """Carries out flows for a core: by the caller's thread, or on the caller's loop."""
 
     core: Core
@@ -73,10 +73,10 @@ def _own(flow: Callable[Concatenate[Owner, P], Flow[T]]) -> Method[P, T]:
     return method(flow, lambda owner: owner)
 
 
-C_co = TypeVar("C_co", bound=FlowCarrier, covariant=True)
+C_co = TypeVar("C_co", bound=FlowRunner, covariant=True)
 
 
-class JobSurface(Generic[C_co]):
+class JobApi(Generic[C_co]):
     """What is common to a trajectory under way and to a stream."""
 
     def __init__(self, carrier: C_co, job: Job) -> None:
@@ -113,7 +113,7 @@ class JobSurface(Generic[C_co]):
         return self._job.stopped_position
 
 
-class ExecutionSurface(JobSurface[C_co]):
+class ExecutionApi(JobApi[C_co]):
     """A trajectory that the controller has taken."""
 
     @property
@@ -142,7 +142,7 @@ class ExecutionSurface(JobSurface[C_co]):
         return self._job.motion.way
 
 
-class RunSurface(JobSurface[C_co]):
+class RunApi(JobApi[C_co]):
     """A program that the controller has taken: whole, or its first instructions."""
 
     @property
@@ -164,7 +164,7 @@ class RunSurface(JobSurface[C_co]):
         return self._job.motion.way
 
 
-class StreamSurface(JobSurface[C_co]):
+class StreamApi(JobApi[C_co]):
     """Points that the robot executes while more of them come."""
 
     append = _of_job(flows.job.append)
@@ -192,12 +192,12 @@ class StreamSurface(JobSurface[C_co]):
         return self._job.motion.starved if self._job.motion is not None else 0
 
 
-Execution = TypeVar("Execution", bound=ExecutionSurface[FlowCarrier], covariant=True)
-Stream = TypeVar("Stream", bound=StreamSurface[FlowCarrier], covariant=True)
-Run = TypeVar("Run", bound=RunSurface[FlowCarrier], covariant=True)
+Execution = TypeVar("Execution", bound=ExecutionApi[FlowRunner], covariant=True)
+Stream = TypeVar("Stream", bound=StreamApi[FlowRunner], covariant=True)
+Run = TypeVar("Run", bound=RunApi[FlowRunner], covariant=True)
 
 
-class RobotSurface(Generic[C_co, Execution, Stream, Run]):
+class RobotApi(Generic[C_co, Execution, Stream, Run]):
     """One motion group of a robot; see `Robot`."""
 
     _carrier_type: type[C_co]

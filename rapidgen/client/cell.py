@@ -14,7 +14,7 @@ from rapidgen.client.core.motion import Result
 from rapidgen.client.core.robot import Core
 from rapidgen.client.core.state import State
 from rapidgen.client.errors import InvalidTarget, InvalidTrajectory, RobotError
-from rapidgen.client.flows.download import Sending
+from rapidgen.client.flows.download import DownloadInProgress
 from rapidgen.client.flows.effects import Flow
 from rapidgen.client.flows.motion import armed, ready
 from rapidgen.client.sync import Execution, Robot
@@ -40,15 +40,21 @@ class _Start:
                 found += error.diagnostics
         if found:
             raise InvalidTrajectory(found)
-        self.sendings: dict[str, Sending] = {}
+        self.sendings: dict[str, DownloadInProgress] = {}
 
     def begin(self) -> None:
         """Every motion begins."""
-        self.sendings = {n: Sending(self._cores[n], whole) for n, whole in self._checked.items()}
+        self.sendings = {
+            n: DownloadInProgress(self._cores[n], whole) for n, whole in self._checked.items()
+        }
 
     def phases(self) -> Iterator[dict[str, Flow[None]]]:
         """All points go to all robots first, then all end frames; then all say what they do."""
-        for phase in (Sending.points, Sending.end, Sending.accepted):
+        for phase in (
+            DownloadInProgress.points,
+            DownloadInProgress.end,
+            DownloadInProgress.accepted,
+        ):
             yield {name: phase(sending) for name, sending in self.sendings.items()}
 
     def jobs(self) -> dict[str, Job]:

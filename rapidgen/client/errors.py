@@ -105,7 +105,7 @@ class NotSupported(RobotError):
     """The driver on the controller, or the configuration, does not have what was asked for."""
 
 
-class _Told(RobotError):
+class _ControllerReason(RobotError):
     """What the controller says of it: `reason`, None when it gave none; `point` from 0 (-1 none)
     and `joint` from 1 (0 none) at fault; `reached` points, None where it does not say."""
 
@@ -127,7 +127,7 @@ class _Told(RobotError):
         self.joint = joint
 
 
-class RequestRefused(_Told):
+class RequestRefused(_ControllerReason):
     """The controller did not do what was asked over the control port; `reason` says why."""
 
 
@@ -160,12 +160,12 @@ class InvalidProgram(RobotError):
     """Every fault of a program, found before a byte of it was sent."""
 
 
-class TrajectoryRefused(_Told):
+class TrajectoryRefused(_ControllerReason):
     """The controller refused the whole trajectory or program, for `reason`, at `point` and `joint`;
     nothing moved."""
 
 
-class MotionError(_Told):
+class MotionError(_ControllerReason):
     """The robot began to move and did not reach the end: `reached`, and `reason`, `point` and
     `joint` of the fault."""
 

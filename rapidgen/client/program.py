@@ -127,7 +127,7 @@ ZoneLike: TypeAlias = float | str | Zone
 
 
 @dataclass(frozen=True, slots=True)
-class OwnTool:
+class UserTool:
     """tooldata of a program's own, held by the robot: where its TCP is in the flange's frame, its
     mass in kg, where that is and how the axes of inertia lie (m), and its moments, kg m2."""
 
@@ -139,7 +139,7 @@ class OwnTool:
 
 
 @dataclass(frozen=True, slots=True)
-class OwnWorkObject:
+class UserWorkObject:
     """wobjdata of a program's own, which stands: its user frame in the world's, its object frame in
     that."""
 
@@ -212,9 +212,9 @@ class ProgramStep:
     configuration: AxisConfiguration | None = None
     external: tuple[tuple[str, float], ...] = ()
     triggers: tuple[Trigger, ...] = ()
-    tool: str | OwnTool = ""
-    work_object: str | OwnWorkObject = ""
-    own: OwnTool | OwnWorkObject | None = None
+    tool: str | UserTool = ""
+    work_object: str | UserWorkObject = ""
+    own: UserTool | UserWorkObject | None = None
     signal: str = ""
     value: float = 0.0
     seconds: float = 0.0
@@ -231,7 +231,7 @@ class _Operands(TypedDict, total=False):
     configuration: AxisConfiguration | None
     external: tuple[tuple[str, float], ...]
     triggers: tuple[Trigger, ...]
-    own: OwnTool | OwnWorkObject | None
+    own: UserTool | UserWorkObject | None
     signal: str
     value: float
     seconds: float
@@ -249,8 +249,8 @@ class Program:
         self.steps: list[ProgramStep] = []
         self._speed = speed_of(speed)
         self._zone = zone_of(zone)
-        self._tool: str | OwnTool = ""
-        self._work_object: str | OwnWorkObject = ""
+        self._tool: str | UserTool = ""
+        self._work_object: str | UserWorkObject = ""
 
     def __len__(self) -> int:
         return len(self.steps)
@@ -315,15 +315,15 @@ class Program:
     def use(
         self,
         *,
-        tool: str | OwnTool | None = None,
-        work_object: str | OwnWorkObject | None = None,
+        tool: str | UserTool | None = None,
+        work_object: str | UserWorkObject | None = None,
     ) -> Self:
         """From here on poses are those of this tool in this work object: of the configuration, by
         name (empty: the group's own), or of the program's own, by values; these are an instruction.
         The robot stops before the first move with them."""
-        if isinstance(tool, OwnTool):
+        if isinstance(tool, UserTool):
             self._add(Instruction.TOOL, own=tool)
-        if isinstance(work_object, OwnWorkObject):
+        if isinstance(work_object, UserWorkObject):
             self._add(Instruction.WORK_OBJECT, own=work_object)
         self._tool = self._tool if tool is None else tool
         self._work_object = self._work_object if work_object is None else work_object

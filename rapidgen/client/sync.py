@@ -11,7 +11,7 @@ from typing import TypeVar
 from rapidgen._compat import Self
 from rapidgen.client import flows
 from rapidgen.client.address import Address
-from rapidgen.client.api import ExecutionSurface, MakeCore, RobotSurface, RunSurface, StreamSurface
+from rapidgen.client.api import ExecutionApi, MakeCore, RobotApi, RunApi, StreamApi
 from rapidgen.client.channels import Channel, Reader
 from rapidgen.client.core.job import batches
 from rapidgen.client.core.motion import CommandedMotion
@@ -27,7 +27,7 @@ _SLICE = 0.1
 """s: time itself is looked at this often while nothing comes."""
 
 
-class Threads:
+class SyncFlowRunner:
     """Carries out flows: the caller's thread decides and writes, one thread reads."""
 
     def __init__(self, address: Address, make_core: MakeCore) -> None:
@@ -208,15 +208,15 @@ class Threads:
             reader.close()
 
 
-class Execution(ExecutionSurface[Threads]):
+class Execution(ExecutionApi[SyncFlowRunner]):
     """A trajectory that the controller has taken."""
 
 
-class ProgramRun(RunSurface[Threads]):
+class ProgramRun(RunApi[SyncFlowRunner]):
     """A program that the controller has taken."""
 
 
-class Stream(StreamSurface[Threads]):
+class Stream(StreamApi[SyncFlowRunner]):
     """Points that the robot executes while more of them come.
 
     `with robot.stream() as stream:` ends it and waits for the robot at the end of the block;
@@ -244,7 +244,7 @@ class Stream(StreamSurface[Threads]):
             self.append(times, positions)
 
 
-class Robot(RobotSurface[Threads, Execution, Stream, ProgramRun]):
+class Robot(RobotApi[SyncFlowRunner, Execution, Stream, ProgramRun]):
     """One motion group of a robot, driven over its rapidgen driver or a plain abb_driver.
 
     `target` is a configuration file, a shipped name, a RobotConfig, or an address
@@ -257,7 +257,7 @@ class Robot(RobotSurface[Threads, Execution, Stream, ProgramRun]):
     All methods may be called from any thread. Joints are rad and m in URDF order.
     """
 
-    _carrier_type = Threads
+    _carrier_type = SyncFlowRunner
     _execution_type = Execution
     _stream_type = Stream
     _run_type = ProgramRun

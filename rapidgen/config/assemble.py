@@ -30,7 +30,7 @@ _IDENTITY = ("task", "mechanical_unit", "ports")
 
 
 @dataclass(frozen=True, slots=True)
-class Basis:
+class ShippedBasis:
     """The shipped model under a group; `known` are its figures by (axis, figure)."""
 
     model: str
@@ -43,7 +43,7 @@ class Assembly:
 
     path: Path
     root: MappingNode
-    bases: dict[str, Basis] = field(default_factory=dict)
+    bases: dict[str, ShippedBasis] = field(default_factory=dict)
     inputs: list[tuple[str, bytes]] = field(default_factory=list)
     found: list[Diagnostic] = field(default_factory=list)
 
@@ -74,7 +74,7 @@ def assemble(path_or_name: str | Path, overrides: Overrides) -> Assembly:
 
 def _rest_on(made: Assembly, model: str, root: MappingNode) -> None:
     for name in group_names(root):
-        made.bases[name] = Basis(model, _figures(_group(root, name)))
+        made.bases[name] = ShippedBasis(model, _figures(_group(root, name)))
 
 
 def _group(root: MappingNode, name: str) -> MappingNode:
@@ -95,7 +95,7 @@ def _figures(group: MappingNode) -> Figures:
     }
 
 
-def shown_path(path: Path) -> str:
+def display_path(path: Path) -> str:
     """The path as messages show it: relative to the working folder where it lies inside."""
     try:
         return str(path.absolute().relative_to(Path.cwd()))
@@ -104,7 +104,7 @@ def shown_path(path: Path) -> str:
 
 
 def _read(path: Path, made: Assembly) -> MappingNode:
-    shown = shown_path(path)
+    shown = display_path(path)
     return _parsed(path.name, read_bytes(path, shown), shown, made)
 
 
@@ -174,7 +174,7 @@ def _group_models(made: Assembly) -> None:
             chosen = name if name in choices else choices[0] if len(choices) == 1 else ""
             if chosen:
                 base = _group(below, chosen)
-                made.bases[name] = Basis(model, _figures(base))
+                made.bases[name] = ShippedBasis(model, _figures(base))
                 # What belongs to a place on a controller is not the model's to say.
                 kept = {k: v for k, v in base.entries.items() if k not in _IDENTITY}
                 group = merge(MappingNode(kept, base.span), group, ("groups", name))

@@ -18,7 +18,7 @@ PALLETISER = frozenset({"rax_1", "rax_2", "rax_3", "rax_6"})
 SCARA = frozenset({"rax_1", "rax_2", "rax_3", "rax_4"})
 
 
-def kept_axes(
+def held_axes(
     draft: GroupDraft, keep: Mapping[str, float | None], path: KeyPath, report: DraftFindings
 ) -> tuple[model.KeptAxis, ...]:
     """The robot axes that no joint drives; RG021 and RG046 say what is no arm."""

@@ -5,7 +5,7 @@ from ipaddress import IPv4Address
 from pathlib import Path
 
 from rapidgen.config import model, schema
-from rapidgen.config.axis_sets import kept_axes
+from rapidgen.config.axis_sets import held_axes
 from rapidgen.config.draft import DraftFindings, GroupDraft
 from rapidgen.config.draft import Path as KeyPath
 from rapidgen.config.joints import joints_of
@@ -209,7 +209,7 @@ def _group(
 ) -> model.GroupConfig:
     path: KeyPath = ("groups", draft.name)
     joints = joints_of(keys, draft, path, report)
-    kept = kept_axes(draft, dict(keys.keep.items()), path, report)
+    kept = held_axes(draft, dict(keys.keep.items()), path, report)
     names = {joint.name for joint in draft.joints}
     _check_ceiling(keys.tcp_speed_limit, (*path, "tcp_speed_limit"), report)
     if report.is_faulty((*path, "joints")):

@@ -9,7 +9,7 @@ from rapidgen.config.geometry import distance
 from rapidgen.config.load import load_config
 from rapidgen.config.registry import find_shipped, shipped_names
 from rapidgen.config.variant_library import Variant, variants
-from rapidgen.config.variant_model import lacks, model_name
+from rapidgen.config.variant_model import missing_figures, model_name
 from rapidgen.config.yaml_tree import MappingNode, ScalarNode, decode, parse, read_bytes
 from rapidgen.diagnostics import refusal, suggest
 
@@ -77,7 +77,7 @@ def variant_named(name: str) -> tuple[Variant, ...]:
 
 def variant_text(variant: Variant) -> str:
     """Axes, reach, coupling and sources of a variant for people."""
-    model = variant.model or ("" if lacks(variant) else model_name(variant))
+    model = variant.model or ("" if missing_figures(variant) else model_name(variant))
     lines = [variant.name + (f" (model {model})" if model else "")]
     for axis, line in zip(variant.axes, variant.skeleton.lines, strict=True):
         unit = "mm" if line.slides else "deg"
@@ -97,7 +97,7 @@ def variant_text(variant: Variant) -> str:
     if variant.unsure:
         lines.append(f"  without a second source: {', '.join(variant.unsure)}")
     if not model:
-        lines.append(f"  to be a model it lacks {'; '.join(lacks(variant))}")
+        lines.append(f"  to be a model it lacks {'; '.join(missing_figures(variant))}")
     lines += [f"  differs: {text}" for text in variant.disagreements]
     return "\n".join(lines)
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Annotated
 
-from rapidgen.config.assemble import keys_of, shown_path
+from rapidgen.config.assemble import display_path, keys_of
 from rapidgen.config.draft import DraftFindings
 from rapidgen.config.model import Load, Placement, Tool, WorkObject
 from rapidgen.config.model_cache import shipped_groups
@@ -21,8 +21,8 @@ from rapidgen.config.schema import (
     FrameKeys,
     Identifier,
     LoadKeys,
-    Part,
     SignalKeys,
+    StrictModel,
     ToolDataKeys,
     ToolKeys,
     Vector,
@@ -30,8 +30,8 @@ from rapidgen.config.schema import (
     WorkObjectKeys,
 )
 from rapidgen.config.tools import load_of, placement_of, tool_of, work_object_of
-from rapidgen.config.truncation import few
-from rapidgen.config.validate import sound
+from rapidgen.config.truncation import limit_findings
+from rapidgen.config.validate import valid_subset
 from rapidgen.config.yaml_tree import read_bytes
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
 
@@ -40,7 +40,7 @@ GROUP_BITS = 32
 
 
 @dataclass(frozen=True)
-class CellRobotKeys(Part):
+class CellRobotKeys(StrictModel):
     """The robot of a motion task."""
 
     model: Annotated[
@@ -71,7 +71,7 @@ class CellSignalKeys(SignalKeys):
 
 
 @dataclass(frozen=True)
-class ReactionKeys(Part):
+class ReactionKeys(StrictModel):
     """What a device does: where all of `when` have become true, all of `then` follow."""
 
     when: Annotated[dict[Identifier, float], Rule("Signal: value.", min_length=1)]
@@ -80,7 +80,7 @@ class ReactionKeys(Part):
 
 
 @dataclass(frozen=True)
-class SeenKeys(Part):
+class SeenKeys(StrictModel):
     """A result that a camera's job finds in an image."""
 
     name: Annotated[str, Rule("Name of the result.")] = ""
@@ -98,7 +98,7 @@ class SeenKeys(Part):
 
 
 @dataclass(frozen=True)
-class CameraKeys(Part):
+class CameraKeys(StrictModel):
     """A camera of integrated vision: what it is said to see, no picture is looked at."""
 
     images: Annotated[
@@ -111,7 +111,7 @@ class CameraKeys(Part):
 
 
 @dataclass(frozen=True)
-class ForceKeys(Part):
+class ForceKeys(StrictModel):
     """The force sensor at each robot's hand: what it is said to measure, nothing is touched."""
 
     readings: Annotated[
@@ -129,7 +129,7 @@ class ForceKeys(Part):
 
 
 @dataclass(frozen=True)
-class ThingKeys(Part):
+class ThingKeys(StrictModel):
     """Something that the page draws: it is looked at, nothing runs into it."""
 
     mesh: Annotated[str, Rule("STL, DAE or OBJ in this file's folder or below.")]
@@ -140,7 +140,7 @@ class ThingKeys(Part):
 
 
 @dataclass(frozen=True)
-class CellKeys(Part):
+class CellKeys(StrictModel):
     """What stands around a controller."""
 
     description: Annotated[str, Rule("For people.")] = ""
@@ -209,10 +209,10 @@ def load_cell(path: Path) -> CellDescription:
     Raises DiagnosticError (RG001..RG009, RG014, RG070, RG071) with everything that is wrong;
     warnings are in its `diagnostics`.
     """
-    shown = shown_path(path)
+    shown = display_path(path)
     such = "such as `signals: {doGrip: {kind: DO}}`; `rapidgen schema --cell` has them all"
     root, found = keys_of(read_bytes(path, shown), shown, "a cell file", such)
-    keys, faults, removed = sound(root, CellKeys)
+    keys, faults, removed = valid_subset(root, CellKeys)
     report = DraftFindings(root, removed)
     report.found = found + faults
     arm = _arm(keys)
@@ -261,8 +261,8 @@ def load_cell(path: Path) -> CellDescription:
     )
     _check_force(keys, report, arm)
     if report.failed:
-        raise DiagnosticError(few(report.found))
-    return replace(cell, diagnostics=tuple(few(report.found)))
+        raise DiagnosticError(limit_findings(report.found))
+    return replace(cell, diagnostics=tuple(limit_findings(report.found)))
 
 
 def _arm(keys: CellKeys) -> Arm:

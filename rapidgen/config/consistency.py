@@ -13,7 +13,7 @@ from typing import TypeAlias
 from rapidgen.config import variant_model
 from rapidgen.config.draft import DraftFindings, GroupDraft, JointDraft
 from rapidgen.config.draft import Path as KeyPath
-from rapidgen.config.geometry import Difference, Skeleton, compare, skeleton
+from rapidgen.config.geometry import ArmAxes, Difference, compare, skeleton
 from rapidgen.config.variant_library import (
     SAME_PLACE,
     SAME_TURN,
@@ -110,7 +110,7 @@ def _lengths(draft: GroupDraft, path: KeyPath, report: DraftFindings) -> None:
         )
 
 
-def _arm(draft: GroupDraft) -> Skeleton | None:
+def _arm(draft: GroupDraft) -> ArmAxes | None:
     chain = draft.urdf_chain or draft.chain
     moved = {step.joint for step in chain if step.joint} | {n for s in chain for n, _ in s.follows}
     if not chain or moved - {joint.name for joint in draft.joints}:

@@ -13,12 +13,12 @@ from rapidgen.config.draft import JointDraft
 from rapidgen.config.model import ChainLink
 from rapidgen.config.placeholders import OPEN
 from rapidgen.config.recognition import Alignment
-from rapidgen.config.truncation import few
+from rapidgen.config.truncation import limit_findings
 from rapidgen.config.urdf import limits
-from rapidgen.config.urdf.arms import Arm, Cell, no_robot, read_cell, says_abb
+from rapidgen.config.urdf.arms import Arm, Cell, mentions_abb, no_robot, read_cell
 from rapidgen.config.urdf.crosscheck import COUPLED, SERIAL
 from rapidgen.config.urdf.expand import expand
-from rapidgen.config.urdf.graph import aimless, build_graph
+from rapidgen.config.urdf.graph import build_graph, check_axis
 from rapidgen.config.urdf.group import request
 from rapidgen.config.urdf.robot import UrdfJoint, read_robot
 from rapidgen.config.urdf.source import macros, read_xml
@@ -32,7 +32,7 @@ _EXTERNAL = tuple(f"eax_{letter}" for letter in "abcdef")
 
 
 @dataclass(frozen=True, slots=True)
-class Answers:
+class DescriptionChoices:
     """What a person says beside the description."""
 
     joints: Mapping[str, str] = field(default_factory=dict)
@@ -84,7 +84,7 @@ def describe(
     folder: Path,
     package_paths: Sequence[Path],
     given: schema.UrdfKeys,
-    answers: Answers,
+    answers: DescriptionChoices,
 ) -> tuple[schema.UrdfKeys, list[GroupText], Mapping[str, Path]]:
     """The groups of a description, and the packages that were used.
 
@@ -98,13 +98,13 @@ def describe(
     names = (robot.name, description.path.name)
     said = {**dict.fromkeys(answers.ignore, ""), **answers.joints}
     around = (*description.path.resolve().parts[-5:-1], *_PACKAGE.findall(description.text))
-    claimed = bool(said or answers.tips) or says_abb(*names, *around, description.text)
+    claimed = bool(said or answers.tips) or mentions_abb(*names, *around, description.text)
     cell = replace(read_cell(graph, names, said), around=around, is_claimed=claimed)
     faults = [d for d in found if d.severity is Severity.ERROR]
     # What moves behind an arm is a gripper, and left out.
     left = {*answers.ignore, *(joint.name for arm in cell.arms for joint in arm.behind)}
     faults += [
-        aimless(joint, None)
+        check_axis(joint, None)
         for joint in robot.joints
         if joint.is_actuated and joint.is_aimless and joint.name not in left
     ]
@@ -112,7 +112,7 @@ def describe(
     if refused and refused[0].message.startswith("a delta"):
         faults = refused
     if faults or refused:
-        raise DiagnosticError(few(faults or refused))
+        raise DiagnosticError(limit_findings(faults or refused))
     _check_names(cell, answers)
     arms = _chosen(cell, answers)
     groups = [_group(cell, arm, arms, number, answers) for number, arm in enumerate(arms)]
@@ -138,7 +138,7 @@ def _with_macro(urdf: Path, given: schema.UrdfKeys) -> schema.UrdfKeys:
     return replace(given, macro=robots[0].name) if len(robots) == 1 else given
 
 
-def _check_names(cell: Cell, answers: Answers) -> None:
+def _check_names(cell: Cell, answers: DescriptionChoices) -> None:
     names = [joint.name for joint in cell.graph.robot.joints]
     links = list(cell.graph.robot.links)
     for name in (*answers.joints, *answers.ignore, *filter(None, answers.ranges)):
@@ -152,7 +152,7 @@ def _check_names(cell: Cell, answers: Answers) -> None:
             raise refusal("RG052", None, f"no link or joint '{tip}'", suggest(tip, known))
 
 
-def _chosen(cell: Cell, answers: Answers) -> list[Arm]:
+def _chosen(cell: Cell, answers: DescriptionChoices) -> list[Arm]:
     """The arms that the tips lead to, else all."""
     if not answers.tips:
         return list(cell.arms)
@@ -171,7 +171,9 @@ def _chosen(cell: Cell, answers: Answers) -> list[Arm]:
     return made
 
 
-def _group(cell: Cell, arm: Arm, arms: Sequence[Arm], number: int, answers: Answers) -> GroupText:
+def _group(
+    cell: Cell, arm: Arm, arms: Sequence[Arm], number: int, answers: DescriptionChoices
+) -> GroupText:
     head, tail = [], []
     variant = arm.alignment.variant if arm.alignment else None
     own_family = family(*cell.names)
@@ -267,7 +269,7 @@ def _line(
     aligned: Alignment | None,
     place: int,
     variant: Variant | None,
-    answers: Answers,
+    answers: DescriptionChoices,
 ) -> JointLine:
     line = JointLine(joint.name, axis or OPEN)
     draft = JointDraft(joint.name, axis or "rax_1")
@@ -323,7 +325,7 @@ def _round(value: float | None) -> float:
 
 
 def _coupling(
-    arm: Arm, variant: Variant | None, names: tuple[str, ...], answers: Answers
+    arm: Arm, variant: Variant | None, names: tuple[str, ...], answers: DescriptionChoices
 ) -> tuple[str, str]:
     if answers.coupling is not None:
         return f"{answers.coupling:g}", "as said"

@@ -30,7 +30,7 @@ class Line:
 
 
 @dataclass(frozen=True, slots=True)
-class Skeleton:
+class ArmAxes:
     """The axes of the arm along the chain, and where the chain ends, with which orientation."""
 
     lines: tuple[Line, ...]
@@ -86,7 +86,7 @@ def from_rpy(rpy: Vector) -> Matrix:
     )
 
 
-def skeleton(draft: GroupDraft, chain: Sequence[ChainLink] = ()) -> Skeleton:
+def skeleton(draft: GroupDraft, chain: Sequence[ChainLink] = ()) -> ArmAxes:
     """The arm of a group where the controller says 0 for every axis, along its or another chain."""
     joints = {joint.name: joint for joint in draft.joints}
     at = {
@@ -95,7 +95,7 @@ def skeleton(draft: GroupDraft, chain: Sequence[ChainLink] = ()) -> Skeleton:
     }
     lines, end, facing = _along(chain or draft.chain, at)
     arm = [i for i, (step, _, _) in enumerate(lines) if joints[step.joint].axis.startswith("rax")]
-    return Skeleton(
+    return ArmAxes(
         tuple(
             Line(
                 joints[step.joint].axis,
@@ -159,14 +159,14 @@ def frame(first: Line, second: Line) -> tuple[Matrix, Vector]:
     return (x, y, z), origin
 
 
-def laid(arm: Skeleton, flips: tuple[int, int] = (1, 1)) -> Skeleton:
+def in_axis_frame(arm: ArmAxes, flips: tuple[int, int] = (1, 1)) -> ArmAxes:
     """The arm seen from the frame of its first two axes, either of them reversed on demand."""
     first, second = (
         Line(line.axis, line.point, scale(line.direction, flip), line.slides)
         for line, flip in zip(arm.lines, flips, strict=False)
     )
     axes, origin = frame(first, second)
-    return Skeleton(
+    return ArmAxes(
         tuple(
             Line(
                 line.axis,
@@ -181,16 +181,16 @@ def laid(arm: Skeleton, flips: tuple[int, int] = (1, 1)) -> Skeleton:
     )
 
 
-def compare(arm: Skeleton, known: Skeleton) -> Difference | None:
+def compare(arm: ArmAxes, known: ArmAxes) -> Difference | None:
     """How an arm differs from a known one; None when they have other axes."""
     if [line.axis for line in arm.lines] != [line.axis for line in known.lines]:
         return None
     if len(arm.lines) < 2:
         return None
-    there = laid(known)
+    there = in_axis_frame(known)
     best: tuple[float, Difference] | None = None
     for flips in product((1, -1), (1, -1)):
-        here = laid(arm, flips)
+        here = in_axis_frame(arm, flips)
         found = _difference(here, there)
         badness = found.distance + found.angle
         if best is None or badness < best[0] - 1e-9:
@@ -199,7 +199,7 @@ def compare(arm: Skeleton, known: Skeleton) -> Difference | None:
     return best[1]
 
 
-def _difference(here: Skeleton, there: Skeleton) -> Difference:
+def _difference(here: ArmAxes, there: ArmAxes) -> Difference:
     worst, axis, far, wide = -1.0, "", 0.0, 0.0
     turned = []
     for a, b in zip(here.lines, there.lines, strict=True):

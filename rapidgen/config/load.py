@@ -7,14 +7,14 @@ from dataclasses import replace
 from pathlib import Path
 
 from rapidgen.config import schema
-from rapidgen.config.assemble import Assembly, Basis, assemble
+from rapidgen.config.assemble import Assembly, ShippedBasis, assemble
 from rapidgen.config.build import build
 from rapidgen.config.consistency import contradictions
 from rapidgen.config.draft import DraftFindings, GroupDraft, JointDraft
 from rapidgen.config.layers import Overrides
 from rapidgen.config.model import ChainLink, RobotConfig
-from rapidgen.config.placeholders import take_open
-from rapidgen.config.truncation import few
+from rapidgen.config.placeholders import extract_placeholders
+from rapidgen.config.truncation import limit_findings
 from rapidgen.config.validate import validate
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, suggest
 
@@ -36,11 +36,13 @@ def load_config(
     result's `diagnostics`.
     """
     assembly = assemble(path_or_name, overrides)
-    assembly.root, open_lines = take_open(assembly.root)
+    assembly.root, open_lines = extract_placeholders(assembly.root)
     valid = validate(assembly.root)
     if open_lines:
         faults = assembly.found + valid.found
-        raise DiagnosticError(few(in_order(open_lines + faults)), exit_code=2 if faults else 1)
+        raise DiagnosticError(
+            limit_findings(in_order(open_lines + faults)), exit_code=2 if faults else 1
+        )
     report = DraftFindings(assembly.root, valid.removed)
     report.found = assembly.found + valid.found
     groups = valid.configuration.groups
@@ -57,9 +59,9 @@ def load_config(
     config = build(valid.configuration, drafts, assembly.path, report)
     found = tuple(in_order(report.found))
     if config is None:
-        raise DiagnosticError(few(found))
+        raise DiagnosticError(limit_findings(found))
     _LOG.info("%s: %s, read from %d files", path_or_name, config.name, len(assembly.inputs))
-    return replace(config, inputs=tuple(assembly.inputs), diagnostics=tuple(few(found)))
+    return replace(config, inputs=tuple(assembly.inputs), diagnostics=tuple(limit_findings(found)))
 
 
 def drafts_of(name: str) -> list[tuple[GroupDraft, schema.GroupKeys]]:
@@ -99,7 +101,7 @@ def _read_urdf(
         report.mute(("groups", draft.name, "joints"))
 
 
-def _draft(name: str, keys: schema.GroupKeys, basis: Basis | None) -> GroupDraft:
+def _draft(name: str, keys: schema.GroupKeys, basis: ShippedBasis | None) -> GroupDraft:
     limits, speeds = keys.source.get("limits", ""), keys.source.get("speeds", "")
     shared = "; ".join(dict.fromkeys(text for text in (limits, speeds) if text))
     joints = [

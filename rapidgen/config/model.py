@@ -106,7 +106,7 @@ class Payload:
 
 
 @dataclass(frozen=True, slots=True)
-class OwnParameter:
+class RoutineParameter:
     """A parameter of a routine; `inout`: its value then is a result."""
 
     name: str
@@ -115,18 +115,18 @@ class OwnParameter:
 
 
 @dataclass(frozen=True, slots=True)
-class OwnRoutine:
+class UserRoutine:
     """A procedure of the customer's that a program may call; `call` is what late binding finds.
     One that `returns` something is a function, which the module that calls it is linked to."""
 
     name: str
     call: str
-    parameters: tuple[OwnParameter, ...] = ()
+    parameters: tuple[RoutineParameter, ...] = ()
     returns: Literal["", "num", "bool", "string"] = field(default="", metadata=SPARSE)
 
 
 @dataclass(frozen=True, slots=True)
-class OwnDatum:
+class UserDatum:
     """A PERS of the customer's that clients may read, and write where `access` says so; `name` is
     MODULE:DATUM."""
 
@@ -188,8 +188,8 @@ class GroupConfig:
     tools: tuple[Tool, ...] = field(default=(), metadata=SPARSE)
     """Further ones, for motion programs."""
     work_objects: tuple[WorkObject, ...] = field(default=(), metadata=SPARSE)
-    routines: tuple[OwnRoutine, ...] = field(default=(), metadata=SPARSE)
-    data: tuple[OwnDatum, ...] = field(default=(), metadata=SPARSE)
+    routines: tuple[UserRoutine, ...] = field(default=(), metadata=SPARSE)
+    data: tuple[UserDatum, ...] = field(default=(), metadata=SPARSE)
     kept: tuple[KeptAxis, ...] = field(default=(), metadata=SPARSE)
     """Robot axes without a joint."""
     max_payload: float = field(default=0.0, metadata=SPARSE)

@@ -8,7 +8,7 @@ OPEN = '"???"'
 """As it is written: without quotes it would begin a key between braces."""
 
 
-def take_open(root: MappingNode) -> tuple[MappingNode, list[Diagnostic]]:
+def extract_placeholders(root: MappingNode) -> tuple[MappingNode, list[Diagnostic]]:
     """The tree without its open values, and a finding for each."""
     found: list[Diagnostic] = []
 

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise, product
 
-from rapidgen.config.geometry import Line, Skeleton, apply, distance, laid, turn
+from rapidgen.config.geometry import ArmAxes, Line, apply, distance, in_axis_frame, turn
 from rapidgen.config.variant_library import (
     SAME_PLACE,
     SAME_TURN,
@@ -94,14 +94,14 @@ def _aligned(lines: Sequence[Line], names: tuple[str, ...], within: float) -> Al
     return None
 
 
-def _of_size(known: Skeleton, size: int) -> Skeleton | None:
+def _of_size(known: ArmAxes, size: int) -> ArmAxes | None:
     """A variant's axes where an arm has as many, or a SCARA's without its last one; else None."""
     if len(known.lines) == size:
         return known
     if size != _WITHOUT_LAST or [line.slides for line in known.lines] != _SCARA:
         return None
     lines = (*known.lines[:2], replace(known.lines[3], axis="rax_3"))
-    return Skeleton(lines, known.end)
+    return ArmAxes(lines, known.end)
 
 
 def _is_same(a: Variant, b: Variant) -> bool:
@@ -109,7 +109,9 @@ def _is_same(a: Variant, b: Variant) -> bool:
         line.axis for line in b.skeleton.lines
     ] and all(
         distance(x, y) <= SAME_PLACE
-        for x, y in zip(laid(a.skeleton).lines, laid(b.skeleton).lines, strict=True)
+        for x, y in zip(
+            in_axis_frame(a.skeleton).lines, in_axis_frame(b.skeleton).lines, strict=True
+        )
     )
 
 
@@ -151,12 +153,12 @@ def _neighbours(lines: Sequence[Line]) -> Iterator[tuple[float, float]]:
 
 
 def _postures(
-    lines: Sequence[Line], known: Skeleton, within: float
+    lines: Sequence[Line], known: ArmAxes, within: float
 ) -> Iterator[tuple[tuple[int, ...], tuple[float, ...]]]:
     """Signs, and the joint values at which the axes lie as the variant's do at its zero."""
-    there = laid(known).lines
+    there = in_axis_frame(known).lines
     for flips in product((1, -1), (1, -1)):
-        here = laid(Skeleton(tuple(lines), (0.0, 0.0, 0.0)), flips).lines
+        here = in_axis_frame(ArmAxes(tuple(lines), (0.0, 0.0, 0.0)), flips).lines
         if not _lies_on(here[1], there[1], within):
             continue
         for values, posed in _turned(here, there, 1, within):

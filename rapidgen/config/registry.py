@@ -28,7 +28,7 @@ def find_shipped(name: str, span: Span | None = None) -> Path:
 
     variant = variant_model.named(name)
     if variant:
-        missing = variant_model.lacks(variant)
+        missing = variant_model.missing_figures(variant)
         if not missing:
             return variant_model.PATH
         raise refusal(

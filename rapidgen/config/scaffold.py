@@ -7,7 +7,7 @@ from pathlib import Path
 from rapidgen._atomic_write import write_whole
 from rapidgen.config import schema
 from rapidgen.config.catalogue import model_description
-from rapidgen.config.from_description import Answers, GroupText, describe
+from rapidgen.config.from_description import DescriptionChoices, GroupText, describe
 from rapidgen.config.load import load_config
 from rapidgen.config.model import RobotConfig
 from rapidgen.config.placeholders import OPEN
@@ -44,17 +44,17 @@ _GROUP_OPTIONS = """# ports: {motion: 11000, control: 11001, state: 11002}
 """
 
 
-def from_model(name: str, said: Answers | None = None) -> str:
+def from_model(name: str, said: DescriptionChoices | None = None) -> str:
     """Configuration text for a shipped model, or for a known variant."""
     find_shipped(name)
     variant = named(name)
     if variant:
-        return _from_variant(variant, said or Answers())
+        return _from_variant(variant, said or DescriptionChoices())
     config = load_config(name)
     lines = [
         f"# {model_description(name)}",
         f"model: {name}",
-        *_controller(said or Answers(), _delivered(config)),
+        *_controller(said or DescriptionChoices(), _delivered(config)),
     ]
     text = "\n".join(lines) + "\n" + _OPTIONS
     if len(config.groups) == 1:
@@ -69,7 +69,7 @@ def from_model(name: str, said: Answers | None = None) -> str:
     )
 
 
-def _from_variant(variant: Variant, said: Answers) -> str:
+def _from_variant(variant: Variant, said: DescriptionChoices) -> str:
     """What the list does not say of the controller and the speeds is said, or left open."""
     lines = [
         f"# ABB {variant.name}, from public sources: `rapidgen robots show {model_name(variant)}`.",
@@ -99,7 +99,7 @@ def _of_family(known: str) -> tuple[str, str]:
     return _IRC5
 
 
-def _controller(said: Answers, own: tuple[str, str]) -> list[str]:
+def _controller(said: DescriptionChoices, own: tuple[str, str]) -> list[str]:
     """What a person says, completed by what the robot comes with."""
     if said.controller:
         is_omnicore = said.controller == "omnicore"
@@ -132,14 +132,14 @@ def from_urdf(
     macro: str | None = None,
     arguments: Mapping[str, str] | None = None,
     macro_arguments: Mapping[str, str] | None = None,
-    answers: Answers | None = None,
+    answers: DescriptionChoices | None = None,
 ) -> str:
     """Configuration text for a robot description; `folder` is where the file will lie.
 
     What cannot be known is marked `???`. Raises DiagnosticError for what is no description of a
     robot of ABB.
     """
-    said = answers or Answers()
+    said = answers or DescriptionChoices()
     if not str(urdf).isprintable():
         raise refusal(
             "RG020",

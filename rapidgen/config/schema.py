@@ -91,14 +91,14 @@ def _unturned() -> list[float]:
     return [1.0, 0.0, 0.0, 0.0]
 
 
-class Part:
+class StrictModel:
     """For pydantic, where it reads these classes: no further keys."""
 
     __pydantic_config__: ClassVar[dict[str, Any]] = {"extra": "forbid"}
 
 
 @dataclass(frozen=True)
-class ControllerKeys(Part):
+class ControllerKeys(StrictModel):
     """The controller and its software."""
 
     type: Annotated[
@@ -119,7 +119,7 @@ class ControllerKeys(Part):
 
 
 @dataclass(frozen=True)
-class JointKeys(Part):
+class JointKeys(StrictModel):
     """One joint: which controller axis it drives and what that axis can do.
 
     Controller value = sign x URDF value + offset. Limits and speeds are those of the
@@ -150,7 +150,7 @@ class JointKeys(Part):
 
 
 @dataclass(frozen=True)
-class ChainStepKeys(Part):
+class ChainStepKeys(StrictModel):
     """One step of the kinematic chain, from the base to the flange."""
 
     joint: Annotated[str, Rule("Joint that turns or slides here; none: a fixed step.")] = ""
@@ -167,7 +167,7 @@ class ChainStepKeys(Part):
 
 
 @dataclass(frozen=True)
-class FrameKeys(Part):
+class FrameKeys(StrictModel):
     """A position with an orientation."""
 
     position: Annotated[Vector, Rule("x, y, z in mm.")] = field(default_factory=_origin)
@@ -177,7 +177,7 @@ class FrameKeys(Part):
 
 
 @dataclass(frozen=True)
-class LoadKeys(Part):
+class LoadKeys(StrictModel):
     """What the tool weighs."""
 
     mass: Annotated[float, Rule("kg", ge=0)] = 0.0
@@ -189,7 +189,7 @@ class LoadKeys(Part):
 
 
 @dataclass(frozen=True)
-class ToolDataKeys(Part):
+class ToolDataKeys(StrictModel):
     """A tool: where its TCP is and what it weighs."""
 
     held: Annotated[bool, Rule("False: a stationary tool.")] = True
@@ -214,7 +214,7 @@ class ToolKeys(ToolDataKeys):
 
 
 @dataclass(frozen=True)
-class WorkObjectDataKeys(Part):
+class WorkObjectDataKeys(StrictModel):
     """A work object: where it is."""
 
     held: Annotated[bool, Rule("True: the robot holds the work object.")] = False
@@ -237,7 +237,7 @@ class WorkObjectKeys(WorkObjectDataKeys):
 
 
 @dataclass(frozen=True)
-class ParameterKeys(Part):
+class ParameterKeys(StrictModel):
     """A parameter of a routine."""
 
     name: Annotated[Identifier, Rule("Name of the parameter, for people.")]
@@ -249,7 +249,7 @@ class ParameterKeys(Part):
 
 
 @dataclass(frozen=True)
-class RoutineKeys(Part):
+class RoutineKeys(StrictModel):
     """A procedure of yours that a program may call, in the motion task."""
 
     call: Annotated[
@@ -271,7 +271,7 @@ class RoutineKeys(Part):
 
 
 @dataclass(frozen=True)
-class DatumKeys(Part):
+class DatumKeys(StrictModel):
     """A PERS of a module of yours in the motion task, global there, that clients may reach."""
 
     type: Annotated[Literal["num", "bool", "string"], Rule("Type.")]
@@ -279,7 +279,7 @@ class DatumKeys(Part):
 
 
 @dataclass(frozen=True)
-class PayloadKeys(Part):
+class PayloadKeys(StrictModel):
     """What the robot carries: loaddata that a module of yours declares, `PERS` and global."""
 
     name: Annotated[Identifier, Rule("Name of the loaddata; load0: none.")] = "load0"
@@ -290,7 +290,7 @@ class PayloadKeys(Part):
 
 
 @dataclass(frozen=True)
-class PortsKeys(Part):
+class PortsKeys(StrictModel):
     """TCP ports of one group. Defaults: 11000, 11001, 11002, and 10 more for each next group."""
 
     motion: Annotated[Port | None, Rule("Trajectories and stop.")] = None
@@ -302,7 +302,7 @@ class PortsKeys(Part):
 
 
 @dataclass(frozen=True)
-class UrdfKeys(Part):
+class UrdfKeys(StrictModel):
     """A robot description. Its meshes are for the page alone; ROS is not needed."""
 
     file: Annotated[str, Rule("URDF or xacro file, relative to this file.")]
@@ -327,7 +327,7 @@ class UrdfKeys(Part):
 
 
 @dataclass(frozen=True)
-class GroupKeys(Part):
+class GroupKeys(StrictModel):
     """One motion task with its mechanical unit; for one group these may stand at the top."""
 
     model: Annotated[str | None, Rule("A shipped model (`rapidgen robots`).")] = None
@@ -428,7 +428,7 @@ class GroupKeys(Part):
 
 
 @dataclass(frozen=True)
-class TrajectoryKeys(Part):
+class TrajectoryKeys(StrictModel):
     """What the motion server accepts."""
 
     capacity: Annotated[
@@ -480,7 +480,7 @@ class TrajectoryKeys(Part):
 
 
 @dataclass(frozen=True)
-class StateKeys(Part):
+class StateKeys(StrictModel):
     """The state server."""
 
     rate: Annotated[
@@ -490,7 +490,7 @@ class StateKeys(Part):
 
 
 @dataclass(frozen=True)
-class NetworkKeys(Part):
+class NetworkKeys(StrictModel):
     """Who may talk to the driver."""
 
     bind: Annotated[
@@ -514,7 +514,7 @@ class NetworkKeys(Part):
 
 
 @dataclass(frozen=True)
-class SignalKeys(Part):
+class SignalKeys(StrictModel):
     """A signal that a client may read or write."""
 
     kind: Annotated[Literal["DI", "DO", "GI", "GO", "AI", "AO"], Rule("Type of the signal.")]
@@ -524,7 +524,7 @@ class SignalKeys(Part):
 
 
 @dataclass(frozen=True)
-class ConfigurationKeys(Part):
+class ConfigurationKeys(StrictModel):
     """A controller with its motion groups."""
 
     name: Annotated[ConfigName | None, Rule("Name of the robot; the file's name without one.")] = (

@@ -1,6 +1,6 @@
 """Where a value stands in the file that a checked configuration was read from."""
 
-from rapidgen.config.assemble import keys_of, shown_path
+from rapidgen.config.assemble import display_path, keys_of
 from rapidgen.config.model import RobotConfig
 from rapidgen.config.yaml_tree import MappingNode, Node, ScalarNode, SequenceNode
 from rapidgen.diagnostics import Span
@@ -13,7 +13,7 @@ def place_of_value(config: RobotConfig, group: str, path: KeyPath, value: str) -
     data = next((data for name, data in config.inputs if name == config.path.name), None)
     if data is None:
         return None
-    root, _ = keys_of(data, shown_path(config.path))
+    root, _ = keys_of(data, display_path(config.path))
     for whole in (("groups", group, *path), path):
         node = _at(root, whole)
         if isinstance(node, ScalarNode) and node.value == value:

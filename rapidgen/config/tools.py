@@ -120,7 +120,7 @@ def routine_of(
     path: KeyPath,
     report: DraftFindings,
     has_chain: bool,
-) -> model.OwnRoutine:
+) -> model.UserRoutine:
     """A procedure or function that a program may call."""
     for number, parameter in enumerate(given.parameters):
         if parameter.type == "robtarget" and not has_chain:
@@ -147,14 +147,14 @@ def routine_of(
             help="a procedure with an INOUT parameter is found when it is called",
         )
     parameters = tuple(
-        model.OwnParameter(p.name, p.type, p.mode == "inout") for p in given.parameters
+        model.RoutineParameter(p.name, p.type, p.mode == "inout") for p in given.parameters
     )
-    return model.OwnRoutine(name, given.call, parameters, given.returns)
+    return model.UserRoutine(name, given.call, parameters, given.returns)
 
 
 def data_of(
     keys: schema.GroupKeys, path: KeyPath, report: DraftFindings
-) -> tuple[model.OwnDatum, ...]:
+) -> tuple[model.UserDatum, ...]:
     """What clients may read and write. The control server does it, and finds a datum by the part
     of its name that is one in the whole task."""
     if keys.data and keys.ports.control == 0:
@@ -176,4 +176,4 @@ def data_of(
                 key=True,
             )
         found[plain] = name
-    return tuple(model.OwnDatum(name, d.type, d.access) for name, d in keys.data.items())
+    return tuple(model.UserDatum(name, d.type, d.access) for name, d in keys.data.items())

@@ -12,7 +12,7 @@ _WHOLE = 3000
 """Characters of all texts, beyond which only messages are kept."""
 
 
-def few(found: Iterable[Diagnostic]) -> list[Diagnostic]:
+def limit_findings(found: Iterable[Diagnostic]) -> list[Diagnostic]:
     """The findings with their texts cut where a hostile file made them long."""
     kept: list[Diagnostic] = []
     counts: dict[str, int] = {}
@@ -25,9 +25,9 @@ def few(found: Iterable[Diagnostic]) -> list[Diagnostic]:
             continue
         short = replace(
             d,
-            message=shortened(d.message, _MESSAGE),
-            label=shortened(d.label, _LABEL),
-            help=shortened(d.help, _HELP),
+            message=truncate(d.message, _MESSAGE),
+            label=truncate(d.label, _LABEL),
+            help=truncate(d.help, _HELP),
         )
         length += len(short.message) + len(short.help) + len(short.label)
         kept.append(short if length <= _WHOLE else replace(short, help="", label=""))
@@ -39,7 +39,7 @@ def few(found: Iterable[Diagnostic]) -> list[Diagnostic]:
     return kept
 
 
-def shortened(text: str, most: int) -> str:
+def truncate(text: str, most: int) -> str:
     """A text, cut in its middle where it is longer."""
     if len(text) <= most:
         return text

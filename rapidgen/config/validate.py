@@ -35,10 +35,10 @@ class Validated:
 
 def validate(root: MappingNode) -> Validated:
     """Validate a canonical tree."""
-    return Validated(*sound(root, ConfigurationKeys))
+    return Validated(*valid_subset(root, ConfigurationKeys))
 
 
-def sound(root: MappingNode, kind: type[T]) -> tuple[T, list[Diagnostic], set[Path]]:
+def valid_subset(root: MappingNode, kind: type[T]) -> tuple[T, list[Diagnostic], set[Path]]:
     """A tree as `kind` of the schema, as far as it is sound; faults, and the paths taken out."""
     data = to_python(root)
     validator = SchemaValidator(core(kind))

@@ -13,7 +13,7 @@ from functools import cache
 from rapidgen._data import data_folder
 from rapidgen._json import Json, Members, items, members, number, text
 from rapidgen.config.draft import GroupDraft
-from rapidgen.config.geometry import Difference, Line, Matrix, Skeleton, compare, skeleton
+from rapidgen.config.geometry import ArmAxes, Difference, Line, Matrix, compare, skeleton
 from rapidgen.config.vectors import unit
 
 SAME_PLACE = 0.003
@@ -45,7 +45,7 @@ class Variant:
     max_payload: float
     """kg; 0: not known."""
     axes: tuple[KnownAxis, ...]
-    skeleton: Skeleton
+    skeleton: ArmAxes
     sources: tuple[tuple[str, str], ...]
     unsure: tuple[str, ...]
     disagreements: tuple[str, ...]
@@ -102,7 +102,7 @@ def _figures(name: str) -> list[str]:
     return re.findall(r"\d+(?:\.\d+)?", name)
 
 
-def recognise(arm: Skeleton, *names: str) -> Match | None:
+def recognise(arm: ArmAxes, *names: str) -> Match | None:
     """The variant that an arm is, by its axes in space; of equal ones the one that is named."""
     hits = []
     for variant in variants():
@@ -133,7 +133,7 @@ def _variant(entry: Json) -> Variant:
             )
             for axis in axes
         ),
-        skeleton=Skeleton(
+        skeleton=ArmAxes(
             tuple(
                 Line(
                     text(axis["axis"]),

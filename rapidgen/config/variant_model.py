@@ -28,7 +28,7 @@ def model_name(variant: Variant) -> str:
 
 def names() -> tuple[str, ...]:
     """Models that are variants of the list."""
-    return tuple(model_name(v) for v in variants() if not v.model and not lacks(v))
+    return tuple(model_name(v) for v in variants() if not v.model and not missing_figures(v))
 
 
 def named(name: str) -> Variant | None:
@@ -41,7 +41,7 @@ def named(name: str) -> Variant | None:
     return None
 
 
-def lacks(variant: Variant) -> list[str]:
+def missing_figures(variant: Variant) -> list[str]:
     """What keeps a variant from being a model."""
     sources = dict(variant.sources)
     found = []

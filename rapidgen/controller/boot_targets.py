@@ -11,8 +11,8 @@ from rapidgen.axes.default_postures import usual_start
 from rapidgen.config import from_manifest, load_config
 from rapidgen.config.model import ChainLink, GroupConfig, Positioner, RobotConfig
 from rapidgen.config.registry import is_path
-from rapidgen.controller.cell_setup import Surroundings, cameras_of, force_of, furnish
-from rapidgen.controller.inference.start_poses import in_front, stands, start_of
+from rapidgen.controller.cell_setup import CellSetup, apply_cell, cameras_of, force_of
+from rapidgen.controller.inference.start_poses import stands, start_of, table_pose
 from rapidgen.controller.mechanics import DEFAULT_ROBOT, mechanics, of_unknown_payload
 from rapidgen.diagnostics import Diagnostic, refusal, suggest
 from rapidgen.system.model import System
@@ -20,8 +20,8 @@ from rapidgen.system.releases import UNTOLD
 
 if TYPE_CHECKING:
     from rapidgen.config.cell import CellDescription, CellRobotKeys
-    from rapidgen.controller.inference.cell import Guess
-    from rapidgen.controller.inference.robot_model import Likely
+    from rapidgen.controller.inference.cell import InferredCell
+    from rapidgen.controller.inference.robot_model import RobotCandidate
     from rapidgen.system.controller_cfg import ControllerCfg
 
 # Descriptions, guesses, generated drivers and backups are imported where there is one: the run of a
@@ -32,7 +32,7 @@ Source = Path | str
 
 
 @dataclass(frozen=True, slots=True)
-class Wishes:
+class BootOptions:
     """What a user says beside the files."""
 
     tasks: Mapping[str, Sequence[Source]] = field(default_factory=dict)
@@ -59,9 +59,9 @@ class Bootable:
     groups: tuple[GroupConfig, ...]
     driver: bool
     notes: tuple[Diagnostic, ...] = ()
-    surroundings: Surroundings = field(default_factory=Surroundings)
-    guessed: "Guess | None" = None
-    likely: "Likely | None" = None
+    surroundings: CellSetup = field(default_factory=CellSetup)
+    guessed: "InferredCell | None" = None
+    likely: "RobotCandidate | None" = None
     """The robot that was guessed."""
     cfg: "ControllerCfg | None" = None
     """All domains of a backup."""
@@ -73,9 +73,9 @@ class Bootable:
     """What stands around it."""
 
 
-def load_target(targets: Sequence[Source], wishes: Wishes | None = None) -> Bootable:
+def load_target(targets: Sequence[Source], wishes: BootOptions | None = None) -> Bootable:
     """Read what is to be booted. Raises DiagnosticError with what is wrong."""
-    wishes = wishes or Wishes()
+    wishes = wishes or BootOptions()
     first = Path(targets[0]) if len(targets) == 1 and not wishes.tasks else None
     if first is not None and is_configuration(first):
         _only_of_folders(str(first), wishes)
@@ -115,7 +115,7 @@ def is_configuration(target: Path) -> bool:
     return not target.exists() and not target.suffix and len(target.parts) == 1
 
 
-def _loose(targets: Sequence[Source], wishes: Wishes) -> System:
+def _loose(targets: Sequence[Source], wishes: BootOptions) -> System:
     if not targets and not any(wishes.tasks.values()):
         raise refusal(
             "RG901",
@@ -134,7 +134,7 @@ def _loose(targets: Sequence[Source], wishes: Wishes) -> System:
     return _read(by_task, name, wishes)
 
 
-def _read(tasks: Mapping[str, Sequence[Source]], name: str, wishes: Wishes) -> System:
+def _read(tasks: Mapping[str, Sequence[Source]], name: str, wishes: BootOptions) -> System:
     entry, robotware = wishes.entry or "main", wishes.robotware or UNTOLD
     return files.read_files(tasks, entry=entry, name=name, robotware=robotware)
 
@@ -166,7 +166,7 @@ def _entered(system: System, entry: str) -> System:
 
 
 def _driver(
-    config: RobotConfig, system: System, notes: tuple[Diagnostic, ...], wishes: Wishes
+    config: RobotConfig, system: System, notes: tuple[Diagnostic, ...], wishes: BootOptions
 ) -> Bootable:
     """A generated driver's robots are those of its configuration; they start at 0."""
     from rapidgen.controller.cell import in_its_cell
@@ -184,15 +184,15 @@ def _driver(
     return _surrounded(found, cell, wishes)
 
 
-def _foreign(system: System, notes: list[Diagnostic] | None, wishes: Wishes) -> Bootable:
+def _foreign(system: System, notes: list[Diagnostic] | None, wishes: BootOptions) -> Bootable:
     cell = _described(wishes)
     robots = cell.robots if cell is not None else {}
     system = _moving(system, robots)
     robot, model = wishes.robot, None
     if str(wishes.cell) == GUESS and not robot and not system.robot_types:
-        from rapidgen.controller.inference.robot_model import likely
+        from rapidgen.controller.inference.robot_model import infer_robot_model
 
-        model = likely(system, DEFAULT_ROBOT)
+        model = infer_robot_model(system, DEFAULT_ROBOT)
         robot = model.model if model is not None else ""
     groups, which = mechanics(system, robot, robots)
     if model is not None:
@@ -205,7 +205,7 @@ def _foreign(system: System, notes: list[Diagnostic] | None, wishes: Wishes) -> 
     return _surrounded(found, cell, wishes)
 
 
-def _described(wishes: Wishes) -> "CellDescription | None":
+def _described(wishes: BootOptions) -> "CellDescription | None":
     if str(wishes.cell) in ("", GUESS):
         return None
     from rapidgen.config.cell import load_cell
@@ -217,14 +217,14 @@ def _warned(cell: "CellDescription | None") -> tuple[Diagnostic, ...]:
     return () if cell is None else cell.diagnostics
 
 
-def _surrounded(found: Bootable, cell: "CellDescription | None", wishes: Wishes) -> Bootable:
+def _surrounded(found: Bootable, cell: "CellDescription | None", wishes: BootOptions) -> Bootable:
     guessed = None
     if str(wishes.cell) == GUESS:
         from rapidgen.controller.inference.cell import guess
 
         units = [u for g in found.groups for u in (g.mechanical_unit, *g.external_units)]
         first, *others = found.groups
-        table = in_front(first)
+        table = table_pose(first)
         guessed = guess(found.system, units, table, stands(first))
         cell = guessed.cell
         stands_still = (ChainLink("", table, (0.0, 0.0, 0.0)),)
@@ -238,14 +238,14 @@ def _surrounded(found: Bootable, cell: "CellDescription | None", wishes: Wishes)
     usual = not found.driver
     if cell is None:
         starts = dict(_starts(found.groups, {}, wishes.start, usual=usual))
-        return replace(found, surroundings=Surroundings(starts))
+        return replace(found, surroundings=CellSetup(starts))
     return replace(
         found,
         cell=cell,
-        system=furnish(found.system, cell)
+        system=apply_cell(found.system, cell)
         if guessed is None
-        else furnish(found.system, cell, guessed.data, guessed.routines),
-        surroundings=Surroundings(
+        else apply_cell(found.system, cell, guessed.data, guessed.routines),
+        surroundings=CellSetup(
             dict(_starts(found.groups, cell.robots, wishes.start, usual=usual)),
             tuple(reaction for rows in cell.devices.values() for reaction in rows),
             guessed.driven if guessed is not None else frozenset(),
@@ -300,7 +300,7 @@ def _starts(
             yield group.name, usual_start(group)
 
 
-def _only_of_files(target: str, wishes: Wishes, mend: str) -> None:
+def _only_of_files(target: str, wishes: BootOptions, mend: str) -> None:
     """What tells its release is not given another one."""
     if wishes.robotware is not None:
         raise refusal(
@@ -308,7 +308,7 @@ def _only_of_files(target: str, wishes: Wishes, mend: str) -> None:
         )
 
 
-def _only_of_folders(target: str, wishes: Wishes) -> None:
+def _only_of_folders(target: str, wishes: BootOptions) -> None:
     """What is no generated folder is loaded onto no backup."""
     if wishes.backup is not None:
         raise refusal(

@@ -9,13 +9,13 @@ from rapidgen.diagnostics import Diagnostic, DiagnosticError, error, suggest
 from rapidgen.machine.cameras import Camera, Seen
 from rapidgen.machine.event_log import EventLog
 from rapidgen.machine.force import Measured
-from rapidgen.machine.io import Awaited, IOSystem
+from rapidgen.machine.io import IOSystem, SignalCondition
 from rapidgen.machine.network.interface import Network
 from rapidgen.machine.network.memory import MemoryNetwork
 from rapidgen.machine.network.sockets import SocketTable
 from rapidgen.machine.operator import Operator
 from rapidgen.machine.scheduler import S, Scheduler
-from rapidgen.machine.sync_points import Meetings
+from rapidgen.machine.sync_points import SyncPoints
 from rapidgen.motion.system import MotionSystem
 from rapidgen.runtime.compiler import predefined
 from rapidgen.runtime.task.task import Task
@@ -23,11 +23,11 @@ from rapidgen.system.model import ModuleFile, SignalSpec, System
 
 if TYPE_CHECKING:
     from rapidgen.config.cell import CellDescription, ReactionKeys
-    from rapidgen.controller.inference.default_tools import Blank
+    from rapidgen.controller.inference.default_tools import DefaultedPersistent
     from rapidgen.controller.inference.dialog_answers import Said
-    from rapidgen.controller.inference.polled_data import Flag
-    from rapidgen.controller.inference.polled_signals import Polled
-    from rapidgen.controller.inference.socket_peers import Heard
+    from rapidgen.controller.inference.polled_data import PolledData
+    from rapidgen.controller.inference.polled_signals import PolledSignals
+    from rapidgen.controller.inference.socket_peers import ExpectedMessages
     from rapidgen.controller.views import TaskView
 
 GUESSED = 49_910
@@ -39,7 +39,7 @@ Posture = tuple[float, ...]
 
 
 @dataclass(frozen=True, slots=True)
-class Surroundings:
+class CellSetup:
     """What a controller is booted into, beside its system and robots."""
 
     starts: Mapping[str, Posture] = field(default_factory=dict)
@@ -47,11 +47,11 @@ class Surroundings:
     reactions: "Sequence[ReactionKeys]" = ()
     guessed: frozenset[str] = frozenset()
     """Signals that nobody drives, lower case: they become what somebody waits for."""
-    polled: "tuple[Polled, ...]" = ()
+    polled: "tuple[PolledSignals, ...]" = ()
     """Where programs look for them in loops."""
-    flags: "tuple[Flag, ...]" = ()
+    flags: "tuple[PolledData, ...]" = ()
     """Data that programs look at and do not set."""
-    heard: "Heard | None" = None
+    heard: "ExpectedMessages | None" = None
     """What programs listen for at sockets that nobody else is at."""
     cameras: Mapping[str, Camera] = field(default_factory=dict)
     """What cameras see, by lower-case name."""
@@ -59,7 +59,7 @@ class Surroundings:
     """What force sensors measure."""
     divisors: frozenset[str] = frozenset()
     """What programs divide by, lower case."""
-    blank: "tuple[Blank, ...]" = ()
+    blank: "tuple[DefaultedPersistent, ...]" = ()
     """Data that a predefined one stands in for."""
     is_guess: bool = False
     """Whether dialogs are answered that nobody else is there for, and I/O units are as named."""
@@ -68,7 +68,7 @@ class Surroundings:
 
 
 @dataclass(frozen=True, slots=True)
-class Guessed:
+class InferenceLog:
     """What happened because a cell is a guess; all grow while programs run."""
 
     is_guess: bool = False
@@ -92,7 +92,7 @@ class Booted(Protocol):
     motion: MotionSystem
     network: Network
     sockets: SocketTable
-    meetings: Meetings
+    meetings: SyncPoints
     scheduler: Scheduler
     rapid_tasks: dict[str, Task]
 
@@ -100,7 +100,7 @@ class Booted(Protocol):
         """One task."""
 
 
-def furnish(
+def apply_cell(
     system: System,
     cell: "CellDescription",
     data: Iterable[tuple[str, str, str]] = (),
@@ -207,17 +207,17 @@ def _nameless(system: System, cell: "CellDescription") -> Iterator[Diagnostic]:
                     )
 
 
-def settle(controller: Booted, around: Surroundings) -> Guessed:
+def place_robots(controller: Booted, around: CellSetup) -> InferenceLog:
     """Put the robots where they start, let devices watch their signals, and guessed inputs become
     what a program waits for."""
-    guessed = Guessed(around.is_guess)
+    guessed = InferenceLog(around.is_guess)
     answered = guessed.answered
     for name, posture in around.starts.items():
         controller.motion.group(name).jump(posture)
     for reaction in around.reactions:
         _watch(controller, reaction)
 
-    def answer(awaited: Awaited) -> None:
+    def answer(awaited: SignalCondition) -> None:
         signal, value = awaited.signal, awaited.fulfilling()
 
         def give() -> None:
@@ -234,13 +234,13 @@ def settle(controller: Booted, around: Surroundings) -> Guessed:
     if around.guessed:
         controller.io.on_awaited = answer
     if around.polled:
-        from rapidgen.controller.inference.polled_signals import Buttons
+        from rapidgen.controller.inference.polled_signals import InputSetter
 
-        Buttons(controller, around.polled, answered)
+        InputSetter(controller, around.polled, answered)
     if around.flags and controller.scheduler.clock == "virtual":
-        from rapidgen.controller.inference.polled_data import Flags
+        from rapidgen.controller.inference.polled_data import DataSetter
 
-        Flags(controller, around.flags, answered)
+        DataSetter(controller, around.flags, answered)
     controller.io.divisors = around.divisors
     controller.io.any_unit = controller.meetings.any_task = around.is_guess
     if around.is_any_robot:
@@ -251,13 +251,13 @@ def settle(controller: Booted, around: Surroundings) -> Guessed:
         and not controller.operator.present
         and controller.scheduler.clock == "virtual"
     ):
-        from rapidgen.controller.inference.dialog_answers import Chooser
+        from rapidgen.controller.inference.dialog_answers import DialogResponder
 
-        Chooser(controller.operator, controller.scheduler, answered)
+        DialogResponder(controller.operator, controller.scheduler, answered)
     if around.heard is not None and isinstance(controller.network, MemoryNetwork):
-        from rapidgen.controller.inference.socket_peers import Partner
+        from rapidgen.controller.inference.socket_peers import SocketPeer
 
-        Partner(controller, around.heard, answered)
+        SocketPeer(controller, around.heard, answered)
     return guessed
 
 

@@ -9,12 +9,12 @@ from typing import Literal, TypedDict, TypeVar, get_args
 
 from rapidgen._compat import Self, Unpack
 from rapidgen.config.model import GroupConfig, RobotConfig
-from rapidgen.controller.boot_targets import Bootable, Wishes, load_target
-from rapidgen.controller.cell_setup import Surroundings, settle
+from rapidgen.controller.boot_targets import Bootable, BootOptions, load_target
+from rapidgen.controller.cell_setup import CellSetup, place_robots
 from rapidgen.controller.event_log import ControllerLog
 from rapidgen.controller.faults import FaultPlan
 from rapidgen.controller.faults import schedule as schedule_faults
-from rapidgen.controller.loading import Trees, configured, load
+from rapidgen.controller.loading import ParseCache, configured, load
 from rapidgen.controller.operation import OperatingMode, Operation
 from rapidgen.controller.system_signals import SystemSignals
 from rapidgen.controller.thread import ControllerThread
@@ -34,7 +34,7 @@ from rapidgen.machine.network.system import PortMap, SystemNetwork
 from rapidgen.machine.operator import Answer, Operator
 from rapidgen.machine.scheduler import AdvanceEnd, ClockKind, Schedule, Scheduler
 from rapidgen.machine.smart_gripper import Hands
-from rapidgen.machine.sync_points import Meetings
+from rapidgen.machine.sync_points import SyncPoints
 from rapidgen.machine.system_parameters import SystemParameters
 from rapidgen.machine.text_tables import TextTables
 from rapidgen.motion.group import MotionGroup
@@ -61,7 +61,7 @@ class Deadlock(Exception):
     """Every task waits and nothing is ahead that could wake one."""
 
 
-class Choices(TypedDict, total=False):
+class ControllerOptions(TypedDict, total=False):
     """Keywords of `VirtualController`."""
 
     robots: Sequence[GroupConfig]
@@ -81,7 +81,7 @@ class Choices(TypedDict, total=False):
     network: Network | None
     folder: Path | None
     faults: FaultPlan | None
-    surroundings: Surroundings
+    surroundings: CellSetup
     autostart: bool
     entry_needed: bool
 
@@ -114,7 +114,7 @@ class VirtualController:
         network: Network | None = None,
         folder: Path | None = None,
         faults: FaultPlan | None = None,
-        surroundings: Surroundings = Surroundings(),  # noqa: B008 - frozen
+        surroundings: CellSetup = CellSetup(),  # noqa: B008 - frozen
         autostart: bool = True,
         entry_needed: bool = True,
     ) -> None:
@@ -172,7 +172,7 @@ class VirtualController:
         """Values of the servos' test signals by channel."""
         self.booked: set[int] = set()
         """Error numbers that BookErrNo gave."""
-        self.meetings = Meetings()
+        self.meetings = SyncPoints()
         self.arcs = {t.name: ArcEquipment(self.io, system.arc, t.name) for t in system.tasks}
         """What tasks weld with: whether `gas` flows, an `arc` burns, and with which `data`."""
         calibrated = self.dialect.hands_calibrated or surroundings.is_guess
@@ -196,7 +196,7 @@ class VirtualController:
             dialect=self.dialect,
         )
         self.shared = Shared(configured(system, robots, self.io))
-        self.parse_module = Trees(system.robotware).parse
+        self.parse_module = ParseCache(system.robotware).parse
         self.recovered = self.log.recovered
         self.operation: Operation = Operation(self)
         signals = SystemSignals(self, self.operation)
@@ -221,7 +221,7 @@ class VirtualController:
         self.operation.power_up()
         loaded = sum(len(spec.modules) for spec in system.tasks)
         _LOG.info("%s: %d tasks, %d modules loaded", system.name, len(system.tasks), loaded)
-        self.guessed = settle(self, surroundings)
+        self.guessed = place_robots(self, surroundings)
         if faults is not None:
             schedule_faults(faults, self)
         if autostart:
@@ -244,7 +244,7 @@ class VirtualController:
     # -- other ways in ---------------------------------------------------------------------------
 
     @classmethod
-    def boot(cls, found: Bootable, **options: Unpack[Choices]) -> Self:
+    def boot(cls, found: Bootable, **options: Unpack[ControllerOptions]) -> Self:
         """What `booting.load_target` has read; its robots and surroundings unless others are
         given."""
         if "robots" not in options:
@@ -260,7 +260,7 @@ class VirtualController:
         backup: Path | str | None = None,
         robot: str = "",
         cell: Path | str = "",
-        **options: Unpack[Choices],
+        **options: Unpack[ControllerOptions],
     ) -> Self:
         """A generated folder (its manifest tells the robots) or an ABB backup.
 
@@ -268,7 +268,7 @@ class VirtualController:
         as `from_files`. DiagnosticError when something cannot be read, or a controller would not
         load it.
         """
-        wishes = Wishes(backup=backup, robot=robot, cell=cell)
+        wishes = BootOptions(backup=backup, robot=robot, cell=cell)
         return cls.boot(load_target([path], wishes), **options)
 
     @classmethod
@@ -280,7 +280,7 @@ class VirtualController:
         robot: str = "",
         cell: Path | str = "",
         start: Sequence[float] = (),
-        **options: Unpack[Choices],
+        **options: Unpack[ControllerOptions],
     ) -> Self:
         """Loose module files: one task T_ROB1, or one for each key.
 
@@ -293,7 +293,7 @@ class VirtualController:
         for task, names in tasks.items():
             if isinstance(names, str | Path):
                 raise TypeError(f"the files of {task} are a list: [{str(names)!r}]")
-        wishes = Wishes(tasks, robot=robot, entry=entry, cell=cell, start=start)
+        wishes = BootOptions(tasks, robot=robot, entry=entry, cell=cell, start=start)
         return cls.boot(load_target((), wishes), **options)
 
     @classmethod
@@ -302,14 +302,14 @@ class VirtualController:
         config: "RobotConfig | str | PathLike[str]",
         *,
         overrides: Sequence[str] = (),
-        **options: Unpack[Choices],
+        **options: Unpack[ControllerOptions],
     ) -> Self:
         """The driver that a configuration (a file, a shipped name) generates, without files.
 
         `overrides` are `key.path=value` texts. DiagnosticError when it has faults.
         """
         if not isinstance(config, RobotConfig):
-            return cls.boot(load_target([str(config)], Wishes(overrides=overrides)), **options)
+            return cls.boot(load_target([str(config)], BootOptions(overrides=overrides)), **options)
         from rapidgen.controller.cell import in_its_cell
         from rapidgen.generate import build, make_system
 

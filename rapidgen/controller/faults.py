@@ -47,7 +47,7 @@ class FaultPlan:
     controller: tuple[ControllerRule, ...] = ()
 
 
-class Controllable(Protocol):
+class FaultTarget(Protocol):
     """What a plan does to a controller."""
 
     @property
@@ -63,7 +63,7 @@ class Controllable(Protocol):
         """Call `action` when a statement is reached for the `count`-th time."""
 
 
-def schedule(plan: FaultPlan, controller: Controllable) -> None:
+def schedule(plan: FaultPlan, controller: FaultTarget) -> None:
     """Put the controller's part of a plan on its clock."""
     for rule in plan.controller:
         action = _action(controller, rule.do)
@@ -73,7 +73,7 @@ def schedule(plan: FaultPlan, controller: Controllable) -> None:
             controller.scheduler.at(round(rule.at * S), action)
 
 
-def _action(controller: Controllable, name: str) -> Callable[[], None]:
+def _action(controller: FaultTarget, name: str) -> Callable[[], None]:
     return lambda: controller.perform(name)
 
 

@@ -20,7 +20,7 @@ _SMALL = 64_000
 """Bytes of a module whose tree is kept for the next controller that boots."""
 
 
-class Trees:
+class ParseCache:
     """Trees of module files; the same bytes are parsed once, small ones for all controllers."""
 
     def __init__(self, robotware: tuple[int, int]) -> None:

@@ -15,10 +15,10 @@ from typing import NamedTuple
 
 from rapidgen._compat import Self, Unpack
 from rapidgen.controller.boot_targets import Bootable
-from rapidgen.controller.controller import Choices, VirtualController
+from rapidgen.controller.controller import ControllerOptions, VirtualController
 from rapidgen.controller.debugger.breakpoints import Breakpoint
 from rapidgen.controller.programs import Programs
-from rapidgen.controller.warm_start import Kept, boot
+from rapidgen.controller.warm_start import PersistedState, boot
 from rapidgen.diagnostics import Diagnostic
 from rapidgen.machine.files import copy_files
 from rapidgen.system import read_backup
@@ -30,15 +30,15 @@ from rapidgen.system.model import System
 _NS = 1_000_000_000
 
 
-class Restored(NamedTuple):
+class RestoredBackup(NamedTuple):
     """What the next restart takes from a backup."""
 
-    kept: Kept
+    kept: PersistedState
     cfg: ControllerCfg
     home: Path
 
 
-class Cabinet:
+class ControllerRunner:
     """One controller and its restarts.
 
     `controller` is the one that runs now. Everything but `post`, `ask_restart` and `close` belongs
@@ -51,7 +51,7 @@ class Cabinet:
         system: System,
         *,
         cfg: ControllerCfg | None = None,
-        **options: Unpack[Choices],
+        **options: Unpack[ControllerOptions],
     ) -> None:
         self.folder = Path(tempfile.mkdtemp(prefix="rapidgen-cabinet-"))
         self._remove = weakref.finalize(self, shutil.rmtree, self.folder, ignore_errors=True)
@@ -70,7 +70,7 @@ class Cabinet:
         """Called when the new controller is there."""
         self._before = 0
         self._restart_asked = False
-        self._restored: Restored | None = None
+        self._restored: RestoredBackup | None = None
         self._lock = threading.Lock()
         self._up = True
         self._thread: threading.Thread | None = None
@@ -79,7 +79,7 @@ class Cabinet:
         self.programs = Programs(self.controller)
 
     @classmethod
-    def boot(cls, found: Bootable, **options: Unpack[Choices]) -> Self:
+    def boot(cls, found: Bootable, **options: Unpack[ControllerOptions]) -> Self:
         """What `booting.load_target` has read, as `VirtualController.boot`."""
         options.setdefault("robots", found.groups)
         options.setdefault("surroundings", found.surroundings)
@@ -109,7 +109,9 @@ class Cabinet:
         notes: list[Diagnostic] = []
         system = read_backup(backup, notes=notes)
         cfg = backup_cfg(backup, self.controller.system.robotware, notes)
-        self._restored = Restored({t.name: t.modules for t in system.tasks}, cfg, backup / "HOME")
+        self._restored = RestoredBackup(
+            {t.name: t.modules for t in system.tasks}, cfg, backup / "HOME"
+        )
         self.ask_restart()
 
     def run(self, ended: Callable[[], bool]) -> None:

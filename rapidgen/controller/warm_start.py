@@ -10,7 +10,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from rapidgen.controller.controller import Choices, VirtualController
+from rapidgen.controller.controller import ControllerOptions, VirtualController
 from rapidgen.controller.programs import Programs, UnlinkedModule
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
 from rapidgen.rapid import Dialect, parse
@@ -20,7 +20,7 @@ from rapidgen.system.loading import load_module
 from rapidgen.system.model import ModuleFile, System, TaskSpec
 from rapidgen.system.paths import home_file
 
-Kept = Mapping[str, tuple[ModuleFile, ...]]
+PersistedState = Mapping[str, tuple[ModuleFile, ...]]
 """Modules that lay in each task."""
 _PROGRAM_ERRORS = 40_160
 _SYSTEM_FAILURE = 20_095
@@ -36,9 +36,9 @@ class _Task:
 
 def boot(
     old: VirtualController,
-    kept: Kept,
+    kept: PersistedState,
     cfg: ControllerCfg,
-    options: Choices,
+    options: ControllerOptions,
 ) -> tuple[VirtualController, Programs]:
     """The controller after a warm start. Motors are off, background tasks run.
 
@@ -85,7 +85,11 @@ def boot(
 
 
 def _task(
-    spec: TaskSpec, kept: Kept, entries: tuple[ModuleEntry, ...], home: Path, before: System
+    spec: TaskSpec,
+    kept: PersistedState,
+    entries: tuple[ModuleEntry, ...],
+    home: Path,
+    before: System,
 ) -> _Task:
     """A task with its modules: what lay in it, and what its files add."""
     found = {m.name.casefold(): m for m in kept.get(spec.name, ())}
@@ -126,7 +130,7 @@ def _faults(file: ModuleFile, robotware: tuple[int, int]) -> tuple[Diagnostic, .
     return tuple(d for d in tree.diagnostics if d.severity is Severity.ERROR)
 
 
-def _booted(system: System, tasks: list[_Task], options: Choices) -> VirtualController:
+def _booted(system: System, tasks: list[_Task], options: ControllerOptions) -> VirtualController:
     """A controller of these tasks; modules that cannot be linked are put aside."""
     while True:
         whole = replace(system, tasks=tuple(task.spec for task in tasks))

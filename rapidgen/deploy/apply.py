@@ -12,28 +12,28 @@ from dataclasses import replace
 
 from rapidgen.deploy.driver_set import FENCE, NEW, DriverSet, SetFile, digest
 from rapidgen.deploy.file_operations import (
+    FileOperations,
     Say,
-    Work,
+    check_not_interrupted,
     delete,
     delete_all,
     delete_folder,
     differs,
-    go_on,
     names,
     probe,
     swap,
     write,
 )
 from rapidgen.deploy.online.apply import (
-    Live,
-    LiveOptions,
+    OnlineOptions,
+    OnlineRun,
     after_files,
     before_files,
     check,
     writing,
 )
-from rapidgen.deploy.online.plan import InMemory
-from rapidgen.deploy.other_driver import Neighbour
+from rapidgen.deploy.online.plan import MemoryModule
+from rapidgen.deploy.other_driver import OtherDriver
 from rapidgen.deploy.plan import DAMAGED, FileChange, Plan
 from rapidgen.deploy.planner import make_plan
 from rapidgen.deploy.retention import (
@@ -54,7 +54,7 @@ def apply(
     plan: Plan,
     *,
     overwrite: bool = False,
-    live: LiveOptions | None = None,
+    live: OnlineOptions | None = None,
     say: Say = lambda _: None,
     given_up: Callable[[], bool] = lambda: False,
 ) -> None:
@@ -71,8 +71,8 @@ def apply(
         raise DiagnosticError(conflicts, exit_code=1)
     run = None
     if transport.services is not None and plan.live is not None:
-        work = Work(transport, plan, "none", say, given_up=given_up)
-        run = Live(transport.services, work, plan.live, live or LiveOptions())
+        work = FileOperations(transport, plan, "none", say, given_up=given_up)
+        run = OnlineRun(transport.services, work, plan.live, live or OnlineOptions())
         check(run)
     now_there = make_plan(transport, plan.wanted, verb=plan.verb, loaded=plan.cfg_present)
     if now_there.fingerprint != plan.fingerprint:
@@ -145,7 +145,7 @@ def conflicts_of(plan: Plan, *, overwrite: bool = False) -> list[Diagnostic]:
     return found
 
 
-def _in_the_way(module: InMemory) -> Diagnostic:
+def _in_the_way(module: MemoryModule) -> Diagnostic:
     return error(
         "RG541",
         None,
@@ -155,7 +155,7 @@ def _in_the_way(module: InMemory) -> Diagnostic:
     )
 
 
-def _beside(plan: Plan, other: Neighbour) -> Diagnostic:
+def _beside(plan: Plan, other: OtherDriver) -> Diagnostic:
     help = "its modules have names of ours, and both serve the same ports: " + "; ".join(
         f"({n}) {step.what}" for n, step in enumerate(plan.steps, 1)
     )
@@ -186,24 +186,24 @@ def moved_on(target: str) -> DiagnosticError:
     )
 
 
-def _begin(transport: Transport, plan: Plan, say: Say) -> Work:
+def _begin(transport: Transport, plan: Plan, say: Say) -> FileOperations:
     """The state folder, what rename does here, and room on the disk."""
-    folder = Work(transport, plan, "none", say).folder
+    folder = FileOperations(transport, plan, "none", say).folder
     try:
         transport.make_folder(folder)
-        work = Work(transport, plan, probe(transport, folder), say, {folder})
+        work = FileOperations(transport, plan, probe(transport, folder), say, {folder})
         needed = sum(len(c.before or b"") + 2 * len(c.after or b"") for c in plan.changes)
         free = transport.free()
         if free is not None and free < needed:
             raise TransportFault("full", f"{plan.target}: {free} bytes free, {needed} needed")
     except TransportFault as fault:
         if fault.kind not in ("lost", "garbled") and not plan.state.present:
-            delete_folder(Work(transport, plan, "none", say), folder)
+            delete_folder(FileOperations(transport, plan, "none", say), folder)
         raise
     return work
 
 
-def _prepare(work: Work) -> Journal:
+def _prepare(work: FileOperations) -> Journal:
     """Journal, backup and staged files; on a refusal all of it is taken away again."""
     plan, old = work.plan, work.plan.state.journal
     number = old.id if old and plan.repair else 1 + (plan.had.id if plan.had else 0)
@@ -236,9 +236,9 @@ def _prepare(work: Work) -> Journal:
         if not plan.repair:
             back_up(work, number)
         for path, data in staged.items():
-            go_on(work)
+            check_not_interrupted(work)
             write(work, path, data)
-        go_on(work)
+        check_not_interrupted(work)
     except TransportFault as fault:
         if not plan.repair and fault.kind not in ("lost", "garbled"):
             _undo_preparation(work, journal)
@@ -246,7 +246,7 @@ def _prepare(work: Work) -> Journal:
     return journal
 
 
-def _switch(work: Work) -> None:
+def _switch(work: FileOperations) -> None:
     """Fence in, the old set's own key modules out, the rest, fence out."""
     plan = work.plan
     fences = _fences(work)
@@ -271,7 +271,7 @@ def _switch(work: Work) -> None:
         swap(work, change.where, NEW, change.after or b"", exists=True)
 
 
-def _fences(work: Work) -> dict[str, bytes]:
+def _fences(work: FileOperations) -> dict[str, bytes]:
     """Fences of the new set; none when the whole switch is one atomic rename."""
     steps = [c for c in work.plan.changes if c.action != "same" and c.kind != "cfg"]
     if work.plan.wanted is None or not steps or (work.mode == "replace" and len(steps) == 1):
@@ -292,14 +292,14 @@ def _old_fences(plan: Plan) -> frozenset[str]:
     return frozenset(old.fences())
 
 
-def _verify(work: Work) -> None:
+def _verify(work: FileOperations) -> None:
     """Everything read back once more, in place."""
     for change in work.plan.changes:
         if read_or_none(work.transport, change.where) != change.after:
             raise differs(change.shown)
 
 
-def _finish(work: Work, journal: Journal | None) -> None:
+def _finish(work: FileOperations, journal: Journal | None) -> None:
     """Manifest, then the end of the notes; without a journal only the notes are cleared."""
     folder = work.folder
     present = names(work.transport, folder)
@@ -324,7 +324,7 @@ def _finish(work: Work, journal: Journal | None) -> None:
         delete_folder(work, folder)
 
 
-def _clean(work: Work) -> None:
+def _clean(work: FileOperations) -> None:
     """Take away what an earlier run left half-done; what it switched is in the plan already."""
     journal = work.plan.state.journal
     if work.plan.repair:
@@ -343,7 +343,7 @@ def _clean(work: Work) -> None:
     delete_all(work, [f"{work.folder}/journal.a", f"{work.folder}/journal.b"])
 
 
-def _undo_preparation(work: Work, journal: Journal) -> None:
+def _undo_preparation(work: FileOperations, journal: Journal) -> None:
     """Best effort: what stays is named in the journal, and the next run takes it away."""
     try:
         delete_all(work, journal.staged)
@@ -360,7 +360,7 @@ def _undo_preparation(work: Work, journal: Journal) -> None:
         return
 
 
-def _write_journal(work: Work, journal: Journal) -> None:
+def _write_journal(work: FileOperations, journal: Journal) -> None:
     """Into the file that is not in use, then the other goes: one of them is always whole."""
     current = work.plan.state.journal_file
     write(work, _journal_path(work), encode(journal_json(journal)))
@@ -368,12 +368,12 @@ def _write_journal(work: Work, journal: Journal) -> None:
         delete_all(work, [f"{work.folder}/{current}"])
 
 
-def _journal_path(work: Work) -> str:
+def _journal_path(work: FileOperations) -> str:
     name = "journal.b" if work.plan.state.journal_file == "journal.a" else "journal.a"
     return f"{work.folder}/{name}"
 
 
-def _hold(work: Work, journal: Journal) -> None:
+def _hold(work: FileOperations, journal: Journal) -> None:
     """That this run's journal still stands: another run takes it away, or writes over it.
 
     Raises TransportFault RG522.

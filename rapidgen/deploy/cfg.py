@@ -62,7 +62,7 @@ def keyed(texts: Iterable[CfgText]) -> Keyed:
     }
 
 
-def may_be_refused(text: CfgText) -> bool:
+def is_unconfirmed(text: CfgText) -> bool:
     """Whether it is a file of instances that no controller has answered: all of it is optional."""
     return text.path.casefold().endswith("_open.cfg")
 
@@ -91,7 +91,7 @@ def compare(
         if old is not None:
             same = _equal(instance_from(old), instance)
             found.append(_change(key, instance, "same" if same else "restore"))
-        elif stays(key, instance, before, uninstall=not wanted):
+        elif is_controllers_own(key, instance, before, uninstall=not wanted):
             words = [a for a in instance.attributes if a.name.casefold() not in _THEIRS]
             found.append(_change(key, instance, "leave", attributes_text(words)))
         else:
@@ -135,7 +135,7 @@ def merged(
                 old = before.get(name_of(key))
                 if old is not None:
                     kept.append(instance_from(old))
-                elif stays(key, instance, before, uninstall=not wanted):
+                elif is_controllers_own(key, instance, before, uninstall=not wanted):
                     kept.append(instance)
             else:
                 kept.append(instance)
@@ -151,7 +151,9 @@ def merged(
     return replace(present, sections=tuple(s for s in sections if s.instances))
 
 
-def stays(key: Key, instance: Instance, before: Mapping[str, Json], *, uninstall: bool) -> bool:
+def is_controllers_own(
+    key: Key, instance: Instance, before: Mapping[str, Json], *, uninstall: bool
+) -> bool:
     """Whether it is the controller's own and nothing says that a deployment brought it."""
     return is_delivered(key[1], instance) and not (uninstall and name_of(key) in before)
 

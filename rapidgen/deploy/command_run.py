@@ -12,13 +12,13 @@ from rapidgen._reading import read_foreign
 from rapidgen.config import from_manifest
 from rapidgen.deploy.apply import apply, conflicts_of, moved_on
 from rapidgen.deploy.driver_set import DriverSet, digest, from_files, from_folder
-from rapidgen.deploy.fleet import GivingUp, TargetOutcome, Word, connected, on_all
-from rapidgen.deploy.online.apply import LiveOptions, another
-from rapidgen.deploy.online.verify import Hello, ReadBack
+from rapidgen.deploy.fleet import Interruption, TargetOutcome, Word, connected, on_all
+from rapidgen.deploy.online.apply import OnlineOptions, another
+from rapidgen.deploy.online.verify import Hello, PostRestartCheck
 from rapidgen.deploy.plan import Plan, Verb, plan_json
 from rapidgen.deploy.planner import find_layout, make_plan
 from rapidgen.deploy.retention import backup_set
-from rapidgen.deploy.state_folder import Past, read_state
+from rapidgen.deploy.state_folder import StoredSet, read_state
 from rapidgen.deploy.syspar import loaded_cfg
 from rapidgen.deploy.target import Access
 from rapidgen.deploy.transports.registry import Target
@@ -52,7 +52,7 @@ class FleetJob:
     """s for what only people do at a controller."""
     hello: Hello | None = None
     """Which build serves a state port; looked at after a restart."""
-    giving_up: GivingUp = field(default_factory=GivingUp)
+    giving_up: Interruption = field(default_factory=Interruption)
     """Ctrl-C while plans are carried out."""
 
     def loaded(self) -> tuple[CfgText, ...]:
@@ -69,7 +69,7 @@ class FleetJob:
         return loaded_cfg(self.backup)
 
 
-def wanted_set(config: str, overrides: Sequence[str] = ()) -> DriverSet:
+def desired_set(config: str, overrides: Sequence[str] = ()) -> DriverSet:
     """The driver of a configuration or shipped name (built here), or of a generated folder."""
     if (Path(config) / "manifest.json").is_file():
         return from_folder(Path(config))
@@ -143,7 +143,7 @@ def apply_all(job: FleetJob, plans: Sequence[Plan], say: Say) -> list[TargetOutc
                 transport,
                 plan,
                 overwrite=job.overwrite,
-                live=LiveOptions(job.restart, job.wait, ReadBack(job.hello, target.host)),
+                live=OnlineOptions(job.restart, job.wait, PostRestartCheck(job.hello, target.host)),
                 say=lambda line: say(prefix + line),
                 given_up=lambda: bool(giving_up),
             )
@@ -189,7 +189,7 @@ def confirm(question: str, *, yes: bool, ask: Callable[[str], bool]) -> None:
         raise refused("RG533", "not confirmed: nothing was changed", "run it again to be asked")
 
 
-def history(target: Target, access: Access, name: str) -> tuple[Past, ...]:
+def history(target: Target, access: Access, name: str) -> tuple[StoredSet, ...]:
     """Backups on a controller, the oldest first. Raises DiagnosticError RG524, RG529, RG531."""
     with connected(target, access) as transport:
         plan = make_plan(transport, None, verb="rollback")

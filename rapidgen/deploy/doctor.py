@@ -9,9 +9,9 @@ from typing import Literal
 
 from rapidgen._json import members, whole
 from rapidgen.client.core.motion import fix_of
-from rapidgen.deploy.cfg import keyed, may_be_refused, name_of
+from rapidgen.deploy.cfg import is_unconfirmed, keyed, name_of
 from rapidgen.deploy.driver_set import DriverSet
-from rapidgen.deploy.online.plan import LivePlan
+from rapidgen.deploy.online.plan import OnlinePlan
 from rapidgen.deploy.other_driver import MODULE
 from rapidgen.deploy.plan import Plan
 from rapidgen.deploy.planner import make_plan
@@ -47,7 +47,7 @@ class Check:
     mend: str = ""
 
 
-def examine(
+def run_checks(
     target: Target,
     access: Access,
     wanted: DriverSet,
@@ -209,7 +209,7 @@ def _contents(
     yield _space(transport, wanted)
 
 
-def _live(plan: Plan, live: LivePlan, generation: Generation) -> Iterator[Check]:
+def _live(plan: Plan, live: OnlinePlan, generation: Generation) -> Iterator[Check]:
     """What only web services tell."""
     yield Check("controller", "ok", f"{live.shown}, id {live.id}")
     if live.mode != "AUTO":
@@ -319,7 +319,7 @@ def _configuration(plan: Plan, wanted: DriverSet) -> Iterator[Check]:
         if change.action == "clash":
             mend = "rename the signal on the controller"
             yield Check("signals", "fail", f"{change.key} is {change.note}", mend)
-    optional = {name_of(k) for t in wanted.cfg if may_be_refused(t) for k in keyed([t])}
+    optional = {name_of(k) for t in wanted.cfg if is_unconfirmed(t) for k in keyed([t])}
     away = [
         c
         for c in plan.cfg

@@ -18,7 +18,7 @@ Say = Callable[[str], None]
 
 
 @dataclass(frozen=True, slots=True)
-class Work:
+class FileOperations:
     """What every part of one run needs to know."""
 
     transport: Transport
@@ -40,7 +40,7 @@ class Work:
         return self.home + STATE
 
 
-def write(work: Work, path: str, data: bytes) -> None:
+def write(work: FileOperations, path: str, data: bytes) -> None:
     """Write a file and read it back; once more when it differs.
 
     Raises TransportFault RG526 when it differs again.
@@ -57,7 +57,7 @@ def write(work: Work, path: str, data: bytes) -> None:
     raise differs(path)
 
 
-def swap(work: Work, where: str, suffix: str, data: bytes, *, exists: bool) -> None:
+def swap(work: FileOperations, where: str, suffix: str, data: bytes, *, exists: bool) -> None:
     """Put a staged file in place by the smallest step that there is."""
     if work.mode == "none":
         write(work, where, data)
@@ -68,7 +68,7 @@ def swap(work: Work, where: str, suffix: str, data: bytes, *, exists: bool) -> N
     _LOG.info("%s: switched %s", work.plan.target, where)
 
 
-def delete(work: Work, path: str) -> None:
+def delete(work: FileOperations, path: str) -> None:
     """Delete a file that may be gone already."""
     try:
         work.transport.delete(path)
@@ -78,7 +78,7 @@ def delete(work: Work, path: str) -> None:
             raise
 
 
-def delete_all(work: Work, paths: Iterable[str]) -> None:
+def delete_all(work: FileOperations, paths: Iterable[str]) -> None:
     """Delete those of the files that are there: one listing a folder."""
     folders: dict[str, list[str]] = {}
     for path in paths:
@@ -90,7 +90,7 @@ def delete_all(work: Work, paths: Iterable[str]) -> None:
                 delete(work, path)
 
 
-def delete_folder(work: Work, folder: str) -> None:
+def delete_folder(work: FileOperations, folder: str) -> None:
     """Delete a folder if it is there and empty; one that refuses stays."""
     try:
         if not work.transport.entries(folder):
@@ -145,7 +145,7 @@ def _forget(transport: Transport, folder: str, members: tuple[str, ...]) -> None
         return
 
 
-def go_on(work: Work) -> None:
+def check_not_interrupted(work: FileOperations) -> None:
     """Raises TransportFault RG545 when somebody has given up."""
     if work.given_up():
         raise TransportFault(

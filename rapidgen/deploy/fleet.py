@@ -48,7 +48,7 @@ def parse_targets(urls: Iterable[str]) -> tuple[Target, ...]:
     return tuple(found)
 
 
-class GivingUp:
+class Interruption:
     """Ctrl-C while work is under way: no other is begun, and `say` hears of it, each time.
 
     `begin` is for a thread or an exception, not for a signal's handler: it takes a lock.
@@ -72,7 +72,7 @@ def on_all(
     work: Callable[[Target], T],
     *,
     parallel: int,
-    giving_up: GivingUp | None = None,
+    giving_up: Interruption | None = None,
 ) -> list[T | DiagnosticError | None]:
     """`work` on each target, `parallel` at a time; None for those that were not begun.
 
@@ -80,7 +80,7 @@ def on_all(
     somebody is `giving_up`, and with KeyboardInterrupt, which is raised then.
     """
     stop = threading.Event()
-    given_up = GivingUp() if giving_up is None else giving_up
+    given_up = Interruption() if giving_up is None else giving_up
 
     def guarded(target: Target) -> T | DiagnosticError | None:
         if stop.is_set() or given_up:

@@ -4,11 +4,11 @@ import json
 from dataclasses import replace
 
 from rapidgen.deploy.driver_set import STATE, DriverSet, digest
-from rapidgen.deploy.state_folder import DAMAGE, FileRecord, Manifest, Past, manifest_from
+from rapidgen.deploy.state_folder import DAMAGE, FileRecord, Manifest, StoredSet, manifest_from
 from rapidgen.deploy.transports.transport import Transport, TransportFault, read_or_none
 
 
-def mended(transport: Transport, home: str, wanted: DriverSet) -> Manifest:
+def recovered_manifest(transport: Transport, home: str, wanted: DriverSet) -> Manifest:
     """A manifest for what lies there: the newest whole backup's, with the files as they are now.
 
     What lies at the places of the wanted set is taken for ours: the next backup keeps all of it.
@@ -24,7 +24,9 @@ def mended(transport: Transport, home: str, wanted: DriverSet) -> Manifest:
         data = read_or_none(transport, home + path)
         if data is not None:
             records.append(replace(record, sha256=digest(data), size=len(data), stored=""))
-    history = tuple(Past(n, backups[n].time, backups[n].name, backups[n].build_id) for n in numbers)
+    history = tuple(
+        StoredSet(n, backups[n].time, backups[n].name, backups[n].build_id) for n in numbers
+    )
     if known is not None:
         return replace(known, id=numbers[-1], files=tuple(records), history=history)
     name, ware = wanted.name, wanted.robotware

@@ -9,8 +9,8 @@ are loaded at a restart when the file is newer ([mem]). Nothing here restarts an
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from rapidgen.deploy.cfg import CfgChange, is_delivered, may_be_refused, shown_key
-from rapidgen.deploy.other_driver import Neighbour
+from rapidgen.deploy.cfg import CfgChange, is_delivered, is_unconfirmed, shown_key
+from rapidgen.deploy.other_driver import OtherDriver
 from rapidgen.system import CfgText
 
 _TOPICS = {
@@ -92,7 +92,7 @@ def _files(names: Sequence[str]) -> str:
     return names[0] if len(names) == 1 else f"{len(names)} files"
 
 
-def steps_beside(neighbour: Neighbour) -> tuple[ManualStep, ...]:
+def other_driver_steps(neighbour: OtherDriver) -> tuple[ManualStep, ...]:
     """How another driver goes before ours comes."""
     steps = [
         ManualStep("pendant", "back the controller up: that is the way back to the other driver")
@@ -175,7 +175,7 @@ def _load(cfg: Sequence[CfgChange], wanted: Sequence[CfgText]) -> list[ManualSte
         theirs = [c.key.partition(" ")[2] for c in mine if c.action == "use"]
         if theirs:
             what += f"; in a copy without {', '.join(theirs)}: somebody else's, used as they are"
-        if may_be_refused(text):
+        if is_unconfirmed(text):
             what += "; it may be refused: leave it out, the driver serves and stops without it"
         steps.append(ManualStep("pendant", what))
     return steps

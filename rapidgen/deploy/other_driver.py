@@ -24,7 +24,7 @@ _ENDINGS = ("mod", "sys", "modx", "sysx", "prg")
 
 
 @dataclass(frozen=True, slots=True)
-class Loaded:
+class ForeignInstance:
     """One instance of the other driver."""
 
     domain: str
@@ -40,10 +40,10 @@ class Loaded:
 
 
 @dataclass(frozen=True, slots=True)
-class Neighbour:
+class OtherDriver:
     """Another driver. Without `instances` only its files are seen: what is loaded is not."""
 
-    instances: tuple[Loaded, ...]
+    instances: tuple[ForeignInstance, ...]
     files: tuple[str, ...]
     """Paths in HOME."""
 
@@ -63,7 +63,7 @@ class Neighbour:
 
 
 @dataclass(frozen=True, slots=True)
-class Beside:
+class OwnContents:
     """What is ours: module names with their tasks, cfg instances, and paths in HOME."""
 
     modules: dict[str, frozenset[str]]
@@ -74,16 +74,16 @@ class Beside:
     module of its own is somebody else's."""
 
 
-def find_neighbour(
-    transport: Transport, home: str, present: Sequence[CfgText], mine: Beside
-) -> Neighbour | None:
+def find_other_driver(
+    transport: Transport, home: str, present: Sequence[CfgText], mine: OwnContents
+) -> OtherDriver | None:
     """The other driver, if there is one. `present` is empty where loaded cfg is not seen.
 
     Raises TransportFault.
     """
     if not present:
         lying = _files(transport, home, mine)
-        return Neighbour((), lying) if lying else None
+        return OtherDriver((), lying) if lying else None
     there = {k: i for k, i in keyed(present).items() if name_of(k) not in mine.instances}
     rows = [i for k, i in there.items() if k[1] == "CAB_TASK_MODULES"]
     sources = {i.text("File"): _source(transport, home, i.text("File")) for i in rows}
@@ -97,7 +97,7 @@ def find_neighbour(
         for name in _PROC.findall(sources[row.text("File")] or b"")
     }
     instances = [
-        Loaded(domain, section, instance)
+        ForeignInstance(domain, section, instance)
         for (domain, section, _), instance in there.items()
         if (section == "CAB_TASK_MODULES" and instance in out)
         or (section == "CAB_TASKS" and instance.text("Name").casefold() in tasks)
@@ -110,7 +110,7 @@ def find_neighbour(
         )
     ]
     files = [_path(row.text("File")) for row in out if sources[row.text("File")] is not None]
-    return Neighbour(tuple(instances), tuple(dict.fromkeys(files)))
+    return OtherDriver(tuple(instances), tuple(dict.fromkeys(files)))
 
 
 def in_memory(transport: Transport, modules: dict[str, frozenset[str]]) -> tuple[str, ...]:
@@ -138,7 +138,7 @@ def _folders(transport: Transport, place: str, beginning: str) -> list[str]:
     ]
 
 
-def _is_other(row: Instance, source: bytes | None, mine: Beside) -> bool:
+def _is_other(row: Instance, source: bytes | None, mine: OwnContents) -> bool:
     """Whether a row of CAB_TASK_MODULES loads abb_driver, a name of ours into a task of ours, or
     anything into a task that has only its name from us."""
     found = MODULE.search(source or b"")
@@ -164,7 +164,7 @@ def _tasks(there: Keyed, rows: list[Instance], out: list[Instance]) -> frozenset
     return frozenset(gone - motion)
 
 
-def _files(transport: Transport, home: str, mine: Beside) -> tuple[str, ...]:
+def _files(transport: Transport, home: str, mine: OwnContents) -> tuple[str, ...]:
     """Modules in HOME and its folders that are not ours and have a name of ours or abb_driver's.
 
     Its page says HOME:/ROS; nothing keeps them from lying elsewhere.

@@ -12,8 +12,8 @@ from rapidgen._json import Json, Members
 from rapidgen.deploy.cfg import CfgChange
 from rapidgen.deploy.driver_set import DriverSet, digest
 from rapidgen.deploy.manual_steps import ManualStep
-from rapidgen.deploy.online.plan import LivePlan
-from rapidgen.deploy.other_driver import Neighbour
+from rapidgen.deploy.online.plan import OnlinePlan
+from rapidgen.deploy.other_driver import OtherDriver
 from rapidgen.deploy.state_folder import FileRecord, Manifest, StateFolder
 from rapidgen.system import CfgText
 
@@ -108,7 +108,7 @@ class Plan:
     """Loaded cfg: SYSPAR, or that of a backup; empty where it is not seen."""
     cfg_ours: frozenset[str] = field(default=frozenset(), repr=False)
     """cfg instances that earlier deployments brought."""
-    neighbour: Neighbour | None = None
+    neighbour: OtherDriver | None = None
     """Another driver that has to go first."""
     in_memory: tuple[str, ...] = ()
     """A backup's programs with names of ours: they would be restored in the place of ours."""
@@ -116,7 +116,7 @@ class Plan:
     """Why the manifest on the controller cannot be used, if so: only `overwrite` replaces it."""
     copies: int = 0
     """Number of the next copy of a stranger's file."""
-    live: LivePlan | None = None
+    live: OnlinePlan | None = None
     """What is done besides files; None where files are all that is reached."""
 
     @property

@@ -6,14 +6,20 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from rapidgen._json import Members
-from rapidgen.deploy.cfg import compare, keyed, may_be_refused, name_of
+from rapidgen.deploy.cfg import compare, is_unconfirmed, keyed, name_of
 from rapidgen.deploy.driver_set import FENCE, NEW, DriverSet, digest
-from rapidgen.deploy.manifest_recovery import copies, mended
-from rapidgen.deploy.manual_steps import CFG_FIRST, steps_beside, steps_of
-from rapidgen.deploy.online.plan import LivePlan, find_clashes, live_steps, make_live_plan
+from rapidgen.deploy.manifest_recovery import copies, recovered_manifest
+from rapidgen.deploy.manual_steps import CFG_FIRST, other_driver_steps, steps_of
+from rapidgen.deploy.online.plan import OnlinePlan, find_clashes, live_steps, make_live_plan
 from rapidgen.deploy.online.program_memory import saved
-from rapidgen.deploy.online.snapshot import LiveView, build_symbols, look
-from rapidgen.deploy.other_driver import MODULE, Beside, Neighbour, find_neighbour, in_memory
+from rapidgen.deploy.online.snapshot import ControllerSnapshot, build_symbols, look
+from rapidgen.deploy.other_driver import (
+    MODULE,
+    OtherDriver,
+    OwnContents,
+    find_other_driver,
+    in_memory,
+)
 from rapidgen.deploy.plan import (
     DAMAGED,
     Action,
@@ -60,7 +66,7 @@ def make_plan(
         damaged = state.damaged
         if wanted is None or state.later:
             raise refused("RG531", damaged, "" if state.later else DAMAGED)
-        state = replace(state, manifest=mended(transport, layout.home, wanted))
+        state = replace(state, manifest=recovered_manifest(transport, layout.home, wanted))
     base = _base(transport, layout.home, state)
     had = base.had
     nothing = wanted is None and had is None and not base.interrupted
@@ -97,11 +103,11 @@ def make_plan(
     seen = bool(syspar) and transport.reach.writes_cfg
     if seen:
         # A system that starts from these files has nobody who could leave a row out.
-        wanted_cfg = tuple(text for text in wanted_cfg if not may_be_refused(text))
+        wanted_cfg = tuple(text for text in wanted_cfg if not is_unconfirmed(text))
     present = texts if texts or view else old_cfg
     ours = frozenset([*map(name_of, keyed(old_cfg)), *base.cfg_before])
     cfg = compare(keyed(wanted_cfg), keyed(present), ours, base.cfg_before)
-    neighbour: Neighbour | None = None
+    neighbour: OtherDriver | None = None
     restored: tuple[str, ...] = ()
     if wanted is not None and verb == "deploy":
         neighbour = _neighbour(transport, layout, texts, wanted, ours, frozenset(base.known))
@@ -155,7 +161,7 @@ def make_plan(
             check_complete(wanted, cfg)
         steps = (*entry_steps(wanted, texts, transport.shown), *steps)
     if neighbour is not None:
-        steps = steps_beside(neighbour)
+        steps = other_driver_steps(neighbour)
     elif wanted is None and not seen and live is None and any(c.action == "remove" for c in cfg):
         steps = (CFG_FIRST, *steps)
     unseen = list(transport.reach.unseen)
@@ -346,7 +352,7 @@ def _file_changes(
     return changes
 
 
-def _live_print(live: LivePlan | None) -> list[Members]:
+def _live_print(live: OnlinePlan | None) -> list[Members]:
     return [live.fingerprint] if live is not None else []
 
 
@@ -355,7 +361,7 @@ def _tasks(wanted: DriverSet | None, old: Mapping[str, tuple[str, ...]]) -> list
     return list(dict.fromkeys([*names, *(task for tasks in old.values() for task in tasks)]))
 
 
-def _check_release(view: LiveView, wanted: DriverSet | None, target: str) -> None:
+def _check_release(view: ControllerSnapshot, wanted: DriverSet | None, target: str) -> None:
     """RG525; what is built for RobotWare 7 is for 8, too."""
     major = view.robotware.partition(".")[0]
     if wanted is None or not major.isdecimal():
@@ -371,7 +377,7 @@ def _neighbour(
     wanted: DriverSet,
     ours: frozenset[str],
     known: frozenset[str],
-) -> Neighbour | None:
+) -> OtherDriver | None:
     modules = _names(wanted)
     instances = ours | frozenset(map(name_of, keyed(wanted.cfg)))
     paths = known | {file.path for file in wanted.files}
@@ -380,7 +386,9 @@ def _neighbour(
         for key, instance in keyed(wanted.cfg).items()
         if key[1] == "CAB_TASKS" and not instance.flag("MotionTask") and name_of(key) not in ours
     )
-    return find_neighbour(transport, layout.home, texts, Beside(modules, instances, paths, tasks))
+    return find_other_driver(
+        transport, layout.home, texts, OwnContents(modules, instances, paths, tasks)
+    )
 
 
 def _names(wanted: DriverSet | None) -> dict[str, frozenset[str]]:

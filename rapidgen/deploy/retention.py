@@ -7,13 +7,13 @@ from rapidgen import __version__
 from rapidgen._json import Members
 from rapidgen.deploy.cfg import keyed, remember
 from rapidgen.deploy.driver_set import DriverSet, SetFile, digest
-from rapidgen.deploy.file_operations import Work, delete, delete_folder, names, write
+from rapidgen.deploy.file_operations import FileOperations, delete, delete_folder, names, write
 from rapidgen.deploy.plan import Plan
 from rapidgen.deploy.state_folder import (
     KEPT,
     FileRecord,
     Manifest,
-    Past,
+    StoredSet,
     encode,
     manifest_json,
     read_backup,
@@ -21,12 +21,12 @@ from rapidgen.deploy.state_folder import (
 from rapidgen.deploy.transports.transport import Transport, parent, read_or_none
 
 
-def back_up(work: Work, number: int) -> None:
+def back_up(work: FileOperations, number: int) -> None:
     """Strangers' files for `uninstall`, and the whole set as it lies there, edits included."""
     plan, had = work.plan, work.plan.had
     if plan.wanted is None:
         return
-    for record, data in strangers(plan):
+    for record, data in foreign_files(plan):
         work.say(f"keeping a copy of {record.path}")
         write(work, f"{work.folder}/backup/{record.stored}", data)
     if had is None:
@@ -48,7 +48,7 @@ def back_up(work: Work, number: int) -> None:
     write(work, f"{folder}/backup.json", encode(manifest_json(kept)))
 
 
-def strangers(plan: Plan) -> list[tuple[FileRecord, bytes]]:
+def foreign_files(plan: Plan) -> list[tuple[FileRecord, bytes]]:
     """Files that are not ours and are about to be replaced, or taken over because they are equal,
     and cfg files before our first instance."""
     count = plan.copies
@@ -76,8 +76,8 @@ def new_manifest(plan: Plan, wanted: DriverSet, number: int) -> Manifest:
     history = had.history if had else ()
     undone = plan.repair and had is not None and had.files == files
     if had is not None and not undone:
-        history = (*history, Past(number, had.time, had.name, had.build_id))[-KEPT:]
-    origin = {**plan.origin, **{record.path: record for record, _ in strangers(plan)}}
+        history = (*history, StoredSet(number, had.time, had.name, had.build_id))[-KEPT:]
+    origin = {**plan.origin, **{record.path: record for record, _ in foreign_files(plan)}}
     before: Members = dict(plan.cfg_before)
     if plan.cfg_present:
         before = remember(keyed(wanted.cfg), keyed(plan.cfg_present), before, plan.cfg_ours)
@@ -110,7 +110,7 @@ def backup_set(transport: Transport, home: str, number: int) -> DriverSet:
     )
 
 
-def delete_backups(work: Work, *, keep: frozenset[str]) -> None:
+def delete_backups(work: FileOperations, *, keep: frozenset[str]) -> None:
     """All backups but those named."""
     folder = f"{work.folder}/backup"
     for name in sorted(names(work.transport, folder) - keep):
@@ -119,7 +119,7 @@ def delete_backups(work: Work, *, keep: frozenset[str]) -> None:
         delete_folder(work, folder)
 
 
-def delete_backup(work: Work, name: str) -> None:
+def delete_backup(work: FileOperations, name: str) -> None:
     """One backup; `backup.json` first, without which the rest counts as none."""
     folder = f"{work.folder}/backup/{name}"
     for member in sorted(names(work.transport, folder), key=lambda n: n != "backup.json"):
@@ -127,7 +127,7 @@ def delete_backup(work: Work, name: str) -> None:
     delete_folder(work, folder)
 
 
-def delete_empty_folders(work: Work) -> None:
+def delete_empty_folders(work: FileOperations) -> None:
     """Folders of removed files that are empty now, the deepest first; never HOME or SYSPAR.
 
     A run that was cut may have removed the files already: the sets before and after it know them.

@@ -52,7 +52,7 @@ class FileRecord:
 
 
 @dataclass(frozen=True, slots=True)
-class Past:
+class StoredSet:
     """A set that a backup keeps: `id` is the deployment that replaced it."""
 
     id: int
@@ -73,7 +73,7 @@ class Manifest:
     files: tuple[FileRecord, ...]
     origin: tuple[FileRecord, ...] = ()
     """Strangers' files that were overwritten: kept for `uninstall`."""
-    history: tuple[Past, ...] = ()
+    history: tuple[StoredSet, ...] = ()
     cfg_before: Mapping[str, Json] = field(default_factory=dict)
     """cfg instances of SYSPAR before the first deployment: key to attributes, or null."""
     generated: Mapping[str, Json] = field(default_factory=dict)
@@ -189,7 +189,7 @@ def manifest_from(read: Json) -> Manifest:
         tuple(_record(r) for r in items(data["files"])),
         tuple(_record(r) for r in items(data["origin"])),
         tuple(
-            Past(whole(p["id"]), _text(p["time"]), _text(p["name"]), _text(p["build_id"]))
+            StoredSet(whole(p["id"]), _text(p["time"]), _text(p["name"]), _text(p["build_id"]))
             for p in map(members, items(data["history"]))
         ),
         _instances(data["cfg_before"]),

@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from rapidgen.config.model import RobotConfig
     from rapidgen.generate.existing_controller import Cell
     from rapidgen.system import System
-    from rapidgen.system.build_loading import Under
+    from rapidgen.system.build_loading import BaseController
 
 __all__ = ["Change", "Output", "OutputFile", "build", "compare", "make_system", "write"]
 
@@ -26,7 +26,7 @@ def make_system(
     config: "RobotConfig",
     output: Output,
     *,
-    under: "Under | None" = None,
+    under: "BaseController | None" = None,
     without: "Collection[str]" = (),
     open_words: bool = True,
 ) -> "System":

@@ -19,7 +19,7 @@ from rapidgen.generate.context import group_context, used_constants
 from rapidgen.generate.existing_controller import (
     Cell,
     check_data,
-    in_the_way,
+    check_link_conflicts,
     missing,
     used_signals,
 )
@@ -29,9 +29,9 @@ from rapidgen.generate.numbers import literal
 from rapidgen.generate.output import Output, OutputFile, manifest_file
 from rapidgen.generate.parameters import OPEN_FILES, cfg_files
 from rapidgen.generate.readme import readme_context
-from rapidgen.generate.render import Rendered, Renderer
+from rapidgen.generate.render import RenderedText, Renderer
 from rapidgen.system import ModuleFile, System, TaskSpec, expand_lines, write_cfg
-from rapidgen.system.build_loading import Under, additions, delivered, of_backup, onto
+from rapidgen.system.build_loading import BaseController, additions, delivered, of_backup, onto
 from rapidgen.system.cfg_reader import ModuleEntry
 
 # In the place of the build's id until all is there that it depends on; as long as one.
@@ -72,7 +72,9 @@ def build(config: RobotConfig, cell: Cell | None = None) -> Output:
     files.append(manifest_file(files, _head(config, build_id, files, used)))
     output = Output(config.name, build_id, tuple(files))
     if cell is not None:
-        in_the_way(make_system(config, output, under=of_backup(cell.cfg, cell.system)), output)
+        check_link_conflicts(
+            make_system(config, output, under=of_backup(cell.cfg, cell.system)), output
+        )
     return output
 
 
@@ -80,7 +82,7 @@ def make_system(
     config: RobotConfig,
     output: Output,
     *,
-    under: Under | None = None,
+    under: BaseController | None = None,
     without: Collection[str] = (),
     open_words: bool = True,
 ) -> System:
@@ -124,7 +126,7 @@ def _modules(config: RobotConfig, group: GroupConfig, renderer: Renderer) -> lis
     context = group_context(config, group, _UNKNOWN)
     names = layout.modules(config, group)
 
-    def render(module: str, **more: object) -> Rendered:
+    def render(module: str, **more: object) -> RenderedText:
         kind = "sys" if module in layout.SYSTEM_MODULES else "mod"
         return renderer.render(f"{module}.{kind}.j2", **context, **more)
 

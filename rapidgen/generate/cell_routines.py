@@ -6,7 +6,7 @@ routines: in a backup it is seen before.
 
 from collections.abc import Iterator
 
-from rapidgen.config.model import GroupConfig, OwnDatum, OwnParameter, OwnRoutine, RobotConfig
+from rapidgen.config.model import GroupConfig, RobotConfig, RoutineParameter, UserDatum, UserRoutine
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, Span, error, suggest
 from rapidgen.rapid import parse
 from rapidgen.rapid.syntax.nodes import DataDeclaration, Module, Parameter, RoutineDeclaration
@@ -42,7 +42,7 @@ def _faults(group: GroupConfig, cell: System) -> Iterator[Diagnostic]:
             yield from _of_datum(datum, module)
 
 
-def _of_routine(routine: OwnRoutine, module: Module) -> Iterator[Diagnostic]:
+def _of_routine(routine: UserRoutine, module: Module) -> Iterator[Diagnostic]:
     wanted = routine.call.partition(":")[2]
     names = [declared.name for declared in module.routines]
     found = [r for r in module.routines if r.name.casefold() == wanted.casefold()]
@@ -68,13 +68,13 @@ def _of_routine(routine: OwnRoutine, module: Module) -> Iterator[Diagnostic]:
         )
 
 
-def _takes(own: OwnParameter, theirs: Parameter) -> bool:
+def _takes(own: RoutineParameter, theirs: Parameter) -> bool:
     """Whether a parameter takes what the driver gives, a variable; a result is none of IN."""
     modes = ("INOUT", "VAR") if own.inout else ("", "INOUT", "VAR")
     return (theirs.type.casefold(), theirs.dimensions) == (own.type, 0) and theirs.mode in modes
 
 
-def _shown(own: OwnParameter) -> str:
+def _shown(own: RoutineParameter) -> str:
     return f"{'INOUT ' * own.inout}{own.type} {own.name}"
 
 
@@ -87,7 +87,7 @@ def _declared(routine: RoutineDeclaration) -> str:
     return " ".join(filter(None, (routine.kind, routine.type, f"{routine.name}({parameters})")))
 
 
-def _of_datum(datum: OwnDatum, module: Module) -> Iterator[Diagnostic]:
+def _of_datum(datum: UserDatum, module: Module) -> Iterator[Diagnostic]:
     name = datum.name.partition(":")[2]
     found = [
         d

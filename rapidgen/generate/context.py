@@ -12,11 +12,11 @@ from rapidgen.config.model import (
     Joint,
     KeptAxis,
     Load,
-    OwnRoutine,
     Payload,
     Placement,
     RobotConfig,
     Tool,
+    UserRoutine,
     WorkObject,
 )
 from rapidgen.generate import layout
@@ -255,7 +255,7 @@ def _routines(group: GroupConfig) -> list[dict[str, object]]:
     return [_routine(routine, n) for n, routine in enumerate(group.routines, 1)]
 
 
-def _routine(routine: OwnRoutine, n: int) -> dict[str, object]:
+def _routine(routine: UserRoutine, n: int) -> dict[str, object]:
     module, _, procedure = routine.call.rpartition(":")
     result = len(routine.parameters) + 1
     answers = [k for k, p in enumerate(routine.parameters, 1) if p.inout and p.type == "bool"] + [
@@ -283,7 +283,7 @@ def _routine(routine: OwnRoutine, n: int) -> dict[str, object]:
     }
 
 
-def _place(routine: OwnRoutine, k: int) -> int:
+def _place(routine: UserRoutine, k: int) -> int:
     """Where the value of a parameter is kept: a target among those of its kind."""
     kind = routine.parameters[k - 1].type
     if kind in ("robtarget", "jointtarget"):

@@ -308,7 +308,7 @@ def _values(instance: Instance) -> dict[str, tuple[str, ...]]:
 # -- the modules ----------------------------------------------------------------------------------
 
 
-def in_the_way(system: System, output: Output) -> None:
+def check_link_conflicts(system: System, output: Output) -> None:
     """Refuse a driver whose modules do not link beside the cell's program.
 
     A global name of the program hides a predefined one, or clashes with a global one of ours.

@@ -20,7 +20,7 @@ _TAG = re.compile(r"\{%.*?%\}|\{#.*?#\}|\{\{.*?\}\}", re.S)
 
 
 @dataclass(frozen=True, slots=True)
-class Rendered:
+class RenderedText:
     """Text with LF line ends; `lines` has (line, template, template line) where it changes."""
 
     text: str
@@ -45,7 +45,7 @@ class Renderer:
         """Make `function` known to templates."""
         self._environment.filters[name] = function
 
-    def render(self, template: str, **context: object) -> Rendered:
+    def render(self, template: str, **context: object) -> RenderedText:
         """One template as text."""
         return unmarked(self._environment.get_template(template).render(**context))
 
@@ -93,7 +93,7 @@ def marked(source: str, template: str) -> str:
     return "".join(out)
 
 
-def unmarked(text: str) -> Rendered:
+def unmarked(text: str) -> RenderedText:
     """The text without marks, and the map that they gave."""
     lines: list[tuple[int, str, int]] = []
     place: tuple[str, int] | None = None
@@ -109,4 +109,4 @@ def unmarked(text: str) -> Rendered:
         if place is not None:
             place = (place[0], place[1] + 1)
         out.append(_MARK.sub("", line))
-    return Rendered("".join(out), tuple(lines))
+    return RenderedText("".join(out), tuple(lines))

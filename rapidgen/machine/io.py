@@ -101,7 +101,7 @@ class Signal:
 
 
 @dataclass(frozen=True, slots=True)
-class Awaited:
+class SignalCondition:
     """What somebody waits for: a signal that is in this relation to a value."""
 
     signal: Signal
@@ -176,7 +176,7 @@ class IOSystem:
         """Called with (action, argument) when the signal of a system input rises."""
         self.on_end: Callable[[str], None] | None = None
         """Called with the action when it falls."""
-        self.on_awaited: Callable[[Awaited], None] | None = None
+        self.on_awaited: Callable[[SignalCondition], None] | None = None
         """Called with what somebody begins to wait for."""
         self._units = {spec.device.casefold() for spec in system.signals} - {""}
         self.disabled: set[str] = set()
@@ -222,7 +222,7 @@ class IOSystem:
     def __getitem__(self, name: str) -> Signal:
         return self.signals[name.lower()]
 
-    def await_value(self, awaited: Awaited) -> None:
+    def await_value(self, awaited: SignalCondition) -> None:
         """Let whoever drives inputs know what a program is going to wait for."""
         if self.on_awaited is not None and not awaited.holds():
             self.on_awaited(awaited)

@@ -6,7 +6,7 @@ from rapidgen.machine.scheduler import WaitSet
 
 
 @dataclass(slots=True)
-class Meeting:
+class SyncPoint:
     """Tasks that have come to one synchronisation point."""
 
     members: frozenset[str]
@@ -16,7 +16,7 @@ class Meeting:
 
 
 @dataclass(slots=True)
-class Gathering:
+class SyncMoveGroup:
     """Tasks that have come to a move of one \\ID, and how long each of them would take (s)."""
 
     times: dict[str, float] = field(default_factory=dict)
@@ -25,13 +25,13 @@ class Gathering:
     """Known when all have come."""
 
 
-class Meetings:
+class SyncPoints:
     """The synchronisation points of one controller at which somebody waits."""
 
     def __init__(self) -> None:
-        self.points: dict[tuple[object, frozenset[str]], Meeting] = {}
+        self.points: dict[tuple[object, frozenset[str]], SyncPoint] = {}
         """WaitSyncTask and its like: by point and members."""
-        self.moves: dict[tuple[frozenset[str], float], Gathering] = {}
+        self.moves: dict[tuple[frozenset[str], float], SyncMoveGroup] = {}
         """Moves of one \\ID: by partners and \\ID."""
         self.any_task = False
         """Whether tasks that are named and not there are left out (a guessed cell)."""

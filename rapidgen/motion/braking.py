@@ -17,7 +17,7 @@ _STEP = 1e-6
 
 
 @dataclass(frozen=True, slots=True)
-class Coast:
+class BrakingMotion:
     """Axes that slow down each at its own rate. Times are scheduler ns."""
 
     since: int
@@ -45,7 +45,7 @@ class Coast:
 
 def coast(
     now: int, here: Posture, before: Posture, joints: Sequence[Joint], factor: float
-) -> Coast:
+) -> BrakingMotion:
     """From a posture, and the one a moment earlier; `factor` times the axes' acceleration.
 
     An axis that would leave its range stops harder, at the end of it; one that is there stays.
@@ -58,7 +58,7 @@ def coast(
             rate, room = 0.0, 1.0
         rates.append(rate)
         slowing.append(max(joint.acceleration * factor, rate * rate / (2 * room)))
-    return Coast(now, here, tuple(rates), tuple(slowing))
+    return BrakingMotion(now, here, tuple(rates), tuple(slowing))
 
 
 def moment_before(now: int) -> int:

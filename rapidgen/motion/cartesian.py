@@ -10,7 +10,7 @@ from rapidgen.axes.kinematics import ConfigurationCheck, Kinematics, Posture
 from rapidgen.axes.limits import outside
 from rapidgen.axes.path_shapes import LARGEST_ARC, Arc, Line, arc_through
 from rapidgen.axes.reach_errors import unreached
-from rapidgen.motion.fault_reasons import MotionFault, Refusal
+from rapidgen.motion.fault_reasons import FaultReason, MotionFault
 from rapidgen.motion.moves import (
     NO_TURN,
     SHORTEST,
@@ -32,7 +32,7 @@ _JUMP = 0.6
 """rad between the finest nodes that no axis can follow: a singularity."""
 
 
-class CartesianWay:
+class CartesianPath:
     """The way of a CartesianMove over its nominal time."""
 
     __slots__ = (
@@ -158,13 +158,13 @@ class CartesianWay:
                 break
             if count >= _MOST:
                 if step > _JUMP:
-                    raise MotionFault(Refusal.SINGULARITY)
+                    raise MotionFault(FaultReason.SINGULARITY)
                 break
             count = min(_MOST, max(2 * count, min(4 * count, ceil(count * step / _STEP))))
         for node in nodes:
             faults = outside(self._kinematics.group.joints, node)
             if faults:
-                raise MotionFault(Refusal.OUT_OF_RANGE, faults[0])
+                raise MotionFault(FaultReason.OUT_OF_RANGE, faults[0])
         return shares, nodes
 
     def _pose(self, share: float) -> Pose:
@@ -183,7 +183,7 @@ class CartesianWay:
         found = self._kinematics.follow(self.carrier.at(near).flange(pose), near)
         if found is None:
             _, why = unreached(self._kinematics, self.carrier.at(near).flange(pose), near)
-            raise MotionFault(Refusal.OUT_OF_REACH, why)
+            raise MotionFault(FaultReason.OUT_OF_REACH, why)
         return found
 
     def _solve_wrist(self, share: float, near: Posture) -> Posture:
@@ -195,7 +195,7 @@ class CartesianWay:
             values[i] = first[i] + (last[i] - first[i]) * share
         found = put_tcp(self._kinematics, self.carrier, self.shape.position(share), tuple(values))
         if found is None:
-            raise MotionFault(Refusal.OUT_OF_REACH_WITH_WRIST)
+            raise MotionFault(FaultReason.OUT_OF_REACH_WITH_WRIST)
         return found
 
     @property
@@ -250,9 +250,9 @@ def _shape(start: Pose, move: CartesianMove) -> Line | Arc:
         return Line(start, move.target)
     arc = arc_through(start, move.via, move.target, move.circle)
     if arc is None:
-        raise MotionFault(Refusal.NO_CIRCLE)
+        raise MotionFault(FaultReason.NO_CIRCLE)
     if arc.sweep > LARGEST_ARC:
-        raise MotionFault(Refusal.CIRCLE_TOO_LONG)
+        raise MotionFault(FaultReason.CIRCLE_TOO_LONG)
     return arc
 
 

@@ -11,13 +11,13 @@ from itertools import pairwise
 from rapidgen.axes import frames
 from rapidgen.axes.frames import Pose, Quaternion, Vector
 from rapidgen.axes.kinematics import Kinematics, Posture
-from rapidgen.motion.cartesian import CartesianWay, external_places, with_external
-from rapidgen.motion.fault_reasons import MotionFault, Refusal
-from rapidgen.motion.legs import Geometry, JointWay, Leg
+from rapidgen.motion.cartesian import CartesianPath, external_places, with_external
+from rapidgen.motion.fault_reasons import FaultReason, MotionFault
+from rapidgen.motion.legs import Geometry, JointPath, Leg
 from rapidgen.motion.moves import (
     NO_TURN,
     NO_WAY,
-    Carrier,
+    MoveFrames,
     Zone,
     corner_shares,
     extended_share,
@@ -50,12 +50,12 @@ def corner(
     inside, outside = shares[0] * size * way.duration, shares[1] * size * after.duration
     if min(inside, outside) < _SMALLEST:
         return None
-    if isinstance(way, JointWay) and isinstance(after, JointWay):
+    if isinstance(way, JointPath) and isinstance(after, JointPath):
         start, end = before.end - inside, before.end + outside
         rates = (way.rates, inside), (after.rates, outside)
         tcp = max(way.tcp, after.tcp)
         return start, end, joint_corner(start, way.target, *rates, limits, tcp)
-    if isinstance(way, CartesianWay) and isinstance(after, CartesianWay):
+    if isinstance(way, CartesianPath) and isinstance(after, CartesianPath):
         if (way.measure.tcp > NO_WAY) != (after.measure.tcp > NO_WAY):
             return None  # TCP motion next to pure reorientation (S4 overview p.5-17)
         poses = way.joins_poses and after.joins_poses and way.carrier == after.carrier
@@ -121,8 +121,8 @@ def _turn(points: tuple[Quaternion, ...], w: float) -> Quaternion:
 
 def _cartesian(
     before: Leg,
-    way: CartesianWay,
-    after: CartesianWay,
+    way: CartesianPath,
+    after: CartesianPath,
     near: tuple[float, float],
     wide: tuple[float, float],
     limits: AxisLimits,
@@ -145,7 +145,7 @@ def _cartesian(
 
 
 def _position(
-    way: CartesianWay, after: CartesianWay, zone: tuple[float, float]
+    way: CartesianPath, after: CartesianPath, zone: tuple[float, float]
 ) -> Callable[[float], Vector]:
     inside, outside = zone
     w = _parameter(inside, outside)
@@ -169,7 +169,7 @@ def _position(
 
 
 def _orientation(
-    way: CartesianWay, after: CartesianWay, zone: tuple[float, float]
+    way: CartesianPath, after: CartesianPath, zone: tuple[float, float]
 ) -> Callable[[float], Quaternion]:
     constant = way.orientation
     if constant is not None and after.orientation is not None:
@@ -190,7 +190,7 @@ def _orientation(
     return at
 
 
-def _spun(way: CartesianWay, time: float, span: float) -> Quaternion:
+def _spun(way: CartesianPath, time: float, span: float) -> Quaternion:
     """How far the tool would turn in `span` at the rate that it has at `time`."""
     step = 1e-4 * way.duration
     ahead, behind = way.pose(time + step)[1], way.pose(time - step)[1]
@@ -199,7 +199,7 @@ def _spun(way: CartesianWay, time: float, span: float) -> Quaternion:
 
 
 def _external(
-    way: CartesianWay, after: CartesianWay, zone: tuple[float, float]
+    way: CartesianPath, after: CartesianPath, zone: tuple[float, float]
 ) -> Callable[[float], Posture]:
     inside, outside = zone
     w = _parameter(inside, outside)
@@ -218,7 +218,7 @@ class _Tracker:
     def __init__(
         self,
         kinematics: Kinematics,
-        carrier: Carrier,
+        carrier: MoveFrames,
         pose: Callable[[float], Pose],
         external: Callable[[float], Posture] | None,
     ) -> None:
@@ -233,7 +233,7 @@ class _Tracker:
             near = with_external(near, self._external(time), self._places)
         found = self._kinematics.follow(self._carrier.at(near).flange(self._pose(time)), near)
         if found is None:
-            raise MotionFault(Refusal.OUT_OF_REACH_IN_CORNER)
+            raise MotionFault(FaultReason.OUT_OF_REACH_IN_CORNER)
         return found
 
 

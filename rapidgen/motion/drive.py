@@ -7,18 +7,18 @@ from rapidgen.axes.kinematics import Posture
 from rapidgen.config.model import Joint
 from rapidgen.machine.scheduler import S, Scheduler
 from rapidgen.motion import smoothing
-from rapidgen.motion.braking import Coast, coast, moment_before
+from rapidgen.motion.braking import BrakingMotion, coast, moment_before
 from rapidgen.motion.motion import Motion
 from rapidgen.motion.path import Path
 from rapidgen.motion.pieces import Piece
 from rapidgen.motion.settings import MotionSettings
-from rapidgen.motion.speed_profile import Stretch, TimeLaw, brake, plan
+from rapidgen.motion.speed_profile import ProfileSegment, SpeedProfile, brake, plan
 
 MANUAL_REDUCED = 0.25
 """m/s of the TCP in manual mode with reduced speed."""
 _STANDING = 1e-6
 """Path speed that counts as none: times are whole nanoseconds."""
-_NOT_PLANNED: tuple[int, tuple[Piece, ...], TimeLaw | None] = (-1, (), None)
+_NOT_PLANNED: tuple[int, tuple[Piece, ...], SpeedProfile | None] = (-1, (), None)
 
 
 class Drive:
@@ -56,7 +56,7 @@ class Drive:
         """s in which acceleration builds up; may change at a standstill only."""
         self.observers: list[Callable[[Motion], None]] = []
         """Called with every new motion (the recorder)."""
-        self.motion = Motion(scheduler.now, scheduler.now, TimeLaw(0.0), (), start)
+        self.motion = Motion(scheduler.now, scheduler.now, SpeedProfile(0.0), (), start)
         self._history: list[Motion] = []
         self._planned = _NOT_PLANNED
         """The law found last: appending asks for it twice."""
@@ -102,7 +102,7 @@ class Drive:
         """Speeds have changed: what was planned ahead does not hold."""
         self._planned = _NOT_PLANNED
 
-    def law(self, pieces: tuple[Piece, ...]) -> TimeLaw | None:
+    def law(self, pieces: tuple[Piece, ...]) -> SpeedProfile | None:
         """The law over pieces from the present state on; None: it is too fast for them."""
         now = self._scheduler.now
         planned_at, planned, law = self._planned
@@ -126,12 +126,14 @@ class Drive:
 
     def _plan(
         self, pieces: tuple[Piece, ...], place: float, speed: float, wait: float
-    ) -> TimeLaw | None:
+    ) -> SpeedProfile | None:
         limit = min(self.tcp_limit, MANUAL_REDUCED if self.reduced else inf)
         cap = self.override * (self.refresh if self.refreshed else 1.0)
         return plan(self._spans(pieces), place, speed, cap, limit, self.ramp, wait)
 
-    def _spans(self, pieces: tuple[Piece, ...]) -> tuple[Stretch, ...] | list[Stretch]:
+    def _spans(
+        self, pieces: tuple[Piece, ...]
+    ) -> tuple[ProfileSegment, ...] | list[ProfileSegment]:
         if self.ramp <= 0.0 or not pieces:
             return pieces
         return smoothing.widened(pieces, pieces[0].start, self.ramp / 2)
@@ -168,7 +170,7 @@ class Drive:
         law = brake(self._spans(path.pieces), *self.planned(), factor)
         self.run(law, path, stop)
 
-    def run(self, law: TimeLaw, path: Path, stop: Coast | None = None) -> None:
+    def run(self, law: SpeedProfile, path: Path, stop: BrakingMotion | None = None) -> None:
         """A law holds from now on; what was planned until now is still felt."""
         now = self._scheduler.now
         before = self.motion
@@ -178,11 +180,11 @@ class Drive:
 
     def put(
         self,
-        law: TimeLaw,
+        law: SpeedProfile,
         start: int,
         path: Path,
         rest: Posture | None = None,
-        stop: Coast | None = None,
+        stop: BrakingMotion | None = None,
     ) -> None:
         """A law that began at `start` and ends at a place of the path, unless at `rest`."""
         if rest is None:

@@ -21,12 +21,12 @@ from rapidgen.motion.path import Path
 from rapidgen.motion.path_events import PathEvents
 from rapidgen.motion.pieces import AxisLimits
 from rapidgen.motion.planner import Planner
-from rapidgen.motion.speed_profile import TimeLaw
-from rapidgen.motion.timing_monitor import Punctuality
+from rapidgen.motion.speed_profile import SpeedProfile
+from rapidgen.motion.timing_monitor import TimingMonitor
 
 
 @dataclass(frozen=True, slots=True)
-class PutAside:
+class StoredPath:
     """A path that another one interrupts, and how far it has come."""
 
     path: Path
@@ -81,7 +81,7 @@ class PathExecution:
         self.at_rest: Callable[[], None] | None = None
         """Called once when the robot stands."""
         self._events = PathEvents()
-        self._punctuality = Punctuality()
+        self._punctuality = TimingMonitor()
         self._refreshed: Leg | None = None
         """The leg that SpeedRefresh holds for, where it does not last."""
         self._timer: Timer | None = None
@@ -158,7 +158,7 @@ class PathExecution:
         """A path that begins where the robot stands."""
         self.path = path
         self._refreshed = None
-        self.drive.put(TimeLaw(0.0), self._scheduler.now, path)
+        self.drive.put(SpeedProfile(0.0), self._scheduler.now, path)
         self._rearm()
         self.settle()
 
@@ -174,18 +174,18 @@ class PathExecution:
             self.path = Path(motion.rest)
             self.path.left_at(path.target)
             now, rest = self._scheduler.now, motion.rest
-            self.drive.put(TimeLaw(0.0), now, self.path, rest, motion.coast)
+            self.drive.put(SpeedProfile(0.0), now, self.path, rest, motion.coast)
         self._rearm()
         self.finish(lost, cleared=True)
 
-    def put_aside(self) -> PutAside:
+    def put_aside(self) -> StoredPath:
         """The path as it is, for `take_up`; another one is to `begin`."""
         self.path.prune(self.drive.place())
-        aside = PutAside(self.path, self.motion, self._events)
+        aside = StoredPath(self.path, self.motion, self._events)
         self._events = PathEvents()
         return aside
 
-    def take_up(self, aside: PutAside, here: Posture) -> None:
+    def take_up(self, aside: StoredPath, here: Posture) -> None:
         """Drop this path for one that was put aside; the robot stands at `here`."""
         self.finish(list(self.path.legs), cleared=True)
         self.path, self._events = aside.path, aside.events
@@ -196,7 +196,7 @@ class PathExecution:
         place = self.path.regain(here, place, self._planner.limits(self.drive.ramp))
         if not self.path.pieces:
             self.path.target = here
-        self.drive.put(TimeLaw(place), self._scheduler.now, self.path, here)
+        self.drive.put(SpeedProfile(place), self._scheduler.now, self.path, here)
         self._rearm()
 
     def finish(self, legs: list[Leg], *, cleared: bool) -> None:

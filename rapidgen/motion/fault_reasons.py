@@ -3,7 +3,7 @@
 from enum import Enum
 
 
-class Refusal(Enum):
+class FaultReason(Enum):
     """Why a move is refused; behind each stands what `MotionFault.facts` has."""
 
     OUT_OF_REACH = "out of reach"
@@ -32,7 +32,7 @@ class Refusal(Enum):
 class MotionFault(Exception):
     """A move, or another wish, that cannot be carried out. The path is as it was."""
 
-    def __init__(self, refusal: Refusal, *facts: object) -> None:
+    def __init__(self, refusal: FaultReason, *facts: object) -> None:
         super().__init__(": ".join(map(str, (refusal.value, *facts))))
         self.refusal = refusal
         self.facts = facts

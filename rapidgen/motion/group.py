@@ -14,8 +14,8 @@ from rapidgen.config.model import GroupConfig
 from rapidgen.machine.event_log import EventLog
 from rapidgen.machine.io import IOSystem
 from rapidgen.machine.scheduler import Scheduler, WaitSet
-from rapidgen.motion.execution import PathExecution, PutAside
-from rapidgen.motion.fault_reasons import MotionFault, Refusal
+from rapidgen.motion.execution import PathExecution, StoredPath
+from rapidgen.motion.fault_reasons import FaultReason, MotionFault
 from rapidgen.motion.legs import Leg
 from rapidgen.motion.modal import ModalSettings
 from rapidgen.motion.motion import Motion
@@ -28,7 +28,7 @@ _BRAKES = "brakes"
 """The stop that holds while the brakes bring the robot to rest."""
 
 
-class Waiter(Protocol):
+class MotionWaiter(Protocol):
     """What a group needs of a program: RAPID tasks do it, and Python functions in tests."""
 
     def wait_for(
@@ -58,7 +58,7 @@ class MotionGroup:
         self.planner = Planner(config, settings)
         self._frames = {p.unit.lower(): MovingFrame.of(config, p.chain) for p in config.positioners}
         self._io = io
-        self._stored: list[PutAside] = []
+        self._stored: list[StoredPath] = []
         self._concurrent = 0
         self.inactive: set[str] = set()
         """External axes of deactivated units (DeactUnit)."""
@@ -268,7 +268,7 @@ class MotionGroup:
 
     # -- moving -----------------------------------------------------------------------------
 
-    def move(self, waiter: Waiter, move: Move) -> None:
+    def move(self, waiter: MotionWaiter, move: Move) -> None:
         """Put a move on the path and hold the program as its zone asks for.
 
         A stop point lets the program go on when the robot stands there; a fly-by point some
@@ -313,12 +313,12 @@ class MotionGroup:
         rests = from_rest + move.zone.fine
         return way.duration + rests * (0.5 / (way.duration * way.strength) + self._drive.ramp / 2)
 
-    def wait(self, waiter: Waiter, leg: Leg, ready: Callable[[], bool]) -> None:
+    def wait(self, waiter: MotionWaiter, leg: Leg, ready: Callable[[], bool]) -> None:
         """Hold a program until `ready()`, or until the leg is taken off the path."""
         hang = self.settings.cleared_move == "hang"
         waiter.wait_for(lambda: ready() or (leg.cleared and not hang), on=(self.changed,))
 
-    def wait_standing(self, waiter: Waiter) -> None:
+    def wait_standing(self, waiter: MotionWaiter) -> None:
         """Hold a program until the robot stands."""
         self._execution.settle()
         waiter.wait_for(lambda: self.is_settled, on=(self.changed,))
@@ -328,7 +328,7 @@ class MotionGroup:
             self._concurrent += 1
             if self._concurrent > self.settings.conc_limit:
                 self._concurrent = 0
-                raise MotionFault(Refusal.TOO_MANY_CONCURRENT)
+                raise MotionFault(FaultReason.TOO_MANY_CONCURRENT)
         else:
             self._concurrent = 0
         self.planner.check_range(move)
@@ -396,7 +396,7 @@ class MotionGroup:
         """1 on the original path, one more for each StorePath."""
         return 1 + len(self._stored)
 
-    def store_path(self, waiter: Waiter, reason: str) -> None:
+    def store_path(self, waiter: MotionWaiter, reason: str) -> None:
         """Put the path aside and begin an empty one where the robot stands.
 
         Without a stop the move under way first comes to its end; with one the robot stays in
@@ -416,7 +416,7 @@ class MotionGroup:
         NOTHING_STORED: there is none.
         """
         if not self._stored:
-            raise MotionFault(Refusal.NOTHING_STORED)
+            raise MotionFault(FaultReason.NOTHING_STORED)
         self._execution.settle()
         here = self.positions()
         self._stops[reason] = None

@@ -10,10 +10,10 @@ from rapidgen.axes.kinematics import Kinematics, Posture
 from rapidgen.config.model import GroupConfig
 from rapidgen.motion.moves import (
     SHORTEST,
-    Carrier,
     JointMove,
     Measure,
     Move,
+    MoveFrames,
     largest,
     nominal_time,
     timed,
@@ -77,7 +77,7 @@ class Leg:
         return self.move.zone.fine or self.committed
 
 
-class JointWay:
+class JointPath:
     """All axes together on a straight line in joint space."""
 
     __slots__ = (
@@ -130,7 +130,7 @@ def joint_way(
     limits: AxisLimits,
     *,
     from_rest: bool,
-) -> JointWay:
+) -> JointPath:
     """The way of a joint move. `\\T` includes the ramps at ends where the robot stands."""
     deltas = [b - a for a, b in zip(origin, move.target, strict=True)]
     fastest = max(abs(d) / v for d, v in zip(deltas, limits.speeds, strict=True))
@@ -143,7 +143,7 @@ def joint_way(
         rests = from_rest + move.zone.fine
         total = move.time - rests * limits.ramp / 2
         duration = timed(total, fastest, strongest, rests / 2)
-    return JointWay(origin, move.target, duration, measure, limits, strongest)
+    return JointPath(origin, move.target, duration, measure, limits, strongest)
 
 
 def lever_measure(
@@ -168,7 +168,7 @@ def lever_measure(
 
 
 def joint_measure(
-    kinematics: Kinematics, carrier: Carrier, origin: Posture, target: Posture
+    kinematics: Kinematics, carrier: MoveFrames, origin: Posture, target: Posture
 ) -> tuple[Measure, float]:
     """How far a joint move goes, and the largest way of the TCP per share of the move.
 

@@ -6,11 +6,11 @@ from math import ceil
 from rapidgen.axes.kinematics import Posture
 from rapidgen.machine.scheduler import S
 from rapidgen.motion import smoothing
-from rapidgen.motion.braking import Coast
+from rapidgen.motion.braking import BrakingMotion
 from rapidgen.motion.moves import Move
 from rapidgen.motion.path import posture_at
 from rapidgen.motion.pieces import Piece
-from rapidgen.motion.speed_profile import TimeLaw
+from rapidgen.motion.speed_profile import SpeedProfile
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,7 +24,7 @@ class Motion:
     """From when on it holds."""
     start: int
     """When the law began (before `since` where a braking is only continued)."""
-    law: TimeLaw
+    law: SpeedProfile
     pieces: tuple[Piece, ...]
     rest: Posture
     """Where it ends."""
@@ -33,7 +33,7 @@ class Motion:
     ramp: float = 0.0
     """s in which acceleration builds up (`smoothing.py`); 0: at once."""
 
-    coast: Coast | None = None
+    coast: BrakingMotion | None = None
     """The axes' own way to rest when the brakes stop them; the law then tells where on the path
     the robot should have stopped."""
 

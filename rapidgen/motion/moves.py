@@ -8,7 +8,7 @@ from math import inf, sqrt
 from rapidgen.axes.frames import IDENTITY, Pose, compose, invert
 from rapidgen.axes.kinematics import AxisConfiguration, MovingFrame, Posture
 from rapidgen.axes.path_shapes import CircleMode
-from rapidgen.motion.fault_reasons import MotionFault, Refusal
+from rapidgen.motion.fault_reasons import FaultReason, MotionFault
 
 NO_WAY = 1e-7
 """m of TCP way that count as none."""
@@ -55,7 +55,7 @@ class Measure:
 
 
 @dataclass(frozen=True, slots=True)
-class Carrier:
+class MoveFrames:
     """Tool and work object of a move: who holds what, and where the frames are.
 
     A pose of the move is that of the TCP in the object (the displaced object frame). With a
@@ -69,12 +69,12 @@ class Carrier:
     unit: MovingFrame | None = None
     """The mechanical unit that carries the object; poses need `at` a posture then."""
 
-    def at(self, posture: Posture) -> "Carrier":
+    def at(self, posture: Posture) -> "MoveFrames":
         """The same where the external axes are those of a posture: nothing carries it."""
         if self.unit is None:
             return self
         placed = compose(self.unit.pose(posture), self.object)
-        return Carrier(self.tool, placed, self.stationary)
+        return MoveFrames(self.tool, placed, self.stationary)
 
     def flange(self, pose: Pose) -> Pose:
         """Where the flange is when the TCP has a pose in the object."""
@@ -101,7 +101,7 @@ class Move:
     concurrent: bool = False
     dwell: float = 0.0
     """s that the program waits after a stop point (\\Inpos with a stop time)."""
-    carrier: Carrier = field(default_factory=Carrier)
+    carrier: MoveFrames = field(default_factory=MoveFrames)
     place: Callable[[], object] | None = None
     """Tells where in the program it stands, for messages and the motion pointer."""
     events: tuple["PathEvent", ...] = ()
@@ -138,7 +138,7 @@ class CartesianMove(Move):
     singularities: Singularities = Singularities.OFF
 
 
-class From(Enum):
+class MeasuredFrom(Enum):
     """Where the distance of an event counts from."""
 
     END = "end"
@@ -155,7 +155,7 @@ class PathEvent:
     arrival at a stop point. `lag` s earlier is what equipment needs; negative is later.
     """
 
-    where: From
+    where: MeasuredFrom
     amount: float
     act: Callable[[], None]
     lag: float = 0.0
@@ -177,7 +177,7 @@ def nominal_time(measure: Measure, speed: MoveSpeed) -> float:
     for way, rate in needs:
         if way > 1e-12:
             if rate <= 0.0:
-                raise MotionFault(Refusal.NO_SPEED)
+                raise MotionFault(FaultReason.NO_SPEED)
             times.append(way / rate)
     return max(times)
 

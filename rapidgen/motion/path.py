@@ -11,11 +11,11 @@ from rapidgen.motion.corners import corner
 from rapidgen.motion.legs import Geometry, Leg
 from rapidgen.motion.moves import Move
 from rapidgen.motion.pieces import AxisLimits, Piece, joint_line
-from rapidgen.motion.speed_profile import TimeLaw
+from rapidgen.motion.speed_profile import SpeedProfile
 
 WayMaker = Callable[[Posture, Move, bool], Geometry]
 """(from, move, from rest) -> geometry of the move."""
-LawFinder = Callable[[tuple[Piece, ...]], TimeLaw | None]
+LawFinder = Callable[[tuple[Piece, ...]], SpeedProfile | None]
 """The time law over pieces from the robot's present state; None when there is none."""
 _SHRINK = (1.0, 0.5, 0.25, 0.1, 0.03)
 REGAIN_SPEED = 0.1

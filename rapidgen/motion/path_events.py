@@ -5,7 +5,7 @@ from math import inf
 
 from rapidgen.motion.legs import Leg
 from rapidgen.motion.motion import Motion
-from rapidgen.motion.moves import NO_WAY, From, PathEvent
+from rapidgen.motion.moves import NO_WAY, MeasuredFrom, PathEvent
 
 _Entry = tuple[Leg, PathEvent]
 
@@ -24,7 +24,7 @@ class PathEvents:
 
     def add_at_end(self, leg: Leg, events: Iterable[PathEvent]) -> None:
         """Events of a move that goes nowhere, behind a leg."""
-        self._waiting += [(leg, PathEvent(From.END, 0.0, event.act)) for event in events]
+        self._waiting += [(leg, PathEvent(MeasuredFrom.END, 0.0, event.act)) for event in events]
 
     def times(self, motion: Motion) -> list[float]:
         """Scheduler s of all that this motion reaches."""
@@ -44,12 +44,12 @@ def _when(entry: _Entry, motion: Motion) -> float:
     """Scheduler s of an event; infinite when the motion stops short of it."""
     leg, event = entry
     place = leg.end
-    if event.where in (From.END, From.START):
+    if event.where in (MeasuredFrom.END, MeasuredFrom.START):
         length = leg.way.measure.tcp
         share = min(1.0, event.amount / length) if length > NO_WAY else 0.0
         way = share * (leg.end - leg.begin)
-        place = leg.begin + way if event.where is From.START else leg.end - way
-    early = event.lag + (event.amount if event.where is From.BEFORE_END else 0.0)
+        place = leg.begin + way if event.where is MeasuredFrom.START else leg.end - way
+    early = event.lag + (event.amount if event.where is MeasuredFrom.BEFORE_END else 0.0)
     if motion.law.place < place - 1e-9:
         return inf
     return motion.time_at(place) - early

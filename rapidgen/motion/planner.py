@@ -10,8 +10,8 @@ from rapidgen.axes.frames import IDENTITY, Pose, Vector, compose
 from rapidgen.axes.kinematics import Kinematics, Posture
 from rapidgen.axes.limits import outside
 from rapidgen.config.model import GroupConfig
-from rapidgen.motion.cartesian import CartesianWay
-from rapidgen.motion.fault_reasons import MotionFault, Refusal
+from rapidgen.motion.cartesian import CartesianPath
+from rapidgen.motion.fault_reasons import FaultReason, MotionFault
 from rapidgen.motion.legs import Geometry, joint_measure, joint_way, lever_measure
 from rapidgen.motion.modal import ModalSettings
 from rapidgen.motion.moves import NO_WAY, CartesianMove, JointMove, Move
@@ -39,7 +39,7 @@ class Planner:
     def geometry(self) -> Kinematics:
         """The kinematics. MotionFault NO_GEOMETRY: the model has none."""
         if self.kinematics is None:
-            raise MotionFault(Refusal.NO_GEOMETRY, self.config.name)
+            raise MotionFault(FaultReason.NO_GEOMETRY, self.config.name)
         return self.kinematics
 
     @property
@@ -76,7 +76,7 @@ class Planner:
         faults = outside(self.config.joints, move.target)
         if faults:
             fatal = self.settings.range_error == "fatal"
-            refusal = Refusal.TARGET_OUT_OF_RANGE if fatal else Refusal.OUT_OF_RANGE
+            refusal = FaultReason.TARGET_OUT_OF_RANGE if fatal else FaultReason.OUT_OF_RANGE
             raise MotionFault(refusal, faults[0])
 
     def goes_nowhere(self, move: Move, ends: Posture) -> bool:
@@ -123,10 +123,10 @@ class Planner:
 
     def _cartesian(
         self, origin: Posture, move: CartesianMove, limits: AxisLimits, *, from_rest: bool
-    ) -> CartesianWay:
+    ) -> CartesianPath:
         own, check = self.geometry(), self.settings.configuration_check
-        way = CartesianWay(origin, move, own, limits, from_rest=from_rest, check=check)
+        way = CartesianPath(origin, move, own, limits, from_rest=from_rest, check=check)
         if move.wanted is not None and not own.matches(way.target, move.wanted, check):
             reached = own.configuration(way.target)
-            raise MotionFault(Refusal.CONFIGURATION, list(reached), list(move.wanted))
+            raise MotionFault(FaultReason.CONFIGURATION, list(reached), list(move.wanted))
         return way

@@ -9,8 +9,8 @@ from rapidgen.axes import frames
 from rapidgen.axes.frames import Vector
 from rapidgen.axes.kinematics import ConfigurationCheck, Kinematics, Posture
 from rapidgen.axes.reach_errors import unreached
-from rapidgen.motion.fault_reasons import MotionFault, Refusal
-from rapidgen.motion.moves import Carrier, CartesianMove, Singularities
+from rapidgen.motion.fault_reasons import FaultReason, MotionFault
+from rapidgen.motion.moves import CartesianMove, MoveFrames, Singularities
 
 _ROUNDS = 25
 _CLOSE = 1e-9
@@ -45,7 +45,9 @@ def wrist_end(
     found = kinematics.solutions(flange, near)
     if not found:
         reached, why = unreached(kinematics, flange, near)
-        raise MotionFault(Refusal.NO_POSTURE_IN_RANGE if reached else Refusal.NO_POSTURE, why)
+        raise MotionFault(
+            FaultReason.NO_POSTURE_IN_RANGE if reached else FaultReason.NO_POSTURE, why
+        )
     if move.singularities is Singularities.LOCK_AXIS_4:
         return _locked(kinematics, move, near, found)
     if move.wanted is not None:
@@ -63,12 +65,12 @@ def _locked(
     values[fourth] = locked
     end = put_tcp(kinematics, move.carrier, move.target[0], tuple(values))
     if end is None:
-        raise MotionFault(Refusal.OUT_OF_REACH_WITH_AXIS_4)
+        raise MotionFault(FaultReason.OUT_OF_REACH_WITH_AXIS_4)
     return end
 
 
 def put_tcp(
-    kinematics: Kinematics, carrier: Carrier, place: Vector, start: Posture
+    kinematics: Kinematics, carrier: MoveFrames, place: Vector, start: Posture
 ) -> Posture | None:
     """Turn axes 1 to 3 of a posture until the TCP is at a place in the object; None: no way."""
     main = _places(kinematics, ("rax_1", "rax_2", "rax_3"))

@@ -12,13 +12,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
-from rapidgen.motion.speed_profile import Stretch, TimeLaw
+from rapidgen.motion.speed_profile import ProfileSegment, SpeedProfile
 
 _ROUNDS = 60
 _EXACT = 1e-11
 
 
-def state(law: TimeLaw, time: float, width: float) -> tuple[float, float]:
+def state(law: SpeedProfile, time: float, width: float) -> tuple[float, float]:
     """Mean place over the `width` s before a time, and the speed of that mean."""
     if width <= 0.0:
         return law.state(time)
@@ -48,7 +48,7 @@ def state(law: TimeLaw, time: float, width: float) -> tuple[float, float]:
     return base + area / width, (last - base) / width
 
 
-def time_at(law: TimeLaw, place: float, width: float) -> float:
+def time_at(law: SpeedProfile, place: float, width: float) -> float:
     """When the mean reaches a place; the standstill for places that it does not reach."""
     first = law.time_at(place)
     if width <= 0.0:
@@ -86,14 +86,14 @@ class _Widened:
     stop: bool
 
 
-def widened(spans: Sequence[Stretch], start: float, radius: float) -> list[Stretch]:
+def widened(spans: Sequence[ProfileSegment], start: float, radius: float) -> list[ProfileSegment]:
     """Spans in which every limit holds `radius` further on both sides.
 
     The mean of a law at a place mixes what was planned up to half its width before and behind
     (path speed is at most 1). At a stop the planned law waits, so nothing is mixed across it.
     `start` is where the first span begins.
     """
-    found: list[Stretch] = []
+    found: list[ProfileSegment] = []
     first = 0
     for i, span in enumerate(spans):
         if span.stop or i == len(spans) - 1:
@@ -102,7 +102,9 @@ def widened(spans: Sequence[Stretch], start: float, radius: float) -> list[Stret
     return found
 
 
-def _between_stops(spans: Sequence[Stretch], start: float, radius: float) -> Sequence[Stretch]:
+def _between_stops(
+    spans: Sequence[ProfileSegment], start: float, radius: float
+) -> Sequence[ProfileSegment]:
     if len(spans) == 1:
         return spans
     # A slower neighbour reaches into a span; only there it has to be cut.
@@ -117,7 +119,7 @@ def _between_stops(spans: Sequence[Stretch], start: float, radius: float) -> Seq
     end = spans[-1].end
     cuts = sorted(cut for cut in cuts if start < cut < end)
     cuts.append(end)
-    found: list[Stretch] = []
+    found: list[ProfileSegment] = []
     low, left = 0, start
     for right in cuts:
         if right - left < _EXACT and right < end:

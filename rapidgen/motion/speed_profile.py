@@ -14,7 +14,7 @@ from typing import Protocol
 _TOLERANCE = 1e-7
 
 
-class Stretch(Protocol):
+class ProfileSegment(Protocol):
     """A stretch of path with constant limits; `stop` asks for standstill at its end.
 
     `tcp` is the TCP's way in m per nominal s (0 where it is not known)."""
@@ -31,7 +31,7 @@ class Stretch(Protocol):
     def stop(self) -> bool: ...
 
 
-class TimeLaw:
+class SpeedProfile:
     """Phases (start time s, place, speed, acceleration); at rest behind the last one."""
 
     __slots__ = ("_accelerations", "_places", "_speeds", "_times", "duration", "place")
@@ -62,9 +62,9 @@ class TimeLaw:
         """Times, places, speeds and accelerations at which the phases begin; not to be changed."""
         return self._times, self._places, self._speeds, self._accelerations
 
-    def then(self, other: "TimeLaw", pause: float = 0.0) -> "TimeLaw":
+    def then(self, other: "SpeedProfile", pause: float = 0.0) -> "SpeedProfile":
         """This law to its standstill, `pause` s of that, then `other`."""
-        chain = TimeLaw(self.place)
+        chain = SpeedProfile(self.place)
         chain._take(self, slice(None), 0.0)
         chain.duration = self.duration
         chain.add(self.place, 0.0, 0.0, pause)
@@ -73,11 +73,11 @@ class TimeLaw:
         chain.place = other.place
         return chain
 
-    def after(self, before: "TimeLaw", time: float, width: float) -> "TimeLaw":
+    def after(self, before: "SpeedProfile", time: float, width: float) -> "SpeedProfile":
         """This law, and at negative times what `before` did in the `width` s up to `time`."""
         if width <= 0.0 or not before._times:
             return self
-        chain = TimeLaw(self.place)
+        chain = SpeedProfile(self.place)
         first = max(0, bisect_right(before._times, time - width) - 1)
         chain._take(before, slice(first, bisect_left(before._times, time)), -time)
         if before.duration < time:
@@ -87,7 +87,7 @@ class TimeLaw:
         chain.duration, chain.place = self.duration, self.place
         return chain
 
-    def _take(self, law: "TimeLaw", phases: slice, offset: float) -> None:
+    def _take(self, law: "SpeedProfile", phases: slice, offset: float) -> None:
         self._times += [t + offset for t in law._times[phases]]
         self._places += law._places[phases]
         self._speeds += law._speeds[phases]
@@ -126,14 +126,14 @@ class TimeLaw:
 
 
 def plan(
-    spans: Sequence[Stretch],
+    spans: Sequence[ProfileSegment],
     place: float,
     speed: float,
     cap: float = 1.0,
     tcp_limit: float = inf,
     pause: float = 0.0,
     wait: float = 0.0,
-) -> TimeLaw | None:
+) -> SpeedProfile | None:
     """The fastest law from a state to standstill at the end of the last span.
 
     Spans behind `place` do not count. `cap` (path speed) and `tcp_limit` (m/s) are ceilings that
@@ -146,7 +146,7 @@ def plan(
         if speed > bounds[0] * (1 + _TOLERANCE) + _TOLERANCE:
             return None
         speed = bounds[0]
-    law = TimeLaw(place)
+    law = SpeedProfile(place)
     law.add(place, speed, 0.0, wait)
     for i, span in enumerate(spans):
         way = span.end - place
@@ -182,9 +182,11 @@ def plan(
     return law
 
 
-def brake(spans: Sequence[Stretch], place: float, speed: float, factor: float = 1.0) -> TimeLaw:
+def brake(
+    spans: Sequence[ProfileSegment], place: float, speed: float, factor: float = 1.0
+) -> SpeedProfile:
     """Down to standstill on the path, with `factor` times the spans' accelerations."""
-    law = TimeLaw(place)
+    law = SpeedProfile(place)
     for span in spans:
         way = span.end - place
         if way <= 0.0:
@@ -202,7 +204,7 @@ def brake(spans: Sequence[Stretch], place: float, speed: float, factor: float = 
     return law
 
 
-def _ahead(spans: Sequence[Stretch], place: float) -> Sequence[Stretch]:
+def _ahead(spans: Sequence[ProfileSegment], place: float) -> Sequence[ProfileSegment]:
     """From the span that contains a place on."""
     first = 0
     while first < len(spans) - 1 and spans[first].end <= place:
@@ -210,7 +212,7 @@ def _ahead(spans: Sequence[Stretch], place: float) -> Sequence[Stretch]:
     return spans[first:] if first else spans
 
 
-def _entry_bounds(spans: Sequence[Stretch], place: float) -> list[float]:
+def _entry_bounds(spans: Sequence[ProfileSegment], place: float) -> list[float]:
     """Largest speed at the start of each span (the first: at `place`) that can be kept."""
     bounds = [0.0] * (len(spans) + 1)
     for i in range(len(spans) - 1, -1, -1):

@@ -11,7 +11,7 @@ LATE = 0.002
 """s by which a move may miss its \\T unreported."""
 
 
-class Punctuality:
+class TimingMonitor:
     """Compares the times at which moves were passed with what they promised."""
 
     __slots__ = ("_last", "_late", "_moves")

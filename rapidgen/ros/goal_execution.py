@@ -23,7 +23,16 @@ from rapidgen.client.errors import (
     StopFailed,
 )
 from rapidgen.client.trajectory import Array, Trajectory
-from rapidgen.ros.goals import Code, Defaults, Ending, Goal, GoalRefused, JudgedGoal, Outcome, judge
+from rapidgen.ros.goals import (
+    Code,
+    Defaults,
+    FinalStatus,
+    Goal,
+    GoalRefused,
+    Outcome,
+    ValidatedGoal,
+    validate_goal,
+)
 from rapidgen.wire.simple_message.spec import Feature, TrajectoryState
 
 _APPROACH = 0.1
@@ -75,7 +84,7 @@ class GoalFeedback:
         return difference
 
 
-class UnderWay:
+class ActiveGoal:
     """A goal from its acceptance to its end, and whether somebody wants it to end."""
 
     def __init__(self) -> None:
@@ -99,7 +108,7 @@ class UnderWay:
         self.ending.set()
 
 
-class Follower:
+class GoalExecutor:
     """Carries out goals for one robot, one at a time."""
 
     def __init__(
@@ -114,8 +123,8 @@ class Follower:
         self._policy = policy
         self._now = now
         self._note = note
-        self._current: UnderWay | None = None
-        self._unsent: set[UnderWay] = set()
+        self._current: ActiveGoal | None = None
+        self._unsent: set[ActiveGoal] = set()
         self._stood = 0.0
         """s of `_samples`: when the robot was last seen where the motion under way began."""
 
@@ -125,7 +134,7 @@ class Follower:
         return self._current is not None
 
     async def follow(
-        self, goal: Goal, tell: Callable[[GoalFeedback], None], under: UnderWay
+        self, goal: Goal, tell: Callable[[GoalFeedback], None], under: ActiveGoal
     ) -> Outcome:
         """Carry out a goal; returns when it is over and, after a stop, the robot stands.
 
@@ -146,10 +155,10 @@ class Follower:
             under.call_off()
 
     async def _judged_and_carried_out(
-        self, goal: Goal, tell: Callable[[GoalFeedback], None], under: UnderWay
+        self, goal: Goal, tell: Callable[[GoalFeedback], None], under: ActiveGoal
     ) -> Outcome:
         try:
-            asked = judge(goal, self._robot.group.names, self._policy.defaults, self._now())
+            asked = validate_goal(goal, self._robot.group.names, self._policy.defaults, self._now())
             await self._enter(under)
         except GoalRefused as refused:
             return refused.outcome
@@ -157,7 +166,7 @@ class Follower:
             return _aborted(Code.INVALID_GOAL, error)
         return await self._carried_out(asked, under, tell)
 
-    async def _enter(self, under: UnderWay) -> None:
+    async def _enter(self, under: ActiveGoal) -> None:
         """Take the place of the goal under way, once nobody has it. Raises GoalRefused."""
         while (other := self._current) is not None:
             if self._policy.replace == "refuse":
@@ -171,7 +180,7 @@ class Follower:
         self._current = under
 
     async def _carried_out(
-        self, asked: JudgedGoal, under: UnderWay, tell: Callable[[GoalFeedback], None]
+        self, asked: ValidatedGoal, under: ActiveGoal, tell: Callable[[GoalFeedback], None]
     ) -> Outcome:
         if await self._waited(asked.start or 0.0, under):
             return _ended_early(under, "before it started: nothing moved")
@@ -194,7 +203,7 @@ class Follower:
             self._note(note)
         return await self._until_over(asked, execution, under, tell)
 
-    async def _waited(self, start: float, under: UnderWay) -> bool:
+    async def _waited(self, start: float, under: ActiveGoal) -> bool:
         """Wait for the moment `start` s of ROS time; True when the goal is ended before it.
 
         Without a link there is nothing to wait for.
@@ -208,7 +217,7 @@ class Follower:
             await _cancelled(ending)
         return under.ending.is_set()
 
-    def _fitted(self, asked: JudgedGoal) -> JudgedGoal:
+    def _fitted(self, asked: ValidatedGoal) -> ValidatedGoal:
         """The points as the user's policy has them sent. Raises GoalRefused."""
         if asked.watches_path and not self._measures:
             raise GoalRefused(
@@ -226,7 +235,7 @@ class Follower:
     def _measures(self) -> bool:
         return Feature.FEEDBACK in self._robot.driver.features
 
-    def _from_here(self, asked: JudgedGoal) -> JudgedGoal:
+    def _from_here(self, asked: ValidatedGoal) -> ValidatedGoal:
         """With a way from where the robot stands to a first point elsewhere: in the time that the
         goal has for it, else where the user's policy says so."""
         group, state, trajectory = self._robot.group, self._robot.state, asked.trajectory
@@ -251,7 +260,7 @@ class Follower:
         )
         return asked.with_trajectory(trajectory.starting_at(state, seconds), told)
 
-    async def _accepted(self, trajectory: Trajectory, under: UnderWay) -> AsyncExecution | None:
+    async def _accepted(self, trajectory: Trajectory, under: ActiveGoal) -> AsyncExecution | None:
         """The motion; None when the goal was ended before the controller took it."""
         sending = asyncio.ensure_future(self._robot.execute(trajectory))
         ending = asyncio.ensure_future(under.ending.wait())
@@ -279,9 +288,9 @@ class Follower:
 
     async def _until_over(
         self,
-        asked: JudgedGoal,
+        asked: ValidatedGoal,
         execution: AsyncExecution,
-        under: UnderWay,
+        under: ActiveGoal,
         tell: Callable[[GoalFeedback], None],
     ) -> Outcome:
         result = asyncio.ensure_future(execution.result())
@@ -306,7 +315,7 @@ class Follower:
         finally:
             await _cancelled(result, watching, ending)
 
-    async def _watch(self, asked: JudgedGoal, tell: Callable[[GoalFeedback], None]) -> Outcome:
+    async def _watch(self, asked: ValidatedGoal, tell: Callable[[GoalFeedback], None]) -> Outcome:
         """Tell feedback; returns when a tolerance is violated."""
         before: float | None = None
         desired = unsure = 0.0
@@ -349,22 +358,22 @@ class Follower:
                 state = await robot.next_state(math.inf)
                 yield state.time, np.array(state.joints), np.array(state.velocity)
 
-    def _reached(self, asked: JudgedGoal, result: Result) -> Outcome:
+    def _reached(self, asked: ValidatedGoal, result: Result) -> Outcome:
         """DONE, and whether the robot stands where it was asked to."""
         off = np.abs(np.array(result.state.joints) - asked.trajectory.positions[-1])
         worst = int(np.argmax(off - asked.goal))
         if off[worst] > asked.goal[worst]:
             return Outcome(
-                Ending.ABORTED,
+                FinalStatus.ABORTED,
                 Code.GOAL_TOLERANCE_VIOLATED,
                 f"the controller ended the motion {off[worst]:.4f} from the last point at "
                 f"{asked.trajectory.names[worst]}, and {asked.goal[worst]:g} was allowed",
             )
         told = f"done in {result.seconds:.2f} s, {asked.trajectory.duration:.2f} s were asked for"
-        return Outcome(Ending.SUCCEEDED, Code.SUCCESSFUL, "; ".join((told, *asked.notes)))
+        return Outcome(FinalStatus.SUCCEEDED, Code.SUCCESSFUL, "; ".join((told, *asked.notes)))
 
 
-def resampled(asked: JudgedGoal, shortest: float) -> JudgedGoal:
+def resampled(asked: ValidatedGoal, shortest: float) -> ValidatedGoal:
     """Points at least `shortest` s apart, where some are nearer; how far off is noted."""
     trajectory = asked.trajectory
     times = trajectory.times
@@ -382,7 +391,7 @@ def resampled(asked: JudgedGoal, shortest: float) -> JudgedGoal:
     return asked.with_trajectory(fresh, note)
 
 
-def with_time_to_stop(asked: JudgedGoal, shortest: float) -> JudgedGoal:
+def with_time_to_stop(asked: ValidatedGoal, shortest: float) -> ValidatedGoal:
     """A last segment below `shortest` s is given that time; the way is the same.
 
     Planners that sample at a period leave such a rest at the end of nearly every path.
@@ -397,7 +406,7 @@ def with_time_to_stop(asked: JudgedGoal, shortest: float) -> JudgedGoal:
     return asked.with_trajectory(fresh, note)
 
 
-def _violation(asked: JudgedGoal, told: GoalFeedback, window: float) -> Outcome | None:
+def _violation(asked: ValidatedGoal, told: GoalFeedback, window: float) -> Outcome | None:
     """What of the tolerances does not hold, or None.
 
     When the robot began to move is known to `window` s, mostly one sample: it is compared with
@@ -405,7 +414,7 @@ def _violation(asked: JudgedGoal, told: GoalFeedback, window: float) -> Outcome 
     """
     if told.time > asked.trajectory.duration + asked.goal_time + window:
         return Outcome(
-            Ending.ABORTED,
+            FinalStatus.ABORTED,
             Code.GOAL_TOLERANCE_VIOLATED,
             f"not at the goal {told.time - asked.trajectory.duration:.2f} s after its time, and "
             f"{asked.goal_time:g} s were allowed",
@@ -421,7 +430,7 @@ def _violation(asked: JudgedGoal, told: GoalFeedback, window: float) -> Outcome 
         worst = int(np.argmax(off - allowed))
         if off[worst] > allowed[worst]:
             return Outcome(
-                Ending.ABORTED,
+                FinalStatus.ABORTED,
                 Code.PATH_TOLERANCE_VIOLATED,
                 f"{what}{told.names[worst]} was {off[worst]:.4f} off its path "
                 f"{told.time:.2f} s after the start, and {allowed[worst]:g} was allowed",
@@ -454,16 +463,16 @@ async def _stopped(execution: AsyncExecution) -> Outcome | None:
     return None
 
 
-def _ended_early(under: UnderWay, where: str) -> Outcome:
+def _ended_early(under: ActiveGoal, where: str) -> Outcome:
     if under.is_called_off:
-        return Outcome(Ending.ABORTED, Code.INVALID_GOAL, f"stopped on request {where}")
+        return Outcome(FinalStatus.ABORTED, Code.INVALID_GOAL, f"stopped on request {where}")
     if under.is_replaced:
-        return Outcome(Ending.ABORTED, Code.INVALID_GOAL, f"replaced by a newer goal {where}")
-    return Outcome(Ending.CANCELED, Code.SUCCESSFUL, f"cancelled {where}")
+        return Outcome(FinalStatus.ABORTED, Code.INVALID_GOAL, f"replaced by a newer goal {where}")
+    return Outcome(FinalStatus.CANCELED, Code.SUCCESSFUL, f"cancelled {where}")
 
 
 def _aborted(code: Code, error: RobotError) -> Outcome:
-    return Outcome(Ending.ABORTED, code, reason(error))
+    return Outcome(FinalStatus.ABORTED, code, reason(error))
 
 
 def reason(error: RobotError) -> str:

@@ -31,7 +31,7 @@ class Code(IntEnum):
     GOAL_TOLERANCE_VIOLATED = -5
 
 
-class Ending(Enum):
+class FinalStatus(Enum):
     """How a goal ended, in the words of action_msgs/GoalStatus."""
 
     SUCCEEDED = "succeeded"
@@ -43,7 +43,7 @@ class Ending(Enum):
 class Outcome:
     """The end of a goal: its status, error_code and error_string."""
 
-    status: Ending
+    status: FinalStatus
     code: Code
     text: str
 
@@ -58,7 +58,7 @@ class GoalRefused(Exception):
     @property
     def outcome(self) -> Outcome:
         """As an action's result."""
-        return Outcome(Ending.ABORTED, self.code, str(self))
+        return Outcome(FinalStatus.ABORTED, self.code, str(self))
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,7 +111,7 @@ class Defaults:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class JudgedGoal:
+class ValidatedGoal:
     """A goal that may be sent: `trajectory` in the robot's order of joints, `velocities` (n, k)
     rad/s or m/s where they were given; tolerances (k,), `inf` where nothing is looked at."""
 
@@ -145,12 +145,14 @@ class JudgedGoal:
         """Whether the way, not only its end, has a tolerance."""
         return bool(np.isfinite(self.path).any() or np.isfinite(self.path_velocity).any())
 
-    def with_trajectory(self, trajectory: Trajectory, *notes: str) -> "JudgedGoal":
+    def with_trajectory(self, trajectory: Trajectory, *notes: str) -> "ValidatedGoal":
         """The same by other points of the same way."""
         return replace(self, trajectory=trajectory, velocities=None, notes=(*self.notes, *notes))
 
 
-def judge(goal: Goal, names: Sequence[str], defaults: Defaults, now: float) -> JudgedGoal:
+def validate_goal(
+    goal: Goal, names: Sequence[str], defaults: Defaults, now: float
+) -> ValidatedGoal:
     """A goal for the joints `names`, at `now` s of ROS time. Raises GoalRefused."""
     _check_names(goal.names, names)
     if goal.has_multi_dof:
@@ -172,7 +174,7 @@ def judge(goal: Goal, names: Sequence[str], defaults: Defaults, now: float) -> J
     tolerances = _Tolerances(names, defaults)
     path = tolerances.read(goal.path_tolerance, "path_tolerance", defaults.path)
     end = tolerances.read(goal.goal_tolerance, "goal_tolerance", defaults.goal)
-    return JudgedGoal(
+    return ValidatedGoal(
         Trajectory(times, positions, tuple(names)),
         velocities,
         _start(goal.stamp, now, defaults.late),

@@ -36,11 +36,11 @@ from rapidgen.client.errors import RobotError
 from rapidgen.config import load_config
 from rapidgen.config.model import RobotConfig
 from rapidgen.diagnostics import DiagnosticError
-from rapidgen.ros.goal_execution import GoalFeedback, UnderWay, reason
-from rapidgen.ros.goals import Ending, Goal, Outcome, Point, Tolerance
+from rapidgen.ros.goal_execution import ActiveGoal, GoalFeedback, reason
+from rapidgen.ros.goals import FinalStatus, Goal, Outcome, Point, Tolerance
 from rapidgen.ros.parameters import DECLARED, NAMES, WHOLE, Parameters, check_address, read
 from rapidgen.ros.robot_link import RobotLink, set_speeds
-from rapidgen.ros.status_messages import Health, JointStates, RobotStatus
+from rapidgen.ros.status_messages import JointStates, RobotHealth, RobotStatus
 from rapidgen.ros.user_services import ARE_THERE, MISSING, Message, Serve, services
 
 try:  # A package that not every distribution has.
@@ -68,7 +68,7 @@ class RobotNode(LifecycleNode):  # type: ignore[misc]
         self._loop = asyncio.new_event_loop()
         self._thread = threading.Thread(target=self._loop.run_forever, name="rapidgen", daemon=True)
         self._thread.start()
-        self._doors: list[Door] = []
+        self._doors: list[GroupInterface] = []
         self._running: list[Future[None]] = []
         self.add_on_set_parameters_callback(self._parameters_set)
         if self.get_parameter("autostart").value:
@@ -98,7 +98,9 @@ class RobotNode(LifecycleNode):  # type: ignore[misc]
             # One clock, however many groups there are: two of them would go back and forth.
             clock = parameters.publish_clock and not self._doors
             name = f"{group.name}_controller"
-            self._doors.append(Door(self, make, parameters, space, name, tells_clock=clock))
+            self._doors.append(
+                GroupInterface(self, make, parameters, space, name, tells_clock=clock)
+            )
         return super().on_configure(state)
 
     def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
@@ -196,7 +198,7 @@ class RobotNode(LifecycleNode):  # type: ignore[misc]
         return float(self.get_clock().now().nanoseconds) * 1e-9
 
 
-class Door:
+class GroupInterface:
     """What one motion group shows to ROS; the `Public` of its link."""
 
     def __init__(
@@ -216,7 +218,7 @@ class Door:
         self._prefix = parameters.tf_prefix
         self._name = controller
         self._lock = threading.Lock()
-        self._goals: dict[bytes, UnderWay] = {}
+        self._goals: dict[bytes, ActiveGoal] = {}
         self._callbacks = ReentrantCallbackGroup()
         self._joint_states = self._publisher(JointState, "joint_states")
         self._diagnostics = self._publisher(DiagnosticArray, "/diagnostics")
@@ -288,7 +290,7 @@ class Door:
             self._clock.publish(Clock(clock=message.header.stamp))
         self._joint_states.publish(message)
 
-    def status(self, status: RobotStatus, health: Health) -> None:
+    def status(self, status: RobotStatus, health: RobotHealth) -> None:
         """As `Public`."""
         stamp = _time(round(self.link.now() * 1e9))
         diagnostics = DiagnosticArray()
@@ -339,10 +341,10 @@ class Door:
         self._node.soon(self._under_way(handle).cancel)
         return CancelResponse.ACCEPT
 
-    def _under_way(self, handle: Message) -> UnderWay:
+    def _under_way(self, handle: Message) -> ActiveGoal:
         """Of this goal, whose cancellation may come before it is executed."""
         with self._lock:
-            return self._goals.setdefault(bytes(handle.goal_id.uuid), UnderWay())
+            return self._goals.setdefault(bytes(handle.goal_id.uuid), ActiveGoal())
 
     def _execute(self, handle: Message) -> Message:
         """A goal, until the robot stands: in a thread of the executor."""
@@ -357,7 +359,7 @@ class Door:
             outcome = self._node.ask(self.link.follow(goal, tell, under)).result()
             told = f"{self._name}: goal {outcome.status.value}: {outcome.text}"
             # Two calls: rclpy refuses another severity from the place of an earlier one.
-            if outcome.status is Ending.SUCCEEDED:
+            if outcome.status is FinalStatus.SUCCEEDED:
                 self._node.get_logger().info(told)
             else:
                 self._node.get_logger().warning(told)
@@ -412,9 +414,9 @@ class Door:
 
 def _ending(handle: Message, outcome: Outcome) -> Message:
     """The result, and the goal in its last state. A cancelled goal that was done is done."""
-    if outcome.status is Ending.SUCCEEDED:
+    if outcome.status is FinalStatus.SUCCEEDED:
         handle.succeed()
-    elif outcome.status is Ending.CANCELED and handle.is_cancel_requested:
+    elif outcome.status is FinalStatus.CANCELED and handle.is_cancel_requested:
         handle.canceled()
     else:
         handle.abort()

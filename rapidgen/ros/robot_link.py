@@ -12,31 +12,31 @@ from rapidgen.client.aio import AsyncRobot
 from rapidgen.client.core.state import State
 from rapidgen.client.errors import NotReady, RequestRefused, RobotError
 from rapidgen.client.program import Argument, Left
-from rapidgen.ros.goal_execution import Follower, GoalFeedback, Policy, UnderWay, reason
-from rapidgen.ros.goals import Code, Ending, Goal, Outcome
+from rapidgen.ros.goal_execution import ActiveGoal, GoalExecutor, GoalFeedback, Policy, reason
+from rapidgen.ros.goals import Code, FinalStatus, Goal, Outcome
 from rapidgen.ros.status_messages import (
-    Health,
     JointStates,
+    RobotHealth,
     RobotStatus,
     health,
     no_link,
     robot_status,
     unknown_status,
 )
-from rapidgen.ros.time_stamps import Stamps
+from rapidgen.ros.time_stamps import RosTimeEstimator
 from rapidgen.wire.simple_message.spec import Feature, Reason
 
 AGAIN = 1.0
 """s between two tries to reach the robot."""
 
 
-class Public(Protocol):
+class LinkListener(Protocol):
     """Takes what is to be published, on the link's loop."""
 
     def joint_states(self, states: JointStates) -> None:
         """A new sample of the joints; never the same one twice."""
 
-    def status(self, status: RobotStatus, health: Health) -> None:
+    def status(self, status: RobotStatus, health: RobotHealth) -> None:
         """Whenever the joints are told, and each second without a link."""
 
     def note(self, text: str) -> None:
@@ -51,7 +51,7 @@ class RobotLink:
         make: Callable[[], AsyncRobot],
         policy: Policy,
         now: Callable[[], float],
-        public: Public,
+        public: LinkListener,
         *,
         is_clock: bool = False,
     ) -> None:
@@ -62,9 +62,9 @@ class RobotLink:
         self._machine = now
         self._is_clock = is_clock
         self._public = public
-        self._stamps = Stamps(is_clock=is_clock)
+        self._stamps = RosTimeEstimator(is_clock=is_clock)
         self._robot: AsyncRobot | None = None
-        self._follower: Follower | None = None
+        self._follower: GoalExecutor | None = None
         self._why = "not connected yet"
         self._paused_at: tuple[float, ...] | None = None
 
@@ -95,7 +95,7 @@ class RobotLink:
 
     def _came(self, robot: AsyncRobot) -> None:
         self._robot = robot
-        self._follower = Follower(robot, self._policy, self.now, self._public.note)
+        self._follower = GoalExecutor(robot, self._policy, self.now, self._public.note)
         self._why = ""
         self._public.note(f"connected to {robot.address}")
 
@@ -125,13 +125,13 @@ class RobotLink:
     # What others ask for
 
     async def follow(
-        self, goal: Goal, tell: Callable[[GoalFeedback], None], under: UnderWay
+        self, goal: Goal, tell: Callable[[GoalFeedback], None], under: ActiveGoal
     ) -> Outcome:
         """Carry out a goal; without a link it is aborted with the reason."""
         follower = self._follower
         if follower is None:
             text = f"no link to the robot: {self._why}"
-            return Outcome(Ending.ABORTED, Code.INVALID_GOAL, text)
+            return Outcome(FinalStatus.ABORTED, Code.INVALID_GOAL, text)
         self._paused_at = None
         return await follower.follow(goal, tell, under)
 

@@ -45,7 +45,7 @@ class RobotStatus:
 
 
 @dataclass(frozen=True, slots=True)
-class Health:
+class RobotHealth:
     """A diagnostic_msgs/DiagnosticStatus without its name: why the robot would not move now."""
 
     level: Level
@@ -75,7 +75,7 @@ def unknown_status() -> RobotStatus:
     return robot_status(_UNKNOWN)
 
 
-def health(state: State, driver: Driver, address: str) -> Health:
+def health(state: State, driver: Driver, address: str) -> RobotHealth:
     """What hinders the robot, the worst first."""
     status = state.status
     values = {
@@ -93,12 +93,12 @@ def health(state: State, driver: Driver, address: str) -> Health:
     if status.error:
         values["last refusal"] = status.error.text
     level, message = _worst(status, state.trajectory)
-    return Health(level, message, values)
+    return RobotHealth(level, message, values)
 
 
-def no_link(why: str, address: str) -> Health:
+def no_link(why: str, address: str) -> RobotHealth:
     """The robot is not there: what was seen last says nothing of now."""
-    return Health(Level.STALE, f"no link to the robot: {why}", {"address": address})
+    return RobotHealth(Level.STALE, f"no link to the robot: {why}", {"address": address})
 
 
 def _worst(status: Status, trajectory: TrajectoryState | None) -> tuple[Level, str]:

@@ -8,7 +8,7 @@ _DRIFT = 1e-4
 """How much faster than the controller's clock this one may be: what the offset may grow by."""
 
 
-class Stamps:
+class RosTimeEstimator:
     """ROS time of a controller's moments: never backwards, never later than it was received.
 
     The offset between the clocks is the least that was seen (a message that was on its way

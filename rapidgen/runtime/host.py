@@ -17,10 +17,10 @@ from rapidgen.machine.network.sockets import SocketTable
 from rapidgen.machine.operator import Operator
 from rapidgen.machine.scheduler import Scheduler
 from rapidgen.machine.smart_gripper import Hands
-from rapidgen.machine.sync_points import Meetings
+from rapidgen.machine.sync_points import SyncPoints
 from rapidgen.machine.system_parameters import SystemParameters
 from rapidgen.machine.text_tables import TextTables
-from rapidgen.motion.group import Waiter
+from rapidgen.motion.group import MotionWaiter
 from rapidgen.motion.system import MotionSystem
 from rapidgen.rapid.switches import Switches
 from rapidgen.rapid.syntax import nodes as n
@@ -81,7 +81,7 @@ class Host(Protocol):
     """Values of the servos' test signals by channel."""
     booked: set[int]
     """Error numbers that BookErrNo gave."""
-    meetings: Meetings
+    meetings: SyncPoints
     arcs: dict[str, ArcEquipment]
     """What tasks weld with."""
     cameras: dict[str, Camera]
@@ -133,7 +133,7 @@ class Host(Protocol):
         """Power goes and comes back."""
 
 
-class RapidTask(Waiter, Protocol):
+class RapidTask(MotionWaiter, Protocol):
     """A `Task`, as its parts, its controller and other tasks know it."""
 
     name: str

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import wraps
 from typing import ParamSpec, TypeVar
 
-from rapidgen.motion.fault_reasons import MotionFault, Refusal
+from rapidgen.motion.fault_reasons import FaultReason, MotionFault
 from rapidgen.runtime.errors import FatalError, RapidError
 
 SINGULARITY = 50_026
@@ -51,37 +51,37 @@ class _Stop:
         return FatalError(self.event, self.title, *filter(None, [self.text.format(*facts)]))
 
 
-_MEANINGS: dict[Refusal, _Error | _Stop] = {
-    Refusal.OUT_OF_REACH: _Error("ERR_OUTSIDE_REACH", "on the way; {}"),
-    Refusal.OUT_OF_REACH_IN_CORNER: _Error("ERR_OUTSIDE_REACH", "in a corner"),
-    Refusal.OUT_OF_REACH_WITH_WRIST: _Error("ERR_OUTSIDE_REACH", "with SingArea \\Wrist"),
-    Refusal.OUT_OF_REACH_WITH_AXIS_4: _Error("ERR_OUTSIDE_REACH", "with SingArea \\LockAxis4"),
-    Refusal.NO_POSTURE: _Error("ERR_OUTSIDE_REACH", "{}"),
-    Refusal.NO_POSTURE_IN_RANGE: _Error("ERR_ROBLIMIT", "{}"),
-    Refusal.OUT_OF_RANGE: _Error("ERR_ROBLIMIT", "{}"),
-    Refusal.TARGET_OUT_OF_RANGE: _Stop(OUT_OF_RANGE, "Joint out of range", "{}"),
-    Refusal.SINGULARITY: _Stop(
+_MEANINGS: dict[FaultReason, _Error | _Stop] = {
+    FaultReason.OUT_OF_REACH: _Error("ERR_OUTSIDE_REACH", "on the way; {}"),
+    FaultReason.OUT_OF_REACH_IN_CORNER: _Error("ERR_OUTSIDE_REACH", "in a corner"),
+    FaultReason.OUT_OF_REACH_WITH_WRIST: _Error("ERR_OUTSIDE_REACH", "with SingArea \\Wrist"),
+    FaultReason.OUT_OF_REACH_WITH_AXIS_4: _Error("ERR_OUTSIDE_REACH", "with SingArea \\LockAxis4"),
+    FaultReason.NO_POSTURE: _Error("ERR_OUTSIDE_REACH", "{}"),
+    FaultReason.NO_POSTURE_IN_RANGE: _Error("ERR_ROBLIMIT", "{}"),
+    FaultReason.OUT_OF_RANGE: _Error("ERR_ROBLIMIT", "{}"),
+    FaultReason.TARGET_OUT_OF_RANGE: _Stop(OUT_OF_RANGE, "Joint out of range", "{}"),
+    FaultReason.SINGULARITY: _Stop(
         SINGULARITY, "Close to singularity", "an axis would have to turn at once"
     ),
-    Refusal.NO_CIRCLE: _Stop(
+    FaultReason.NO_CIRCLE: _Stop(
         CIRCLE_UNCERTAIN, "Circle uncertain", "the three points make no circle"
     ),
-    Refusal.CIRCLE_TOO_LONG: _Stop(
+    FaultReason.CIRCLE_TOO_LONG: _Stop(
         CIRCLE_UNCERTAIN, "Circle uncertain", "more than 240 degrees in one MoveC"
     ),
-    Refusal.CONFIGURATION: _Stop(
+    FaultReason.CONFIGURATION: _Stop(
         NOT_COMPATIBLE,
         "Position not compatible",
         "the way ends in configuration {}, programmed is {}",
     ),
-    Refusal.NO_GEOMETRY: _Stop(
+    FaultReason.NO_GEOMETRY: _Stop(
         NO_GEOMETRY,
         "No geometry",
         "{}: the configuration has no chain, so the robot moves in joints only",
     ),
-    Refusal.NO_SPEED: _Error("ERR_ARGVALERR", "a part of the move has speed 0"),
-    Refusal.TOO_MANY_CONCURRENT: _Error("ERR_CONC_MAX"),
-    Refusal.NOTHING_STORED: _Stop(NOT_ALLOWED, "No path is stored"),
+    FaultReason.NO_SPEED: _Error("ERR_ARGVALERR", "a part of the move has speed 0"),
+    FaultReason.TOO_MANY_CONCURRENT: _Error("ERR_CONC_MAX"),
+    FaultReason.NOTHING_STORED: _Stop(NOT_ALLOWED, "No path is stored"),
 }
 
 

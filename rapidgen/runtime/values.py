@@ -356,7 +356,7 @@ class Ref:
             self.cell.notify()
 
 
-class Box(Ref):
+class ValueRef(Ref):
     """A Ref that holds its value: a routine's variable that is passed by reference."""
 
     __slots__ = ("v",)

@@ -8,7 +8,7 @@ from rapidgen._json import Members, items, members, text, whole
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, Span, refusal
 from rapidgen.system.base import Robot, base_system
 from rapidgen.system.cfg import parse_cfg
-from rapidgen.system.cfg_loading import Addition, add
+from rapidgen.system.cfg_loading import CfgFileLoad, add
 from rapidgen.system.cfg_reader import ModuleEntry, modules_of, tasks_of, with_cfg
 from rapidgen.system.controller_cfg import ControllerCfg
 from rapidgen.system.model import ModuleFile, System, TaskSpec
@@ -18,7 +18,7 @@ Load = Callable[[TaskSpec, tuple[ModuleEntry, ...], str], tuple[ModuleFile, ...]
 
 
 @dataclass(frozen=True, slots=True)
-class Under:
+class BaseController:
     """A controller before anything is loaded onto it: its cfg, and its tasks with their modules."""
 
     cfg: ControllerCfg
@@ -27,7 +27,7 @@ class Under:
     """Modules that it loads into every task, also into one that is added."""
 
 
-def of_backup(cfg: ControllerCfg, system: System) -> Under:
+def of_backup(cfg: ControllerCfg, system: System) -> BaseController:
     """The controller that a backup was made of."""
     sys = cfg.domain("SYS")
     loaded = {m.name.casefold(): m for task in system.tasks for m in task.modules}
@@ -36,7 +36,7 @@ def of_backup(cfg: ControllerCfg, system: System) -> Under:
         for instance, entry in zip(sys.instances("CAB_TASK_MODULES"), modules_of(sys), strict=True)
         if entry.all_tasks or entry.shared
     ]
-    return Under(cfg, system, tuple(loaded[name] for name in names if name in loaded))
+    return BaseController(cfg, system, tuple(loaded[name] for name in names if name in loaded))
 
 
 def module_stem(file: str) -> str:
@@ -44,7 +44,7 @@ def module_stem(file: str) -> str:
     return file.replace("\\", "/").rpartition("/")[2].rpartition(".")[0]
 
 
-def delivered(manifest: Members) -> Under:
+def delivered(manifest: Members) -> BaseController:
     """A controller as it is delivered, for what a manifest tells of it.
 
     Raises DiagnosticError RG711.
@@ -73,12 +73,12 @@ def delivered(manifest: Members) -> Under:
     except (KeyError, TypeError, ValueError) as fault:
         label = "its 'configuration' does not tell the robots"
         raise bad_manifest(Path("manifest.json"), label) from fault
-    return Under(cfg, System("", (), robotware=(major, minor)))
+    return BaseController(cfg, System("", (), robotware=(major, minor)))
 
 
 def additions(
     manifest: Members, texts: Mapping[str, bytes], without: Collection[str], folder: Path
-) -> tuple[Addition, ...]:
+) -> tuple[CfgFileLoad, ...]:
     """A build's cfg files in their order. Raises DiagnosticError RG701, RG702, RG711."""
     try:
         optional = {text(name) for name in items(manifest.get("optional") or [])}
@@ -89,13 +89,13 @@ def additions(
         if name not in without:
             file = parse_cfg(data, path=str(folder / name))
             # Services of the firewall exist on a delivered controller: they are set, not added.
-            found.append(Addition(file, name in optional, file.domain == "SIO", data.isascii()))
+            found.append(CfgFileLoad(file, name in optional, file.domain == "SIO", data.isascii()))
     return tuple(found)
 
 
 def onto(
-    under: Under,
-    given: Iterable[Addition],
+    under: BaseController,
+    given: Iterable[CfgFileLoad],
     load: Load,
     *,
     open_words: bool = True,

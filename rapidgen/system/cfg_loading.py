@@ -27,7 +27,7 @@ _IDENTITY = {
 
 
 @dataclass(frozen=True, slots=True)
-class Addition:
+class CfgFileLoad:
     """A file to be loaded. `optional`: it may be refused whole, and the rest stays."""
 
     file: CfgText
@@ -39,7 +39,7 @@ class Addition:
 
 
 @dataclass(frozen=True, slots=True)
-class Loaded:
+class LoadResult:
     """The controller with what it took, and what it said."""
 
     cfg: ControllerCfg
@@ -49,7 +49,9 @@ class Loaded:
     """Of optional files, which were left out whole."""
 
 
-def add(base: ControllerCfg, files: Iterable[Addition], *, open_words: bool = False) -> Loaded:
+def add(
+    base: ControllerCfg, files: Iterable[CfgFileLoad], *, open_words: bool = False
+) -> LoadResult:
     """Load the files onto a controller, those that may be refused after the others.
 
     `open_words`: statuses whose spelling on RobotWare 7 nobody has shown are taken.
@@ -58,13 +60,13 @@ def add(base: ControllerCfg, files: Iterable[Addition], *, open_words: bool = Fa
     needed = [addition for addition in given if not addition.optional]
     cfg, faults = _loaded(base, needed, open_words)
     if faults:
-        return Loaded(base, faults)
+        return LoadResult(base, faults)
     notes: list[Diagnostic] = []
     for addition in given:
         if addition.optional:
             cfg, found = _loaded(cfg, [addition], open_words)
             notes += _left_out(addition.file, found)
-    return Loaded(cfg, (), tuple(notes))
+    return LoadResult(cfg, (), tuple(notes))
 
 
 def faults_within(cfg: ControllerCfg, *, open_words: bool = False) -> tuple[Diagnostic, ...]:
@@ -80,7 +82,7 @@ def faults_within(cfg: ControllerCfg, *, open_words: bool = False) -> tuple[Diag
 
 
 def _loaded(
-    base: ControllerCfg, files: Iterable[Addition], open_words: bool
+    base: ControllerCfg, files: Iterable[CfgFileLoad], open_words: bool
 ) -> tuple[ControllerCfg, tuple[Diagnostic, ...]]:
     """The files together: one may name what another brings."""
     cfg = base

@@ -9,7 +9,14 @@ from pathlib import Path
 from rapidgen._json import Json, Members, items, members, text, whole
 from rapidgen.diagnostics import Diagnostic
 from rapidgen.system.backup import backup_cfg, read_backup
-from rapidgen.system.build_loading import Under, additions, bad_manifest, delivered, of_backup, onto
+from rapidgen.system.build_loading import (
+    BaseController,
+    additions,
+    bad_manifest,
+    delivered,
+    of_backup,
+    onto,
+)
 from rapidgen.system.cfg_reader import ModuleEntry
 from rapidgen.system.loading import Origin, load_entries
 from rapidgen.system.model import ModuleFile, System, TaskSpec
@@ -91,7 +98,7 @@ def read_folder(
     )
 
 
-def _under(manifest: Members, backup: Path | str | None, notes: list[Diagnostic]) -> Under:
+def _under(manifest: Members, backup: Path | str | None, notes: list[Diagnostic]) -> BaseController:
     if backup is None:
         return delivered(manifest)
     system = read_backup(backup, notes=notes)

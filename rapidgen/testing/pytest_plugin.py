@@ -26,7 +26,7 @@ import pytest
 from rapidgen._compat import Unpack
 
 if TYPE_CHECKING:
-    from rapidgen.controller.controller import Choices, VirtualController
+    from rapidgen.controller.controller import ControllerOptions, VirtualController
     from rapidgen.controller.faults import FaultPlan
     from rapidgen.system.model import System
     from rapidgen.testing.client import Client
@@ -87,7 +87,7 @@ def virtual_controller(
     list, or a `System`. `robot`, `entry`, `cell` and `start` are those of `rapidgen run`, all other
     options those of `VirtualController`. All are closed after the test.
     """
-    from rapidgen.controller.boot_targets import Wishes, load_target
+    from rapidgen.controller.boot_targets import BootOptions, load_target
     from rapidgen.controller.controller import VirtualController
     from rapidgen.system.model import System
 
@@ -100,7 +100,7 @@ def virtual_controller(
         entry: str = "",
         cell: Path | str = "",
         start: Sequence[float] = (),
-        **options: "Unpack[Choices]",
+        **options: "Unpack[ControllerOptions]",
     ) -> VirtualController:
         options.setdefault("seed", virtual_seed)
         if isinstance(target, System):
@@ -108,7 +108,7 @@ def virtual_controller(
             return made[-1]
         tasks = target if isinstance(target, Mapping) else {}
         files = [target] if isinstance(target, str | Path) else [] if tasks else list(target)
-        wishes = Wishes(tasks, robot=robot, entry=entry, cell=cell, start=start)
+        wishes = BootOptions(tasks, robot=robot, entry=entry, cell=cell, start=start)
         made.append(VirtualController.boot(load_target(files, wishes), **options))
         return made[-1]
 

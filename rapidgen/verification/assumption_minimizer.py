@@ -29,7 +29,7 @@ def smallest(suspects: Sequence[str], breaks: Callable[[Sequence[str]], bool]) -
     return tuple(left)
 
 
-def blamed(
+def minimal_assumptions(
     rows: Mapping[str, Sequence[str]], breaks: Callable[[Sequence[str]], bool]
 ) -> dict[str, tuple[str, ...]]:
     """By row in which a case broke: the smallest part of its assumptions that breaks it.

@@ -18,7 +18,7 @@ Boot: TypeAlias = Callable[[RobotConfig, System, Setting], Bench]
 """Gives a controller of which nothing has run yet; `Bench` is one."""
 
 
-class FreshBenches:
+class BenchPool:
     """Those of a worker, by what is decided at boot."""
 
     def __init__(self) -> None:

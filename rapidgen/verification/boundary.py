@@ -17,13 +17,13 @@ from rapidgen.system.model import System
 from rapidgen.verification import messages
 from rapidgen.verification.batches import checksum
 from rapidgen.verification.messages import POINT_BYTES, RawAcknowledged, RawComm
-from rapidgen.verification.model import Broken
+from rapidgen.verification.model import CheckFailed
 from rapidgen.verification.raw_connection import RawLink
-from rapidgen.verification.raw_programs import Programmer, RawOrder
+from rapidgen.verification.raw_programs import Programmer, RawMove
 from rapidgen.verification.settings import Setting
 from rapidgen.verification.stream import BEGIN, Streamer
 from rapidgen.verification.testbench import FAILURES, Bench
-from rapidgen.verification.worker_pool import in_a_fork
+from rapidgen.verification.worker_pool import run_in_fork
 from rapidgen.wire.simple_message.declaration import MessageType, Wire
 from rapidgen.wire.simple_message.messages import MESSAGES
 
@@ -223,10 +223,10 @@ def _streaming(bench: Bench, motion: RawLink, control: RawLink) -> None:
 
 def _program(bench: Bench, motion: RawLink, control: RawLink) -> None:
     ways = [place for place, _ in bench.wave(8, duration=1.0)]
-    orders = [RawOrder(messages.RawInstruction.MOVE_ABSJ, place, None) for place in ways[1:]]
+    orders = [RawMove(messages.RawInstruction.MOVE_ABSJ, place, None) for place in ways[1:]]
     told = Programmer(bench, motion).send(orders)
     if not isinstance(told, messages.RawPointsAccepted):
-        raise Broken(f"a program is answered with {told}")
+        raise CheckFailed(f"a program is answered with {told}")
     bench.wait_until_moving()
 
 
@@ -277,7 +277,7 @@ def failing(prepared: Prepared, trials: Sequence[Trial]) -> list[tuple[Trial, st
     """
     found, rest = [], list(trials)
     while rest:
-        fault, done = in_a_fork(lambda: _outcome(prepared, rest))  # noqa: B023
+        fault, done = run_in_fork(lambda: _outcome(prepared, rest))  # noqa: B023
         if fault:
             found += _blamed(prepared, rest[:done], fault)
         rest = rest[done:]
@@ -342,7 +342,7 @@ def served(prepared: Prepared) -> None:
     bench.run(2.5)
     control = bench.control()
     if not isinstance(control.ask(messages.RawPing()), RawAcknowledged):
-        raise Broken("PING on the control port is not confirmed")
+        raise CheckFailed("PING on the control port is not confirmed")
     watcher = bench.watcher()
     bench.progress(watcher)
     motion = bench.motion()
@@ -355,7 +355,7 @@ def served(prepared: Prepared) -> None:
         bench.rests(1, 0.5, "it was stopped")
     status = bench.status(watcher)
     if not status.motion_possible:
-        raise Broken(f"in the end no motion is possible: {status}")
+        raise CheckFailed(f"in the end no motion is possible: {status}")
     for link in (motion, control, watcher):
         link.close()
     bench.healthy()

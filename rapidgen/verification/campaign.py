@@ -9,7 +9,7 @@ from typing import Generic, TypeAlias, TypeVar, cast
 from pydantic import TypeAdapter
 
 from rapidgen.verification.result_file import Results
-from rapidgen.verification.worker_pool import Call, Known, Workers, in_order
+from rapidgen.verification.worker_pool import CachedResult, Call, WorkerPool, in_order
 
 T = TypeVar("T")
 R = TypeVar("R")
@@ -52,7 +52,7 @@ class Campaign:
     """Results of work, in its order, whoever does it and however often it is broken off."""
 
     def __init__(
-        self, workers: Workers, results: Results, limits: Limits, progress: Progress | None
+        self, workers: WorkerPool, results: Results, limits: Limits, progress: Progress | None
     ) -> None:
         self.workers = workers
         self.left = 0
@@ -70,12 +70,12 @@ class Campaign:
         """The results that come within the limits."""
         keys: list[str] = []
 
-        def make(number: int) -> Call | Known:
+        def make(number: int) -> Call | CachedResult:
             item = work.item(number)
             keys.append(work.key(item))
             known = self._results.known(keys[-1])
             if known is not None:
-                return Known(work.kept_as.validate_python(known, strict=False))
+                return CachedResult(work.kept_as.validate_python(known, strict=False))
             return Call(number, work.function, item)
 
         done = 0

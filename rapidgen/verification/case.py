@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
-from rapidgen.verification.model import NothingToProve
+from rapidgen.verification.model import NotApplicable
 from rapidgen.verification.testbench import Bench
 
 Proving: TypeAlias = Callable[[Bench], None]
@@ -13,7 +13,7 @@ Part: TypeAlias = Literal["control", "stream", "feedback", "events"]
 
 
 @dataclass(frozen=True, slots=True)
-class Behaviour:
+class SuiteCase:
     """One behaviour of the driver: a case of the suite.
 
     `answers` names what upstream gets wrong here, if anything.
@@ -29,7 +29,7 @@ class Behaviour:
     once: bool = False
 
 
-class Theme:
+class SuiteGroup:
     """The cases of one file, in the order of its text: a decorator that says a case's own facts.
 
     Where the driver lacks what a case `needs`, or all of them, there is nothing to prove; nor is
@@ -39,7 +39,7 @@ class Theme:
     def __init__(self, group: str, *, needs: Part | None = None) -> None:
         self._group = group
         self._needs = needs
-        self.cases: list[Behaviour] = []
+        self.cases: list[SuiteCase] = []
 
     def __call__(
         self,
@@ -57,7 +57,7 @@ class Theme:
             own = _in_the_background(prove) if background else prove
             for part in (needs, self._needs):
                 own = own if part is None else _where_there_is(part, own)
-            self.cases.append(Behaviour(name, title, self._group, own, answers, once))
+            self.cases.append(SuiteCase(name, title, self._group, own, answers, once))
             return prove
 
         return made
@@ -67,9 +67,9 @@ def _where_there_is(part: Part, prove: Proving) -> Proving:
     def proved(bench: Bench) -> None:
         if part == "control":
             if not bench.group.ports.control:
-                raise NothingToProve("there is no control port")
+                raise NotApplicable("there is no control port")
         elif bench.config.profile != "full":
-            raise NothingToProve(f"the profile is {bench.config.profile}")
+            raise NotApplicable(f"the profile is {bench.config.profile}")
         prove(bench)
 
     return proved
@@ -78,7 +78,7 @@ def _where_there_is(part: Part, prove: Proving) -> Proving:
 def _in_the_background(prove: Proving) -> Proving:
     def proved(bench: Bench) -> None:
         if bench.config.commissioning:
-            raise NothingToProve("while commissioning, background tasks stop with the program")
+            raise NotApplicable("while commissioning, background tasks stop with the program")
         prove(bench)
 
     return proved

@@ -20,8 +20,8 @@ from distributed.scheduler import KilledWorker
 from rapidgen._compat import Self
 from rapidgen.diagnostics import DiagnosticError, refusal
 from rapidgen.verification.build_identity import identity
-from rapidgen.verification.worker_pool import Call, WorkersLost, raise_here
-from rapidgen.verification.worker_process import Engine, EngineLost
+from rapidgen.verification.worker_pool import Call, WorkersLost, reraise
+from rapidgen.verification.worker_process import WorkerProcess, WorkerProcessLost
 
 CONNECTS = 10
 """s in which the scheduler answers."""
@@ -126,11 +126,11 @@ class Cluster:
         del self._given[given.piece.number]
         try:
             good, result = self._fetched(given)
-        except (EngineLost, KilledWorker, FutureCancelledError):
+        except (WorkerProcessLost, KilledWorker, FutureCancelledError):
             self._again(given)
             return []
         if not good:
-            raise_here(result)
+            reraise(result)
         return [(given.piece.number, result)]
 
     def _fetched(self, given: _Given) -> tuple[bool, object]:
@@ -144,7 +144,9 @@ class Cluster:
             except TimeoutError:
                 if given.worker not in self._client.nthreads():
                     self._client.cancel([given.future])
-                    raise EngineLost(f"worker {given.worker} took its result along") from None
+                    raise WorkerProcessLost(
+                        f"worker {given.worker} took its result along"
+                    ) from None
             else:
                 return outcome
 
@@ -158,7 +160,7 @@ class Cluster:
         self._looked = time.monotonic()
         new = [worker for worker in there if worker not in {*self._workers, *self._refused}]
         answers = self._client.run(
-            admitted, identity(), self._key, self._context, workers=new, on_error="return"
+            rejection_reason, identity(), self._key, self._context, workers=new, on_error="return"
         )
         for worker in new:
             answer = answers.get(worker)
@@ -195,11 +197,11 @@ def _none(address: str, what: str, mend: str) -> DiagnosticError:
 # -- in the process of a Dask worker --------------------------------------------------------------
 
 _contexts: dict[str, bytes] = {}
-_idle: dict[str, list[Engine]] = {}
+_idle: dict[str, list[WorkerProcess]] = {}
 _lock = threading.Lock()
 
 
-def admitted(build: str, key: str, context: bytes) -> str:
+def rejection_reason(build: str, key: str, context: bytes) -> str:
     """Why this worker cannot be used; empty: it can, and has the context now."""
     if identity() != build:
         return f"its rapidgen is {identity()}, not {build}"
@@ -213,7 +215,7 @@ def perform(key: str, function: Callable[..., object], item: object) -> tuple[bo
     with _lock:
         idle = _idle.setdefault(key, [])
         engine = idle.pop() if idle else None
-    engine = engine or Engine(_contexts[key])
+    engine = engine or WorkerProcess(_contexts[key])
     outcome = engine.work(function, item)
     with _lock:
         _idle.setdefault(key, []).append(engine)

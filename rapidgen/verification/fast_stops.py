@@ -12,7 +12,7 @@ import random
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from rapidgen.verification.model import Broken
+from rapidgen.verification.model import CheckFailed
 from rapidgen.verification.position_checks import Point, Position
 from rapidgen.verification.raw_connection import RawLink
 from rapidgen.verification.testbench import FAILURES, Bench
@@ -82,7 +82,7 @@ def _at_speed(bench: Bench, chance: random.Random) -> tuple[RawLink, float]:
             if share >= FAST:
                 return link, share
         bench.run(1)
-    raise Broken(f"no axis ran at {FAST:.0%} of its speed in {ATTEMPTS} trajectories")
+    raise CheckFailed(f"no axis ran at {FAST:.0%} of its speed in {ATTEMPTS} trajectories")
 
 
 def _anywhere(bench: Bench, chance: random.Random) -> Position:

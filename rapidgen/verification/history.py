@@ -8,10 +8,10 @@ from typing import TextIO
 from rapidgen.verification import messages
 from rapidgen.verification.instruction_hooks import Order, watched_orders
 from rapidgen.verification.messages import RawReason
-from rapidgen.verification.model import Broken
+from rapidgen.verification.model import CheckFailed
 from rapidgen.verification.position_checks import SETTLED, Point, Position, distance, off
 from rapidgen.verification.raw_connection import STOP, RawLink
-from rapidgen.verification.schedule import Disturbance, Plan
+from rapidgen.verification.schedule import Disturbance, TaskSchedule
 from rapidgen.verification.stream import BEGIN, END, NONE, Streamer
 from rapidgen.verification.testbench import Bench
 
@@ -27,7 +27,7 @@ class History:
     def __init__(
         self,
         bench: Bench,
-        schedule: Plan,
+        schedule: TaskSchedule,
         silence: float,
         trace: TextIO | None,
     ) -> None:
@@ -187,7 +187,7 @@ class History:
         end = self.bench.position
         moved = any(distance(p, start) > 1e-3 for t, p in self.bench.track if t >= since)
         if moved and distance(end, points[-1][0]) > 1e-3:
-            raise Broken(
+            raise CheckFailed(
                 f"a trajectory of {len(points)} points that nothing disturbed ended "
                 f"{distance(end, points[-1][0]):.3f} rad before its last point"
             )
@@ -212,7 +212,7 @@ class History:
         answered = self.bench.now
         self.bench.wait_until_standing(10)
         self._on_the_way([start, *(p for p, _ in points)], since)
-        nothing_follows(self.orders, sent[0], answered)
+        assert_no_move_follows(self.orders, sent[0], answered)
         self.bench.stays(self.chance.uniform(0.5, 2), "it was stopped")
 
     def interrupted(self) -> None:
@@ -254,11 +254,13 @@ class History:
         end = self.bench.position
         on_first = _nearest(end, [start, *(p for p, _ in first)])
         if distance(end, second[-1][0]) > 1e-3 and on_first > CORNER:
-            raise Broken("the robot ended neither on the old trajectory nor at the new one's end")
+            raise CheckFailed(
+                "the robot ended neither on the old trajectory nor at the new one's end"
+            )
         ways = list(pairwise([start, *(p for p, _ in first), here, *(p for p, _ in second)]))
         for when, seen in self.bench.track:
             if when >= since and all(off(seen, a, b) > 2 * CORNER for a, b in ways):
-                raise Broken(f"at {when:.3f} s the robot was on the way to nowhere")
+                raise CheckFailed(f"at {when:.3f} s the robot was on the way to nowhere")
 
     def vanishes(self) -> None:
         """The client is gone: with a word, without one, or in the middle of a download."""
@@ -302,7 +304,7 @@ class History:
         self._on_the_way([start, *(p for p, _ in points[: stream.sent])], since)
         end = self.bench.position
         if ending in ("whole", "pause", "hole") and accepted and distance(end, last) > 1e-3:
-            raise Broken(
+            raise CheckFailed(
                 f"{accepted} points of a stream were accepted, the robot ended "
                 f"{distance(end, last):.4f} rad off the last of them"
             )
@@ -374,10 +376,10 @@ class History:
             if attempt == 0:
                 # What was under way may have been in its way; now nothing is.
                 self.bench.wait_until_standing(30)
-        raise Broken("in the end a good client's trajectory does not move the robot")
+        raise CheckFailed("in the end a good client's trajectory does not move the robot")
 
 
-def nothing_follows(orders: Sequence[Order], sent: float, answered: float) -> None:
+def assert_no_move_follows(orders: Sequence[Order], sent: float, answered: float) -> None:
     """Broken where a free robot got a move once it was stopped for a STOP."""
     stops = [
         order.time
@@ -387,7 +389,7 @@ def nothing_follows(orders: Sequence[Order], sent: float, answered: float) -> No
     over = stops[-1] if stops else answered
     for order in orders:
         if order.time > over and order.free and order.instruction != "StopMove":
-            raise Broken(
+            raise CheckFailed(
                 f"STOP was sent at {sent:.4f} s, the robot was stopped at {over:.4f} s, set "
                 f"free, and got {order.instruction} of the old trajectory at {order.time:.4f} s"
             )

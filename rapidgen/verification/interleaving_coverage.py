@@ -24,7 +24,7 @@ ROBOT = ("stopmove", "startmove", "clearpath", "moveabsj", "movej", "movel", "mo
 
 
 @dataclass(frozen=True, slots=True)
-class Spots:
+class RacePoints:
     """Lines where tasks meet, numbered; and by module file's path those of its tokens, -1 where
     tasks do not meet."""
 
@@ -32,7 +32,7 @@ class Spots:
     tokens: dict[str, list[int]]
 
 
-def spots(system: System) -> Spots:
+def spots(system: System) -> RacePoints:
     """Where tasks of a driver meet."""
     texts = {module.path: module.data for task in system.tasks for module in task.modules}
     trees = {path: parse(data, path=path) for path, data in texts.items()}
@@ -56,13 +56,13 @@ def spots(system: System) -> Spots:
         path: [lines.get((path, tree.source.line(n)), -1) for n in range(len(tree.source.tokens))]
         for path, tree in trees.items()
     }
-    return Spots(lines, tokens)
+    return RacePoints(lines, tokens)
 
 
-class Pairs:
+class RacePairs:
     """The pairs of one controller, from now on."""
 
-    def __init__(self, controller: VirtualController, spots: Spots) -> None:
+    def __init__(self, controller: VirtualController, spots: RacePoints) -> None:
         self._tokens = spots.tokens
         self._numbers: dict[int, int] = {}
         self._nodes: list[n.Statement] = []

@@ -9,7 +9,7 @@ from enum import IntEnum, IntFlag
 from itertools import islice
 from typing import NamedTuple, TypeAlias
 
-from rapidgen.verification.model import Broken
+from rapidgen.verification.model import CheckFailed
 from rapidgen.wire.simple_message import spec
 
 PROTOCOL_VERSION = 4
@@ -542,7 +542,7 @@ class Splitter:
         while len(self._rest) >= 4:
             length = int.from_bytes(self._rest[:4], "little", signed=True)
             if not SHORTEST <= length <= LONGEST:
-                raise Broken(f"length field is {length}, must be {SHORTEST} to {LONGEST}")
+                raise CheckFailed(f"length field is {length}, must be {SHORTEST} to {LONGEST}")
             if len(self._rest) < 4 + length:
                 break
             _, number, comm, reply = _HEAD.unpack_from(self._rest)
@@ -573,7 +573,7 @@ def decode(frame: RawFrame) -> RawContent:
     if good and comm == RawComm.REPLY and not data:
         return RawAcknowledged() if code == RawReplyCode.SUCCESS else RawFailure()
     if not good or (number, code, len(data)) not in _KNOWN:
-        raise Broken(f"no message has type {number}, {comm=}, {code=} and {len(data)} bytes")
+        raise CheckFailed(f"no message has type {number}, {comm=}, {code=} and {len(data)} bytes")
     kind, layout = _KNOWN[number, code, len(data)]
     values = iter(struct.unpack("<" + layout, data))
     fields: list[object] = []

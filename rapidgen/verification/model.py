@@ -14,11 +14,11 @@ def title(name: str) -> str:
     return name if is_program(name) else f"schedule {name}"
 
 
-class Broken(Exception):
+class CheckFailed(Exception):
     """A demand that did not hold. The text says what was wanted and what was seen."""
 
 
-class NothingToProve(Exception):
+class NotApplicable(Exception):
     """Raised by a case that is about what the driver or the controller does not have; says what."""
 
 
@@ -32,7 +32,7 @@ class Series:
 
 
 @dataclass(frozen=True, slots=True)
-class Verdict:
+class CaseResult:
     """What came out of one case, by name, under one setting of the assumptions."""
 
     case: str
@@ -56,7 +56,7 @@ class Verdict:
 
 
 @dataclass(frozen=True, slots=True)
-class Finding:
+class Counterexample:
     """A schedule that broke the invariant, or a program that moved otherwise than in RAPID; its
     name replays it exactly."""
 
@@ -72,15 +72,15 @@ class Finding:
 
 
 @dataclass(slots=True)
-class Proof:
+class SuiteResult:
     """A run of the suite."""
 
     name: str
     build_id: str
-    outcomes: list[Verdict] = field(default_factory=list)
+    outcomes: list[CaseResult] = field(default_factory=list)
     rows: dict[str, tuple[str, ...]] = field(default_factory=dict)
     """What the settings assume other than by default, by name."""
-    findings: list[Finding] = field(default_factory=list)
+    findings: list[Counterexample] = field(default_factory=list)
     schedules: int = 0
     programs: int = 0
     """Random motion programs that were tried."""
@@ -95,7 +95,7 @@ class Proof:
     """Lines of RAPID by file, and how often the cases reached them; empty: not the whole suite."""
 
     @property
-    def tried(self) -> list[Verdict]:
+    def tried(self) -> list[CaseResult]:
         """Outcomes of the cases that had something to prove."""
         return [outcome for outcome in self.outcomes if not outcome.untried]
 

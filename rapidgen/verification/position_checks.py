@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from typing import TypeAlias
 
 from rapidgen.config.model import Joint
-from rapidgen.verification.model import Broken
+from rapidgen.verification.model import CheckFailed
 
 Position: TypeAlias = tuple[float, ...]
 Point: TypeAlias = tuple[Position, float]
@@ -56,7 +56,7 @@ def still(track: Track, place: Position, why: str) -> None:
     """Broken where the robot was anywhere but at `place`."""
     for when, seen in track:
         if distance(seen, place) > SETTLED:
-            raise Broken(f"the robot moved at {when:.3f} s: {why}")
+            raise CheckFailed(f"the robot moved at {when:.3f} s: {why}")
 
 
 def on_path(track: Track, path: Sequence[Position], corner: float = 0.05) -> None:
@@ -73,7 +73,7 @@ def on_path(track: Track, path: Sequence[Position], corner: float = 0.05) -> Non
                 break
             at, near = at + 1, ahead
         if near > corner:
-            raise Broken(
+            raise CheckFailed(
                 f"at {when:.3f} s the robot was {near:.4f} rad off what was asked "
                 f"(near point {at + 1})"
             )

@@ -12,11 +12,11 @@ from rapidgen.controller.tracing import Trace
 from rapidgen.diagnostics import refusal
 from rapidgen.system.model import System
 from rapidgen.verification.bench_pool import Boot
-from rapidgen.verification.model import Finding
-from rapidgen.verification.raw_programs import Programmer, RawOrder, called, in_rapid, orders
-from rapidgen.verification.schedule_exploration import Explored, Recording
+from rapidgen.verification.model import Counterexample
+from rapidgen.verification.raw_programs import Programmer, RawMove, called, in_rapid, orders
+from rapidgen.verification.schedule_exploration import Recording, ScheduleResult
 from rapidgen.verification.settings import Setting
-from rapidgen.verification.suite.programs import Unlike, one_like_rapid
+from rapidgen.verification.suite.programs import MotionDiffers, program_matches_rapid
 from rapidgen.verification.testbench import FAILURES, Bench
 
 LONGEST = 12
@@ -35,27 +35,27 @@ def name_of(seed: int) -> str:
     return f"program/{seed}"
 
 
-def takes_programs(config: RobotConfig) -> None:
+def require_programs(config: RobotConfig) -> None:
     """Refuse a driver that takes none. Raises DiagnosticError RG810."""
     if config.profile != "full":
         mend = "take --programs away, or build it with `profile: full`"
         raise refusal("RG810", None, f"the driver of {config.name} takes no programs", mend)
 
 
-def liken(
+def compare_program(
     config: RobotConfig,
     system: System,
     name: str,
     trace: TextIO | None = None,
     record: Recording | None = None,
     boot: Boot = Bench,
-) -> Explored:
+) -> ScheduleResult:
     """Run a random program, and the same one in RAPID: path within 0.01 mm, time within 0.5 %.
 
     The story is the program in RAPID. `trace` and `record` as for `explore`: of the last look.
     """
     seen = trace is not None or record is not None
-    tried = Explored(name, "", None)
+    tried = ScheduleResult(name, "", None)
     for sample, rounding in LOOKS[-1:] if seen else LOOKS:
         tried, unlike = _look(config, system, name, sample, rounding, trace, record, boot)
         if not unlike:
@@ -72,7 +72,7 @@ def _look(
     trace: TextIO | None,
     record: Recording | None,
     boot: Boot,
-) -> tuple[Explored, bool]:
+) -> tuple[ScheduleResult, bool]:
     """The same, once, and whether it is the likeness that did not hold."""
     chance = random.Random(name)
     finding, unlike = None, False
@@ -88,18 +88,18 @@ def _look(
             other = boot(config, called(config, bench.group.task), setting)
             other.sample = sample
             hand = [_rounded(order, rounding) for order in program]
-            one_like_rapid(Programmer(bench), bench, program, other, hand)
+            program_matches_rapid(Programmer(bench), bench, program, other, hand)
             bench.healthy()
         except FAILURES as error:
-            finding = Finding(name, str(error), plan, bench.log())
-            unlike = isinstance(error, Unlike)
+            finding = Counterexample(name, str(error), plan, bench.log())
+            unlike = isinstance(error, MotionDiffers)
         finally:
             if end is not None:
                 end()
-    return Explored(name, plan, finding), unlike
+    return ScheduleResult(name, plan, finding), unlike
 
 
-def _rounded(order: RawOrder, rounding: int) -> RawOrder:
+def _rounded(order: RawMove, rounding: int) -> RawMove:
     """The same move: a rotation's parts may be multiplied by anything."""
     if order.pose is None or not rounding:
         return order

@@ -16,7 +16,7 @@ from rapidgen.verification.messages import (
     decode,
     encode,
 )
-from rapidgen.verification.model import Broken
+from rapidgen.verification.model import CheckFailed
 from rapidgen.verification.position_checks import Point, Position
 
 if TYPE_CHECKING:
@@ -90,7 +90,7 @@ class RawLink:
                     content = decode(frame)
                     if isinstance(content, RawTrajectoryPoint):
                         self._keep(content)
-        except Broken:
+        except CheckFailed:
             self._said = None
 
     def _keep(self, point: RawTrajectoryPoint) -> None:

@@ -9,7 +9,7 @@ from rapidgen.axes.frames import Pose
 from rapidgen.config.model import RobotConfig
 from rapidgen.controller.cell import in_its_cell
 from rapidgen.generate import build, make_system
-from rapidgen.motion.moves import Carrier
+from rapidgen.motion.moves import MoveFrames
 from rapidgen.runtime.builtins.motion.targets import rob_target
 from rapidgen.runtime.robot_data import NO_OFFSETS
 from rapidgen.runtime.values import Value
@@ -23,7 +23,7 @@ from rapidgen.verification.messages import (
     RawReason,
     RawStreamFlag,
 )
-from rapidgen.verification.model import Broken
+from rapidgen.verification.model import CheckFailed
 from rapidgen.verification.position_checks import Position
 from rapidgen.verification.raw_connection import RawLink
 from rapidgen.verification.testbench import Bench
@@ -44,7 +44,7 @@ _NAMES = {
 
 
 @dataclass(frozen=True, slots=True)
-class RawOrder:
+class RawMove:
     """A move: the joints at its end (rad, m), the pose that they reach, `via` on a circle. `speed`
     (m/s), `turn` of the tool and of rotary external axes (rad/s), `linear` of the other ones (m/s)
     and `zone` (m, rad; None: a stop point) stand in every instruction; `frames` are
@@ -98,7 +98,7 @@ class Programmer:
         self.number = 0
 
     def send(
-        self, orders: Sequence[RawOrder], flags: RawStreamFlag = ALL, start: Position | None = None
+        self, orders: Sequence[RawMove], flags: RawStreamFlag = ALL, start: Position | None = None
     ) -> messages.RawContent:
         """A program in messages of some instructions; the last reply, or the first refusal."""
         self.number += 1
@@ -121,32 +121,32 @@ class Programmer:
         self.link.send(words_frame(self.number, first, count, words, flags, number=PROGRAM))
         return self.link.reply(PROGRAM, 5)
 
-    def takes(self, what: str, orders: Sequence[RawOrder], flags: RawStreamFlag = ALL) -> int:
+    def takes(self, what: str, orders: Sequence[RawMove], flags: RawStreamFlag = ALL) -> int:
         """Send a program; Broken unless it is taken. Its number among the trajectories."""
         told = self.send(orders, flags)
         if not isinstance(told, messages.RawPointsAccepted) or told.accepted != len(orders):
-            raise Broken(f"{what}: {len(orders)} instructions are right, the reply is {told}")
+            raise CheckFailed(f"{what}: {len(orders)} instructions are right, the reply is {told}")
         return told.trajectory
 
     def refused(self, told: messages.RawContent, reason: RawReason, index: int, what: str) -> None:
         """Broken unless a reply is a refusal for that reason, at that instruction."""
         if not isinstance(told, messages.RawPointsRefused):
-            raise Broken(f"{what}: wanted {reason.name}, the reply is {told}")
+            raise CheckFailed(f"{what}: wanted {reason.name}, the reply is {told}")
         if (told.reason, told.point) != (reason, index):
-            raise Broken(f"{what}: wanted {reason.name} at {index}, the reply is {told}")
+            raise CheckFailed(f"{what}: wanted {reason.name} at {index}, the reply is {told}")
 
 
-def orders(bench: Bench, count: int, chance: random.Random) -> list[RawOrder]:
+def orders(bench: Bench, count: int, chance: random.Random) -> list[RawMove]:
     """Moves in the neighbourhood of a place that no robot finds singular, the last a stop point."""
     middle = bent(bench)
-    found = [RawOrder(RawInstruction.MOVE_ABSJ, middle, None, zone=None)]
+    found = [RawMove(RawInstruction.MOVE_ABSJ, middle, None, zone=None)]
     poses = computes(bench)
     for number in range(1, count):
         joints = near(bench, middle, chance)
         kind = chance.choice(_KINDS) if poses else RawInstruction.MOVE_ABSJ
         pose = None if kind is RawInstruction.MOVE_ABSJ else reached(bench, joints)
         zone = chance.choice((0.002, 0.005, 0.01)) if number + 1 < count else None
-        found.append(RawOrder(kind, joints, pose, None, chance.choice((0.1, 0.15)), zone))
+        found.append(RawMove(kind, joints, pose, None, chance.choice((0.1, 0.15)), zone))
     return found
 
 
@@ -189,7 +189,7 @@ def target_of(bench: Bench, joints: Position) -> Value:
     """The robtarget of joints, as the controller has it."""
     group, tool, wobj = bench.motion_group, bench.group.tool.frame, bench.group.work_object
     assert group.kinematics is not None
-    carrier = Carrier(
+    carrier = MoveFrames(
         tool=(tool.position, tool.orientation),
         object=(wobj.user_frame.position, wobj.user_frame.orientation),
     )
@@ -219,13 +219,13 @@ def called(config: RobotConfig, name: str) -> System:
     return in_its_cell(replace(system, tasks=tasks), config)
 
 
-def by_hand(bench: Bench, program: Sequence[RawOrder]) -> None:
+def by_hand(bench: Bench, program: Sequence[RawMove]) -> None:
     """Let the program of a controller that is `called` make these moves, in RAPID's own words."""
     module = ModuleFile(*HAND, in_rapid(bench, program).encode())
     bench.replace_module(bench.group.task, module)
 
 
-def in_rapid(bench: Bench, program: Sequence[RawOrder]) -> str:
+def in_rapid(bench: Bench, program: Sequence[RawMove]) -> str:
     """A module whose `main` makes these moves."""
     moves = (_statement(bench, order) for order in program)
     # Time to put the robot where it begins.
@@ -236,7 +236,7 @@ def _hand(body: str) -> str:
     return f"MODULE hand\n    PROC main()\n{body}    ENDPROC\nENDMODULE\n"
 
 
-def _statement(bench: Bench, order: RawOrder) -> str:
+def _statement(bench: Bench, order: RawMove) -> str:
     degrees = 57.29577951308232
     tcp, turn, linear, rotary = order.speeds
     speed = _list((tcp * 1000, turn * degrees, linear * 1000, rotary * degrees))

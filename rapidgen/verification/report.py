@@ -11,7 +11,7 @@ from xml.etree import ElementTree
 
 from rapidgen import __version__
 from rapidgen._json import Json
-from rapidgen.verification.model import Proof, Series, Verdict
+from rapidgen.verification.model import CaseResult, Series, SuiteResult
 
 if TYPE_CHECKING:
     from rapidgen.verification.testbench import Bench
@@ -48,7 +48,7 @@ document.getElementById("search").addEventListener("input", event => {
 """
 
 
-def as_json(report: Proof) -> dict[str, Json]:
+def as_json(report: SuiteResult) -> dict[str, Json]:
     """The report as data: every outcome, and what its setting assumes other than by default."""
     reached, of = report.covered
     return {
@@ -81,7 +81,7 @@ def as_json(report: Proof) -> dict[str, Json]:
     }
 
 
-def write_junit(report: Proof, path: Path) -> None:
+def write_junit(report: SuiteResult, path: Path) -> None:
     """JUnit XML: one test case an outcome, one for each schedule that broke the invariant."""
     failures = sum(not o.passed for o in report.outcomes) + len(report.findings)
     suite = ElementTree.Element(
@@ -125,7 +125,7 @@ def write_junit(report: Proof, path: Path) -> None:
     path.write_bytes(ElementTree.tostring(root, encoding="utf-8", xml_declaration=True) + b"\n")
 
 
-def write_html(report: Proof, path: Path) -> None:
+def write_html(report: SuiteResult, path: Path) -> None:
     """One page: verdict, versions, a table for each group with a search over all of them, plots of
     commanded and executed joints, logs of failures."""
     verdict = "everything held" if report.passed else "something did not hold"
@@ -166,7 +166,7 @@ def _versions() -> str:
     return f"rapidgen {__version__} · Python {platform.python_version()} · {when}"
 
 
-def _group(name: str, outcomes: Sequence[Verdict]) -> str:
+def _group(name: str, outcomes: Sequence[CaseResult]) -> str:
     """Its cases, open where one did not hold."""
     tried = [outcome for outcome in outcomes if not outcome.untried]
     held = sum(outcome.passed for outcome in tried)
@@ -180,7 +180,7 @@ def _group(name: str, outcomes: Sequence[Verdict]) -> str:
     )
 
 
-def slowest(report: Proof, count: int) -> list[tuple[str, float, int]]:
+def slowest(report: SuiteResult, count: int) -> list[tuple[str, float, int]]:
     """Cases that took most: name, s of CPU in all settings together, and in how many."""
     taken: dict[str, list[float]] = {}
     for outcome in report.outcomes:
@@ -189,7 +189,7 @@ def slowest(report: Proof, count: int) -> list[tuple[str, float, int]]:
     return [(case, seconds, times) for seconds, case, times in rows[:count]]
 
 
-def untried(report: Proof) -> str:
+def untried(report: SuiteResult) -> str:
     """Of how many cases nothing was proven, and why; an empty text where all had something."""
     cases = {outcome.case for outcome in report.tried}
     why = {o.case: o.untried for o in report.outcomes if o.case not in cases}
@@ -197,7 +197,7 @@ def untried(report: Proof) -> str:
     return "; ".join(f"{reason} ({count})" for reason, count in reasons)
 
 
-def _coverage(report: Proof) -> str:
+def _coverage(report: SuiteResult) -> str:
     reached, of = report.covered
     if not of:
         return ""
@@ -207,7 +207,7 @@ def _coverage(report: Proof) -> str:
     )
 
 
-def met(report: Proof) -> str:
+def met(report: SuiteResult) -> str:
     """How many pairs of statements the schedules met, and whether there still were new ones."""
     if not report.curve:
         return ""
@@ -219,7 +219,7 @@ def met(report: Proof) -> str:
     )
 
 
-def _pairs(report: Proof) -> str:
+def _pairs(report: SuiteResult) -> str:
     """The curve of pairs over schedules."""
     if len(report.curve) < 2:
         return ""
@@ -228,7 +228,7 @@ def _pairs(report: Proof) -> str:
     return f"<p>{met(report)}.</p>" + _drawn((Series("pairs", times, values),))
 
 
-def missed(report: Proof) -> list[tuple[str, str]]:
+def missed(report: SuiteResult) -> list[tuple[str, str]]:
     """By file, the lines that no case reached, as `12, 15-17`."""
     found = []
     for path, lines in report.lines.items():
@@ -249,11 +249,11 @@ def missed(report: Proof) -> list[tuple[str, str]]:
     return found
 
 
-def _name(outcome: Verdict) -> str:
+def _name(outcome: CaseResult) -> str:
     return outcome.case + (f" [{outcome.setting}]" if outcome.setting else "")
 
 
-def complaint(outcome: Verdict) -> str:
+def complaint(outcome: CaseResult) -> str:
     """What did not hold, and the smallest part of the assumptions that makes it so."""
     told = f", that is {' and '.join(outcome.blamed)}" if outcome.blamed else ""
     setting = f" [{outcome.setting}{told}]" if outcome.setting else ""
@@ -264,7 +264,7 @@ def _xml(text: str) -> str:
     return "".join(c if c >= " " or c in "\n\t" else "?" for c in text)
 
 
-def _row(outcome: Verdict) -> str:
+def _row(outcome: CaseResult) -> str:
     verdict = '<td class="ok">ok' if outcome.passed else '<td class="bad">failed'
     if outcome.untried:
         verdict = f"<td>nothing to prove: {html.escape(outcome.untried)}"
@@ -274,7 +274,7 @@ def _row(outcome: Verdict) -> str:
     )
 
 
-def _details(outcome: Verdict) -> str:
+def _details(outcome: CaseResult) -> str:
     text = f"<h2>{html.escape(_name(outcome))}</h2><p>{html.escape(complaint(outcome))}</p>"
     if outcome.series:
         text += _plot(outcome.series)

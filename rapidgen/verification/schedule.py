@@ -45,7 +45,7 @@ class DriverLine:
 
 
 @dataclass(frozen=True, slots=True)
-class Where:
+class StatementHit:
     """The `count`-th time that a statement is reached, which then takes `busy` ms."""
 
     place: DriverLine
@@ -59,12 +59,12 @@ class Disturbance:
 
     name: str
     act: str
-    where: Where | None
+    where: StatementHit | None
     seed: str
 
 
 @dataclass(frozen=True, slots=True)
-class Plan:
+class TaskSchedule:
     """A whole schedule."""
 
     steps: tuple[Disturbance, ...]
@@ -75,7 +75,7 @@ class Plan:
 
 
 @dataclass(frozen=True, slots=True)
-class Ground:
+class ScheduleSpace:
     """What schedules are drawn from: steps that a driver knows, statements that it executes.
 
     `fault`: what is wrong with it while nothing disturbs it.
@@ -132,7 +132,7 @@ def _no_name(text: str) -> DiagnosticError:
     return refusal("RG807", None, f"'{text}' names no schedule", mend)
 
 
-def drawn(name: ScheduleName, ground: Ground) -> Plan:
+def drawn(name: ScheduleName, ground: ScheduleSpace) -> TaskSchedule:
     """The plan of that name: the same for the same driver."""
     plan = _fresh(name.seed, ground)
     for change in name.changes:
@@ -144,7 +144,7 @@ def drawn(name: ScheduleName, ground: Ground) -> Plan:
     return replace(plan, network="good") if name.calm else plan
 
 
-def _fresh(seed: int, ground: Ground) -> Plan:
+def _fresh(seed: int, ground: ScheduleSpace) -> TaskSchedule:
     chance = random.Random(f"{seed} plan")
     names = [name for name in ground.steps for _ in range(WEIGHTS.get(name, 1))]
     steps = tuple(
@@ -152,10 +152,10 @@ def _fresh(seed: int, ground: Ground) -> Plan:
         for number in range(chance.randrange(3, 7))
     )
     networks: tuple[Network, ...] = ("good", "good", "good", "delay", "split", "merge")
-    return Plan(steps, chance.choice(get_args(Order)), chance.choice(networks), str(seed))
+    return TaskSchedule(steps, chance.choice(get_args(Order)), chance.choice(networks), str(seed))
 
 
-def _step(name: str, seed: str, chance: random.Random, ground: Ground) -> Disturbance:
+def _step(name: str, seed: str, chance: random.Random, ground: ScheduleSpace) -> Disturbance:
     acts = ACTS.get(name)
     if acts is None:
         return Disturbance(name, "", None, seed)
@@ -164,15 +164,15 @@ def _step(name: str, seed: str, chance: random.Random, ground: Ground) -> Distur
     return Disturbance(name, act, None if by_time else _where(chance, ground), seed)
 
 
-def _where(chance: random.Random, ground: Ground) -> Where:
+def _where(chance: random.Random, ground: ScheduleSpace) -> StatementHit:
     """Mostly where the task that moves meets others: races are there."""
     moving = [place for place in ground.places if place.task == ground.task]
     meeting = [place for place in moving if place.meets] or moving
     chosen = chance.choice((meeting, meeting, meeting, moving, ground.places)) or ground.places
-    return Where(chance.choice(chosen), chance.choice(PASSES), chance.choice(BUSY))
+    return StatementHit(chance.choice(chosen), chance.choice(PASSES), chance.choice(BUSY))
 
 
-def _changed(plan: Plan, change: int, ground: Ground) -> Plan:
+def _changed(plan: TaskSchedule, change: int, ground: ScheduleSpace) -> TaskSchedule:
     """The same with another order of tasks, or with one step that disturbs elsewhere."""
     chance = random.Random(f"{plan.seed} {change}")
     seed = f"{plan.seed}~{change}"

@@ -25,10 +25,10 @@ from rapidgen.machine.network.fault_rules import Direction, NetworkRule
 from rapidgen.system.model import System
 from rapidgen.verification.bench_pool import Boot
 from rapidgen.verification.history import PAIRED, STEPS, History
-from rapidgen.verification.interleaving_coverage import Pair, Pairs, Spots, spots
-from rapidgen.verification.model import Finding
+from rapidgen.verification.interleaving_coverage import Pair, RacePairs, RacePoints, spots
+from rapidgen.verification.model import Counterexample
 from rapidgen.verification.raw_connection import STOP
-from rapidgen.verification.schedule import DriverLine, Ground, Plan, drawn, named
+from rapidgen.verification.schedule import DriverLine, ScheduleSpace, TaskSchedule, drawn, named
 from rapidgen.verification.settings import Setting
 from rapidgen.verification.testbench import FAILURES, Bench
 
@@ -39,12 +39,12 @@ SAMPLE = 20_000_000
 
 
 @dataclass(frozen=True, slots=True)
-class Explored:
+class ScheduleResult:
     """What one schedule did; `finding` when it broke the invariant."""
 
     schedule: str
     plan: str
-    finding: Finding | None
+    finding: Counterexample | None
     pairs: tuple[Pair, ...] = ()
     """Which statements of tasks followed which (`encounters.py`)."""
 
@@ -59,7 +59,7 @@ def explore(
     trace: TextIO | None = None,
     record: Recording | None = None,
     boot: Boot = Bench,
-) -> Explored:
+) -> ScheduleResult:
     """Run one schedule; the same one gives the same history.
 
     `only` names the steps that a history is made of (default: all of STEPS). `silence`: s
@@ -73,13 +73,13 @@ def explore(
         ground = replace(ground, steps=tuple(only))
     if ground.fault and name.seed % 2 == 0:
         fault = f"while nothing disturbs it: {ground.fault}"
-        return Explored(schedule, "", Finding(schedule, fault, "", ()))
+        return ScheduleResult(schedule, "", Counterexample(schedule, fault, "", ()))
     plan = drawn(name, ground)
     with boot(config, system, setting_of(config, plan)) as bench:
         bench.sample = SAMPLE
         if plan.order == "priorities":
             bench.controller.scheduler.schedule = "priorities"
-        pairs = Pairs(bench.controller, spots_of(system))
+        pairs = RacePairs(bench.controller, spots_of(system))
         if trace is not None:
             Trace(bench.controller, trace)
         walk = History(bench, plan, silence, trace)
@@ -89,14 +89,14 @@ def explore(
             walk.go()
             bench.healthy()
         except FAILURES as error:
-            finding = Finding(schedule, str(error), "\n".join(walk.plan), bench.log())
+            finding = Counterexample(schedule, str(error), "\n".join(walk.plan), bench.log())
         finally:
             if end is not None:
                 end()
-    return Explored(schedule, "\n".join(walk.plan), finding, pairs.found())
+    return ScheduleResult(schedule, "\n".join(walk.plan), finding, pairs.found())
 
 
-def setting_of(config: RobotConfig, plan: Plan) -> Setting:
+def setting_of(config: RobotConfig, plan: TaskSchedule) -> Setting:
     """What a schedule's controller is booted with."""
     chance = random.Random(f"{plan.seed} network")
     return Setting(
@@ -108,7 +108,9 @@ def setting_of(config: RobotConfig, plan: Plan) -> Setting:
     )
 
 
-def _weather(config: RobotConfig, plan: Plan, chance: random.Random) -> tuple[NetworkRule, ...]:
+def _weather(
+    config: RobotConfig, plan: TaskSchedule, chance: random.Random
+) -> tuple[NetworkRule, ...]:
     """How the network is: mostly good, else late, in pieces, or in lumps, in one direction."""
     directions: tuple[Direction, ...] = ("in", "out")
     direction = chance.choice(directions)
@@ -124,13 +126,13 @@ def _weather(config: RobotConfig, plan: Plan, chance: random.Random) -> tuple[Ne
 
 
 @lru_cache(maxsize=4)
-def spots_of(system: System) -> Spots:
+def spots_of(system: System) -> RacePoints:
     """Where a driver's tasks meet."""
     return spots(system)
 
 
 @lru_cache(maxsize=4)
-def ground_of(config: RobotConfig, system: System) -> Ground:
+def ground_of(config: RobotConfig, system: System) -> ScheduleSpace:
     """The steps of histories with a driver, and what it executes while it works and is stopped."""
     group = config.groups[0]
     bench = Bench(config, system, Setting(coverage=True))
@@ -146,7 +148,7 @@ def ground_of(config: RobotConfig, system: System) -> Ground:
         bench.run(1)
         reached = bench.lines()
     except FAILURES as error:
-        return Ground(tuple(name for name in STEPS if name not in PAIRED), fault=str(error))
+        return ScheduleSpace(tuple(name for name in STEPS if name not in PAIRED), fault=str(error))
     finally:
         bench.close()
     shared = spots_of(system).lines
@@ -157,4 +159,4 @@ def ground_of(config: RobotConfig, system: System) -> Ground:
         for line, hits in sorted(reached.get(module.path, {}).items())
         if hits
     )
-    return Ground(steps, places, group.task)
+    return ScheduleSpace(steps, places, group.task)

@@ -5,13 +5,16 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from rapidgen.verification.assumption_minimizer import smallest
-from rapidgen.verification.model import Finding
+from rapidgen.verification.model import Counterexample
 from rapidgen.verification.schedule import ScheduleName
 
 
 def smaller(
-    name: ScheduleName, steps: int, finding: Finding, run: Callable[[ScheduleName], Finding | None]
-) -> Finding:
+    name: ScheduleName,
+    steps: int,
+    finding: Counterexample,
+    run: Callable[[ScheduleName], Counterexample | None],
+) -> Counterexample:
     """What `run` finds in the least that is left of a schedule of so many `steps`.
 
     Network, order of tasks and steps are taken away, as long as the same demand does not hold:
@@ -42,5 +45,5 @@ def smaller(
     return found
 
 
-def _words(finding: Finding) -> str:
+def _words(finding: Counterexample) -> str:
     return re.sub(r"[\d.,-]+", "#", finding.detail)

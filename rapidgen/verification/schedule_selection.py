@@ -9,8 +9,14 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 from rapidgen.verification.interleaving_coverage import Pair
-from rapidgen.verification.schedule import DriverLine, Ground, Plan, ScheduleName, drawn
-from rapidgen.verification.schedule_exploration import Explored
+from rapidgen.verification.schedule import (
+    DriverLine,
+    ScheduleName,
+    ScheduleSpace,
+    TaskSchedule,
+    drawn,
+)
+from rapidgen.verification.schedule_exploration import ScheduleResult
 
 CANDIDATES = 12
 """Of which the one is taken that does most what none before has done."""
@@ -30,10 +36,10 @@ class Parent:
     gain: int
 
 
-class Guide:
+class ScheduleSelector:
     """Names schedules, the first one `first`; hears what came of them, in order."""
 
-    def __init__(self, ground: Ground, first: int = 0) -> None:
+    def __init__(self, ground: ScheduleSpace, first: int = 0) -> None:
         self._ground = ground
         self._first = first
         self._names: list[ScheduleName] = []
@@ -67,7 +73,7 @@ class Guide:
         self._names.append(made)
         return str(made)
 
-    def take(self, explored: Explored) -> Explored:
+    def take(self, explored: ScheduleResult) -> ScheduleResult:
         """Hear a result, the next one; what is new of its pairs is left of it."""
         new = set(explored.pairs) - self._pairs
         self._pairs |= new
@@ -86,7 +92,7 @@ class Guide:
         return len(first) + 0.3 * len(doings - self._done)
 
 
-def _doings(plan: Plan) -> set[tuple[str, DriverLine, int]]:
+def _doings(plan: TaskSchedule) -> set[tuple[str, DriverLine, int]]:
     """What is done where, and for how many ms."""
     return {(s.act, s.where.place, s.where.busy) for s in plan.steps if s.where is not None}
 

@@ -76,7 +76,7 @@ STRENGTHS = ("default", "alone", "pairs", "triples")
 """How many assumptions meet in a row of settings, by number."""
 
 
-def answers_to(switches: Switches | MotionSettings) -> dict[str, tuple[Answer, ...]]:
+def assumption_choices(switches: Switches | MotionSettings) -> dict[str, tuple[Answer, ...]]:
     """Every switch that is a choice, with what may be chosen; as it is set comes first."""
     found: dict[str, tuple[Answer, ...]] = {}
     for switch in fields(switches):
@@ -92,7 +92,7 @@ def answers_to(switches: Switches | MotionSettings) -> dict[str, tuple[Answer, .
 
 def questions() -> dict[str, tuple[Answer, ...]]:
     """What a driver can notice of its controller, with the answers to it; the default first."""
-    switches = answers_to(Switches()) | answers_to(MotionSettings())
+    switches = assumption_choices(Switches()) | assumption_choices(MotionSettings())
     left_out = NEEDED | NOT_THE_DRIVERS
     asked = {name: own for name, own in switches.items() if name not in left_out}
     return asked | {"costs": COSTS, "schedule": SCHEDULES}

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from rapidgen.verification import messages
 from rapidgen.verification.batches import batch_points, points_frame
 from rapidgen.verification.messages import POINTS, RawReason, RawStreamFlag
-from rapidgen.verification.model import Broken
+from rapidgen.verification.model import CheckFailed
 from rapidgen.verification.position_checks import Point
 from rapidgen.verification.raw_connection import RawLink
 from rapidgen.verification.testbench import Bench
@@ -61,13 +61,13 @@ class Streamer:
     def accepted(self, what: str) -> messages.RawPointsAccepted:
         """The last reply; Broken unless it is a success."""
         if not isinstance(self.last, messages.RawPointsAccepted):
-            raise Broken(f"{what}: the reply is {self.last}")
+            raise CheckFailed(f"{what}: the reply is {self.last}")
         return self.last
 
     def refused(self, reason: RawReason, what: str) -> messages.RawPointsRefused:
         """The last reply; Broken unless it is a refusal for that reason."""
         if not isinstance(self.last, messages.RawPointsRefused) or self.last.reason != reason:
-            raise Broken(f"{what}: wanted {reason.name}, the reply is {self.last}")
+            raise CheckFailed(f"{what}: wanted {reason.name}, the reply is {self.last}")
         return self.last
 
     def takes(

@@ -13,37 +13,48 @@ from rapidgen.config.model import RobotConfig
 from rapidgen.controller.cell import in_its_cell
 from rapidgen.generate import build, make_system
 from rapidgen.system.model import System
-from rapidgen.verification.assumption_minimizer import blamed
-from rapidgen.verification.bench_pool import FreshBenches
+from rapidgen.verification.assumption_minimizer import minimal_assumptions
+from rapidgen.verification.bench_pool import BenchPool
 from rapidgen.verification.build_identity import identity
 from rapidgen.verification.campaign import Campaign, Limits, Progress, Workload
-from rapidgen.verification.case import Behaviour
-from rapidgen.verification.model import Finding, NothingToProve, Proof, Verdict, is_program
-from rapidgen.verification.program_equivalence import PROGRAMS, liken, name_of, takes_programs
+from rapidgen.verification.case import SuiteCase
+from rapidgen.verification.model import (
+    CaseResult,
+    Counterexample,
+    NotApplicable,
+    SuiteResult,
+    is_program,
+)
+from rapidgen.verification.program_equivalence import (
+    PROGRAMS,
+    compare_program,
+    name_of,
+    require_programs,
+)
 from rapidgen.verification.raw_programs import called
 from rapidgen.verification.report import series
 from rapidgen.verification.result_file import Results
-from rapidgen.verification.schedule import Ground, drawn, named
+from rapidgen.verification.schedule import ScheduleSpace, drawn, named
 from rapidgen.verification.schedule_exploration import (
-    Explored,
     Recording,
+    ScheduleResult,
     explore,
     ground_of,
     setting_of,
 )
 from rapidgen.verification.schedule_minimizer import smaller
-from rapidgen.verification.schedule_selection import Guide
+from rapidgen.verification.schedule_selection import ScheduleSelector
 from rapidgen.verification.settings import Setting, assumed, possible, rows, settings
 from rapidgen.verification.suite import CASES
 from rapidgen.verification.testbench import FAILURES, Bench, add_lines
-from rapidgen.verification.worker_pool import Local, Workers, each, in_a_fork
+from rapidgen.verification.worker_pool import LocalPool, WorkerPool, each, run_in_fork
 
 _LOG = logging.getLogger("rapidgen.verification")
 
 EXPLAINED = 20
 """Cases of which the smallest pair is looked for; of a driver that breaks more they tell enough."""
-VERDICTS = TypeAdapter(Verdict)
-EXPLORED = TypeAdapter(Explored)
+VERDICTS = TypeAdapter(CaseResult)
+EXPLORED = TypeAdapter(ScheduleResult)
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,7 +73,7 @@ class Attempt:
 
 
 @dataclass(frozen=True, slots=True)
-class Suspects:
+class FailedAssumptions:
     """A case, and what was assumed where it broke, by setting."""
 
     case: int
@@ -77,7 +88,7 @@ class DriverUnderTest:
     system: System
     booted: "dict[str, Starter]" = field(default_factory=dict)
     """The controller that a worker keeps, by what its setting assumes."""
-    fresh: FreshBenches = field(default_factory=FreshBenches)
+    fresh: BenchPool = field(default_factory=BenchPool)
     """Those that it keeps for schedules and programs."""
 
     @classmethod
@@ -87,13 +98,13 @@ class DriverUnderTest:
         return cls(config, in_its_cell(system, config))
 
 
-def prove(
+def run_suite(
     config: RobotConfig,
     *,
     seeds: int = 200,
     programs: int = 0,
     jobs: int | None = None,
-    hire: Callable[["DriverUnderTest"], Workers] | None = None,
+    hire: Callable[["DriverUnderTest"], WorkerPool] | None = None,
     only: Sequence[str] = (),
     cases: bool = True,
     strength: int = 2,
@@ -102,7 +113,7 @@ def prove(
     limits: Limits | None = None,
     results: Path | None = None,
     resume: bool = False,
-) -> Proof:
+) -> SuiteResult:
     """Run the suite (`cases`, or `only` those named) and, without `only`, the exploration of
     `seeds` schedules and so many random motion `programs`, each beside the same one in RAPID.
 
@@ -114,17 +125,17 @@ def prove(
     DiagnosticError RG805, RG810, WorkersLost.
     """
     if programs:
-        takes_programs(config)
+        require_programs(config)
     driver = DriverUnderTest.of(config)
     started = time.monotonic()
-    report = Proof(config.name, driver.system.build_id)
+    report = SuiteResult(config.name, driver.system.build_id)
     asked = {"as asked": tuple(assuming)} if assuming else rows(strength)
     report.rows = possible(config, asked)
     attempts = _attempts(config, report.rows, only) if cases or only else []
     _LOG.info("%s: %d attempts, %d settings", config.name, len(attempts), len(report.rows))
     with (
         Results(results, f"{identity()} {report.build_id}", resume=resume) as kept,
-        hire(driver) if hire else Local(driver, jobs) as workers,
+        hire(driver) if hire else LocalPool(driver, jobs) as workers,
     ):
         campaign = Campaign(workers, kept, limits or Limits(), progress)
         try:
@@ -135,7 +146,7 @@ def prove(
                 for outcome in report.outcomes:
                     add_lines(report.lines, outcome.lines)
                 _explored(report, campaign, seeds, progress)
-            for tried in campaign.run(likenesses(programs)):
+            for tried in campaign.run(program_results(programs)):
                 report.programs += 1
                 if tried.finding is not None:
                     report.findings.append(tried.finding)
@@ -146,9 +157,11 @@ def prove(
     return report
 
 
-def _explored(report: Proof, campaign: Campaign, seeds: int, progress: Progress | None) -> None:
+def _explored(
+    report: SuiteResult, campaign: Campaign, seeds: int, progress: Progress | None
+) -> None:
     (found,) = each(campaign.workers, range(1), ground)
-    guide = Guide(found)
+    guide = ScheduleSelector(found)
     # Of a run that is broken off, too.
     report.curve = guide.curve
     for explored in campaign.run(schedules(seeds, guide)):
@@ -174,7 +187,7 @@ def _attempts(
     ]
 
 
-def _suite(attempts: Sequence[Attempt]) -> Workload[Attempt, Verdict]:
+def _suite(attempts: Sequence[Attempt]) -> Workload[Attempt, CaseResult]:
     return Workload(
         "cases",
         len(attempts),
@@ -186,7 +199,7 @@ def _suite(attempts: Sequence[Attempt]) -> Workload[Attempt, Verdict]:
     )
 
 
-def schedules(seeds: int, guide: Guide) -> Workload[str, Explored]:
+def schedules(seeds: int, guide: ScheduleSelector) -> Workload[str, ScheduleResult]:
     """Schedules that a guide names."""
     return Workload(
         "schedules",
@@ -201,7 +214,7 @@ def schedules(seeds: int, guide: Guide) -> Workload[str, Explored]:
     )
 
 
-def likenesses(programs: int) -> Workload[str, Explored]:
+def program_results(programs: int) -> Workload[str, ScheduleResult]:
     """Random programs by number."""
     return Workload(
         "programs",
@@ -214,12 +227,16 @@ def likenesses(programs: int) -> Workload[str, Explored]:
     )
 
 
-def _explained(report: Proof, workers: Workers, progress: Progress | None) -> list[Verdict]:
+def _explained(
+    report: SuiteResult, workers: WorkerPool, progress: Progress | None
+) -> list[CaseResult]:
     """The outcomes; those that broke under a hostile setting alone name what is to blame."""
     broken = [verdict for verdict in report.outcomes if not verdict.passed]
     anyhow = {verdict.case for verdict in broken if not report.rows.get(verdict.setting)}
     work = [
-        Suspects(number, {v.setting: report.rows[v.setting] for v in broken if v.case == case.name})
+        FailedAssumptions(
+            number, {v.setting: report.rows[v.setting] for v in broken if v.case == case.name}
+        )
         for number, case in enumerate(CASES)
         if case.name in {verdict.case for verdict in broken} - anyhow
     ][:EXPLAINED]
@@ -235,7 +252,7 @@ def _explained(report: Proof, workers: Workers, progress: Progress | None) -> li
 # -- pieces of work -----------------------------------------------------------------------------
 
 
-def explain(driver: DriverUnderTest, broken: Suspects) -> dict[str, tuple[str, ...]]:
+def explain(driver: DriverUnderTest, broken: FailedAssumptions) -> dict[str, tuple[str, ...]]:
     """By setting, the smallest part of what it assumes that breaks a case."""
 
     def breaks(texts: Sequence[str]) -> bool:
@@ -243,10 +260,10 @@ def explain(driver: DriverUnderTest, broken: Suspects) -> dict[str, tuple[str, .
             return not _verdict(CASES[broken.case], bench).passed
 
     # A controller leaves things behind in its process.
-    return blamed(broken.rows, lambda texts: in_a_fork(lambda: breaks(texts)))
+    return minimal_assumptions(broken.rows, lambda texts: run_in_fork(lambda: breaks(texts)))
 
 
-def attempt(driver: DriverUnderTest, job: Attempt) -> Verdict:
+def attempt(driver: DriverUnderTest, job: Attempt) -> CaseResult:
     """A case under a setting."""
     # Jobs come setting by setting, so one controller is kept.
     if job.name not in driver.booted:
@@ -257,33 +274,33 @@ def attempt(driver: DriverUnderTest, job: Attempt) -> Verdict:
     return replace(driver.booted[job.name].attempt(CASES[job.case]), setting=job.name)
 
 
-def ground(driver: DriverUnderTest, _item: object) -> Ground:
+def ground(driver: DriverUnderTest, _item: object) -> ScheduleSpace:
     """What schedules are drawn from."""
     return ground_of(driver.config, driver.system)
 
 
-def schedule(driver: DriverUnderTest, name: str) -> Explored:
+def schedule(driver: DriverUnderTest, name: str) -> ScheduleResult:
     """One schedule. Of one in which all held no story is kept."""
     config, system, fresh = driver.config, driver.system, driver.fresh
     found = ground_of(config, system)
     if not found.fault:
         fresh.keep(config, system, setting_of(config, drawn(named(name), found)))
-    return _kept(in_a_fork(lambda: explore(config, system, name, boot=fresh.take)))
+    return _kept(run_in_fork(lambda: explore(config, system, name, boot=fresh.take)))
 
 
-def program(driver: DriverUnderTest, name: str) -> Explored:
+def program(driver: DriverUnderTest, name: str) -> ScheduleResult:
     """One random program. Of one that moved as in RAPID no story is kept."""
     config, system, fresh = driver.config, driver.system, driver.fresh
     for one in (system, called(config, config.groups[0].task)):
         fresh.keep(config, one, PROGRAMS)
-    return _kept(in_a_fork(lambda: liken(config, system, name, boot=fresh.take)))
+    return _kept(run_in_fork(lambda: compare_program(config, system, name, boot=fresh.take)))
 
 
-def _kept(tried: Explored) -> Explored:
+def _kept(tried: ScheduleResult) -> ScheduleResult:
     return tried if tried.finding is not None else replace(tried, plan="")
 
 
-def minimised(driver: DriverUnderTest, finding: Finding) -> Finding:
+def minimised(driver: DriverUnderTest, finding: Counterexample) -> Counterexample:
     """The same finding in the smallest schedule that has it."""
     name = named(finding.schedule)
     steps = len(drawn(name, ground_of(driver.config, driver.system)).steps)
@@ -297,27 +314,27 @@ class Starter:
         self._bench = Bench(config, system, setting)
         self._bench.compile()
 
-    def attempt(self, case: Behaviour) -> Verdict:
+    def attempt(self, case: SuiteCase) -> CaseResult:
         """One case; faults of the driver are outcomes, faults of ours fly."""
-        return in_a_fork(lambda: _verdict(case, self._bench))
+        return run_in_fork(lambda: _verdict(case, self._bench))
 
     def close(self) -> None:
         """Give the controller back."""
         self._bench.close()
 
 
-def _verdict(case: Behaviour, bench: Bench) -> Verdict:
+def _verdict(case: SuiteCase, bench: Bench) -> CaseResult:
     started = time.process_time()
     detail = untried = ""
     try:
         case.prove(bench)
         bench.healthy()
-    except NothingToProve as why:
+    except NotApplicable as why:
         untried = str(why)
     except FAILURES as error:
         detail = str(error) or type(error).__name__
     # The case's function may be none that can be sent from process to process.
-    return Verdict(
+    return CaseResult(
         case=case.name,
         group=case.group,
         title=case.title,
@@ -338,9 +355,9 @@ def replay(
     name: str,
     trace: TextIO | None = None,
     record: Recording | None = None,
-) -> Explored:
+) -> ScheduleResult:
     """One schedule or random program again, exactly; every statement of RAPID goes to `trace`."""
     driver = DriverUnderTest.of(config)
     if is_program(name):
-        return liken(driver.config, driver.system, name, trace, record)
+        return compare_program(driver.config, driver.system, name, trace, record)
     return explore(driver.config, driver.system, name, trace=trace, record=record)

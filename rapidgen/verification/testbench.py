@@ -34,7 +34,7 @@ from rapidgen.verification.messages import (
     RawStatus,
     encode,
 )
-from rapidgen.verification.model import Broken
+from rapidgen.verification.model import CheckFailed
 from rapidgen.verification.position_checks import SETTLED, Point, Position, distance, on_path, still
 from rapidgen.verification.raw_connection import RawLink, point_frame
 from rapidgen.verification.settings import Setting
@@ -45,7 +45,7 @@ Lines: TypeAlias = dict[str, dict[int, int]]
 HELLO = RawHello(PROTOCOL_VERSION, (0, 0, 0), 1)
 """As a client says it that wants PROGRESS."""
 
-FAILURES = (Broken, Deadlock, FatalError, NetworkFault)
+FAILURES = (CheckFailed, Deadlock, FatalError, NetworkFault)
 """What a driver's fault looks like from here; anything else is a fault of ours."""
 
 SAMPLE = 4_000_000
@@ -202,7 +202,7 @@ class Bench:
     def until(self, condition: Callable[[], bool], seconds: float, what: str) -> None:
         """Let time pass until `condition`; Broken when it did not come within `seconds`."""
         if not self.controller.run_until(condition, timeout=seconds):
-            raise Broken(f"{what}: not within {seconds:g} s")
+            raise CheckFailed(f"{what}: not within {seconds:g} s")
 
     # -- the robot ------------------------------------------------------------------------------
 
@@ -467,7 +467,7 @@ class Bench:
         if group.override < 1 or group.reduced:
             return
         if self.now - since > 1.1 * asked + 3:
-            raise Broken(f"{asked:.2f} s of motion took {self.now - since:.2f} s")
+            raise CheckFailed(f"{asked:.2f} s of motion took {self.now - since:.2f} s")
         excused = {LATE} if self.setting.corners_in_time else {LATE, CORNER_FAILURE}
         complaints = [
             event
@@ -475,7 +475,7 @@ class Bench:
             if event.domain is Domain.MOTION and event.code not in excused
         ]
         if complaints:
-            raise Broken(f"the controller complains of the motion: {complaints[0]}")
+            raise CheckFailed(f"the controller complains of the motion: {complaints[0]}")
 
     def track_at(self, when: float) -> Position:
         """Where the robot was at a time."""
@@ -488,7 +488,7 @@ class Bench:
         """Broken when a task has ended with an error: nothing that happens may do that."""
         for name, task in self.controller.tasks.items():
             if task.state == "error":
-                raise Broken(f"task {name} ended with an error: {task.fault}")
+                raise CheckFailed(f"task {name} ended with an error: {task.fault}")
 
     def log(self) -> tuple[str, ...]:
         """Event log and program positions with their statements, for a failure's report."""

@@ -66,13 +66,13 @@ class Call:
 
 
 @dataclass(frozen=True, slots=True)
-class Known:
+class CachedResult:
     """A result that is there already."""
 
     result: object
 
 
-class Workers(Protocol):
+class WorkerPool(Protocol):
     """Who does pieces of work; on this machine or on others."""
 
     def room(self) -> bool:
@@ -95,9 +95,9 @@ class Workers(Protocol):
 
 
 def in_order(
-    workers: Workers,
+    workers: WorkerPool,
     total: int,
-    make: Callable[[int], "Call | Known"],
+    make: Callable[[int], "Call | CachedResult"],
     needs: Callable[[int], int] = lambda number: 0,
     over: Callable[[], bool] = lambda: False,
 ) -> Iterator[object]:
@@ -114,7 +114,7 @@ def in_order(
             taken += 1
         elif given < total and needs(given) <= taken and workers.room() and not over():
             made = make(given)
-            if isinstance(made, Known):
+            if isinstance(made, CachedResult):
                 results[given] = made.result
             else:
                 workers.give(made)
@@ -125,13 +125,13 @@ def in_order(
             results.update(workers.come(LOOK))
 
 
-def each(workers: Workers, work: Sequence[object], function: Callable[..., R]) -> Iterator[R]:
+def each(workers: WorkerPool, work: Sequence[object], function: Callable[..., R]) -> Iterator[R]:
     """Results of a function for each piece of work, in order."""
     for result in in_order(workers, len(work), lambda n: Call(n, function, work[n])):
         yield cast(R, result)
 
 
-class Local:
+class LocalPool:
     """Processes of this machine, copies of this one: they have the context by that."""
 
     def __init__(self, context: object, jobs: int | None = None) -> None:
@@ -179,7 +179,7 @@ class Local:
                 continue
             self._pieces[connection] = None
             if not good:
-                raise_here(result)
+                reraise(result)
             found.append((piece.number, result))
         return found
 
@@ -229,7 +229,7 @@ def serve(connection: Connection, context: object) -> None:
         remove_scratch_folders()
 
 
-def in_a_fork(function: Callable[[], R]) -> R:
+def run_in_fork(function: Callable[[], R]) -> R:
     """The result of `function`, or what it raised. Raises ForkFailed when there is neither."""
     reading, writing = os.pipe()
     with _no_matter_of_threads():
@@ -247,7 +247,7 @@ def in_a_fork(function: Callable[[], R]) -> R:
         raise ForkFailed(f"status {status}")
     good, result = pickle.loads(data)
     if not good:
-        raise_here(result)
+        reraise(result)
     answer: R = result
     return answer
 
@@ -268,7 +268,7 @@ def _outcome(function: Callable[[], object]) -> tuple[bool, object]:
         return False, (error, traceback.format_exc())
 
 
-def raise_here(outcome: object) -> NoReturn:
+def reraise(outcome: object) -> NoReturn:
     """Raise what another process has raised, with where that was."""
     error, where = cast(tuple[Exception, str], outcome)
     raise error from RaisedElsewhere(where)

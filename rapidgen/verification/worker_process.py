@@ -14,11 +14,11 @@ from multiprocessing.connection import Connection
 from rapidgen.verification.worker_pool import serve
 
 
-class EngineLost(Exception):
+class WorkerProcessLost(Exception):
     """The engine ended with a piece of work."""
 
 
-class Engine:
+class WorkerProcess:
     """The process, from the side of its worker."""
 
     def __init__(self, context: bytes) -> None:
@@ -42,7 +42,7 @@ class Engine:
             outcome: tuple[bool, object] = self._connection.recv()
         except (EOFError, BrokenPipeError, ConnectionResetError) as gone:
             self.close()
-            raise EngineLost(f"status {self._process.returncode}") from gone
+            raise WorkerProcessLost(f"status {self._process.returncode}") from gone
         return outcome
 
     def close(self) -> None:

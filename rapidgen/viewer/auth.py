@@ -29,7 +29,7 @@ HEADERS = {
 
 
 @dataclass(frozen=True)
-class Doorkeeper:
+class TokenAuth:
     """The token of one server, and what it changes a good one into. DiagnosticError RG922."""
 
     token: str = field(default_factory=lambda: _given() or secrets.token_urlsafe(24), repr=False)

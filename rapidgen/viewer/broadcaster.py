@@ -5,12 +5,12 @@ from dataclasses import dataclass, field
 
 from pydantic import BaseModel, ValidationError
 
-from rapidgen.viewer.messages import FromPage, Positions, Replied
-from rapidgen.viewer.provider import Aspect, Declined, Handler, Viewed
+from rapidgen.viewer.messages import PageReply, PageRequest, Positions
+from rapidgen.viewer.provider import Handler, RequestRejected, StateProvider, Subject
 
 
 @dataclass(frozen=True, slots=True)
-class Parcel:
+class MessageBatch:
     """Messages in order, encoded as one array. `passing`: the next one makes it worthless."""
 
     data: bytes
@@ -18,13 +18,13 @@ class Parcel:
 
 
 @dataclass(eq=False)
-class Hub:
+class Broadcaster:
     """What is told of one thing that is watched. All of it belongs to that one's thread."""
 
-    watched: Viewed
-    tell: Callable[[Parcel], None]
+    watched: Subject
+    tell: Callable[[MessageBatch], None]
     """Takes what all who view are told."""
-    _aspects: tuple[Aspect, ...] = ()
+    _aspects: tuple[StateProvider, ...] = ()
     _handlers: dict[type, Handler] = field(default_factory=dict)
 
     def renew(self) -> None:
@@ -35,7 +35,7 @@ class Hub:
             self._handlers |= aspect.handlers()
         self.tell(self._whole())
 
-    def join(self) -> Parcel:
+    def join(self) -> MessageBatch:
         """All that a viewer who comes now has to know."""
         # What it is told whole shall not come as news again.
         self.look()
@@ -47,14 +47,14 @@ class Hub:
         if new:
             self.tell(_parcel(new))
 
-    def ask(self, data: str | bytes) -> Parcel:
+    def ask(self, data: str | bytes) -> MessageBatch:
         """Carry a request out; the answer."""
         try:
-            asked = FromPage.model_validate_json(data)
+            asked = PageRequest.model_validate_json(data)
         except ValidationError as error:
             fault = error.errors(include_url=False, include_input=False)[0]
             where = ".".join(str(part) for part in fault["loc"])
-            return _parcel([Replied(id=0, error=f"not understood: {where} {fault['msg']}")])
+            return _parcel([PageReply(id=0, error=f"not understood: {where} {fault['msg']}")])
         handler = self._handlers.get(type(asked.request))
         text = refused = ""
         if handler is None:
@@ -62,15 +62,15 @@ class Hub:
         else:
             try:
                 text = handler(asked.request)
-            except Declined as why:
+            except RequestRejected as why:
                 refused = str(why)
-        return _parcel([Replied(id=asked.id, error=refused, text=text)])
+        return _parcel([PageReply(id=asked.id, error=refused, text=text)])
 
-    def _whole(self) -> Parcel:
+    def _whole(self) -> MessageBatch:
         return _parcel([message for aspect in self._aspects for message in aspect.whole()])
 
 
-def _parcel(messages: Iterable[BaseModel]) -> Parcel:
+def _parcel(messages: Iterable[BaseModel]) -> MessageBatch:
     told = [*messages]
     data = b",".join(message.model_dump_json().encode() for message in told)
-    return Parcel(b"[" + data + b"]", all(isinstance(message, Positions) for message in told))
+    return MessageBatch(b"[" + data + b"]", all(isinstance(message, Positions) for message in told))

@@ -3,7 +3,7 @@
 from pydantic import BaseModel, ConfigDict
 
 
-class Spoken(BaseModel):
+class MessageModel(BaseModel):
     """What is inside of messages."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")

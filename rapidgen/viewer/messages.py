@@ -13,12 +13,12 @@ from pydantic import Field, TypeAdapter
 from rapidgen.viewer import network_messages as n
 from rapidgen.viewer import program_messages as p
 from rapidgen.viewer import trajectory_messages as t
-from rapidgen.viewer.message_base import Spoken
+from rapidgen.viewer.message_base import MessageModel
 
 Finite = Annotated[float, Field(allow_inf_nan=False)]
 
 
-class Pose(Spoken):
+class Pose(MessageModel):
     """A frame: position m, orientation q1..q4."""
 
     position: tuple[float, float, float]
@@ -28,7 +28,7 @@ class Pose(Spoken):
 # -- to the page: what is there -------------------------------------------------------------------
 
 
-class Axis(Spoken):
+class Axis(MessageModel):
     """A joint and the controller axis that it drives; limits and speed are the axis' (rad, m)."""
 
     name: str
@@ -39,7 +39,7 @@ class Axis(Spoken):
     speed: float
 
 
-class SeenRobot(Spoken):
+class SeenRobot(MessageModel):
     """A robot. `urdf` is its description; its meshes are names on this server, empty for one that
     is not to be had."""
 
@@ -58,7 +58,7 @@ class SeenRobot(Spoken):
     """Where its root is drawn: apart from robots that would stand in it."""
 
 
-class SeenThing(Spoken):
+class SeenThing(MessageModel):
     """A mesh of the cell, by its name on this server."""
 
     name: str
@@ -67,7 +67,7 @@ class SeenThing(Spoken):
     pose: Pose
 
 
-class Scene(Spoken):
+class Scene(MessageModel):
     """The first message of a connection, and of a controller that has restarted."""
 
     type: Literal["scene"] = "scene"
@@ -84,7 +84,7 @@ class Scene(Spoken):
 # -- to the page: what changes --------------------------------------------------------------------
 
 
-class RobotPlace(Spoken):
+class RobotPlace(MessageModel):
     """Where a robot is. `joints` and `commanded` are URDF values, `axes` the controller's."""
 
     joints: tuple[float, ...]
@@ -99,7 +99,7 @@ class RobotPlace(Spoken):
     standing: bool
 
 
-class Positions(Spoken):
+class Positions(MessageModel):
     """Positions. Sent while something moves, and once when it stands."""
 
     type: Literal["positions"] = "positions"
@@ -107,7 +107,7 @@ class Positions(Spoken):
     groups: tuple[RobotPlace, ...]
 
 
-class SeenTarget(Spoken):
+class SeenTarget(MessageModel):
     """Where a move of a program goes: the TCP, in the world."""
 
     group: str
@@ -118,14 +118,14 @@ class SeenTarget(Spoken):
     pose: Pose
 
 
-class Targets(Spoken):
+class Targets(MessageModel):
     """What the moves of the loaded programs go to."""
 
     type: Literal["targets"] = "targets"
     targets: tuple[SeenTarget, ...]
 
 
-class PanelState(Spoken):
+class PanelState(MessageModel):
     """What the pendant's status bar says."""
 
     type: Literal["panel"] = "panel"
@@ -146,7 +146,7 @@ class PanelState(Spoken):
     """Simulated seconds in a second; 0: time stands."""
 
 
-class LogEntry(Spoken):
+class LogEntry(MessageModel):
     """One event with ABB's number."""
 
     sequence: int
@@ -158,7 +158,7 @@ class LogEntry(Spoken):
     task: str
 
 
-class Log(Spoken):
+class Log(MessageModel):
     """Events that are new, oldest first."""
 
     type: Literal["log"] = "log"
@@ -167,14 +167,14 @@ class Log(Spoken):
     """Those that were told before are not of this moment."""
 
 
-class Screen(Spoken):
+class Screen(MessageModel):
     """Rows of the operator window."""
 
     type: Literal["screen"] = "screen"
     rows: tuple[str, ...]
 
 
-class Dialog(Spoken):
+class Dialog(MessageModel):
     """A dialog that waits; without choices a text or number is typed."""
 
     number: int
@@ -184,14 +184,14 @@ class Dialog(Spoken):
     choices: tuple[str, ...]
 
 
-class Dialogs(Spoken):
+class Dialogs(MessageModel):
     """All dialogs that wait."""
 
     type: Literal["dialogs"] = "dialogs"
     waiting: tuple[Dialog, ...]
 
 
-class ShownSignal(Spoken):
+class ShownSignal(MessageModel):
     """A signal; `largest` is None where nothing bounds it."""
 
     name: str
@@ -201,21 +201,21 @@ class ShownSignal(Spoken):
     largest: float | None
 
 
-class AllSignals(Spoken):
+class AllSignals(MessageModel):
     """All signals."""
 
     type: Literal["signals"] = "signals"
     signals: tuple[ShownSignal, ...]
 
 
-class SignalValues(Spoken):
+class SignalValues(MessageModel):
     """AllSignals that have changed."""
 
     type: Literal["values"] = "values"
     values: Mapping[str, float]
 
 
-class Replied(Spoken):
+class PageReply(MessageModel):
     """The answer to a request; `error` is empty when it was carried out."""
 
     type: Literal["reply"] = "reply"
@@ -227,7 +227,7 @@ class Replied(Spoken):
 # -- from the page --------------------------------------------------------------------------------
 
 
-class Act(Spoken):
+class PendantAction(MessageModel):
     """A button of the pendant, or something that goes wrong."""
 
     do: Literal["act"] = "act"
@@ -243,28 +243,28 @@ class Act(Spoken):
     ]
 
 
-class SetMode(Spoken):
+class SetMode(MessageModel):
     """Turn the key."""
 
     do: Literal["mode"] = "mode"
     mode: Literal["auto", "manual_reduced", "manual_full"]
 
 
-class SetOverride(Spoken):
+class SetOverride(MessageModel):
     """Speed of programs, 0..1."""
 
     do: Literal["override"] = "override"
     value: Annotated[float, Field(ge=0, le=1)]
 
 
-class SetPace(Spoken):
+class SetPace(MessageModel):
     """Simulated seconds in a second. That it stands is the debugger's business (Proceed)."""
 
     do: Literal["pace"] = "pace"
     value: Annotated[float, Field(ge=0.1, le=100)]
 
 
-class SetSignal(Spoken):
+class SetSignal(MessageModel):
     """Give a signal a value."""
 
     do: Literal["signal"] = "signal"
@@ -272,7 +272,7 @@ class SetSignal(Spoken):
     value: Finite
 
 
-class AnswerQuestion(Spoken):
+class AnswerQuestion(MessageModel):
     """What the operator chose or typed."""
 
     do: Literal["answer"] = "answer"
@@ -280,7 +280,7 @@ class AnswerQuestion(Spoken):
     value: Annotated[str, Field(max_length=200)]
 
 
-class Jog(Spoken):
+class Jog(MessageModel):
     """Put a standing robot elsewhere: controller axes in wire order; None: where it is.
 
     `relative`: by so much from where it is when the request is carried out.
@@ -292,7 +292,7 @@ class Jog(Spoken):
     axes: Annotated[tuple[Finite | None, ...], Field(max_length=12)]
 
 
-class JogTo(Spoken):
+class JogTo(MessageModel):
     """Put a standing robot where its TCP is at a place (of its world), on the same branch.
 
     None: as it is.
@@ -304,7 +304,7 @@ class JogTo(Spoken):
     orientation: tuple[Finite, Finite, Finite, Finite] | None
 
 
-class Copy(Spoken):
+class Copy(MessageModel):
     """Where a robot is, as text for a program; it is the reply's."""
 
     do: Literal["copy"] = "copy"
@@ -329,14 +329,14 @@ ToPage: TypeAlias = (
     | p.LoadedPrograms
     | p.Pointers
     | p.Debugging
-    | p.HeldValues
+    | p.FrameValues
     | p.Covered
     | p.Playback
-    | t.DroppedTrajectory
-    | Replied
+    | t.UploadedTrajectory
+    | PageReply
 )
 Request: TypeAlias = (
-    Act
+    PendantAction
     | SetMode
     | SetOverride
     | SetPace
@@ -345,34 +345,34 @@ Request: TypeAlias = (
     | JogTo
     | Copy
     | SetSignal
-    | n.Cut
-    | n.Afflict
+    | n.ResetConnection
+    | n.InjectFault
     | n.Listen
     | p.ReadSource
     | p.ReadOrigin
     | p.SetBreakpoint
     | p.RemoveBreakpoint
-    | p.Proceed
+    | p.DebugCommand
     | p.RunTo
     | p.RunFor
     | p.StopOnErrors
-    | p.LookAt
+    | p.SelectFrame
     | p.Evaluate
     | p.Assign
     | p.SetWatch
-    | p.Cover
+    | p.CountLines
     | p.Seek
     | p.Play
     | p.ReadCurves
-    | t.DropTrajectory
+    | t.UploadTrajectory
     | t.RunTrajectory
-    | t.ForgetTrajectory
+    | t.RemoveTrajectory
 )
 Answer: TypeAlias = p.SourceOrigin
 """What is in the text of a reply, as JSON."""
 
 
-class FromPage(Spoken):
+class PageRequest(MessageModel):
     """A request and the number that its reply will have."""
 
     id: int

@@ -2,12 +2,12 @@
 
 from typing import Literal
 
-from rapidgen.viewer.message_base import Spoken
+from rapidgen.viewer.message_base import MessageModel
 
 Ailment = Literal["well", "delay", "split", "slow", "silent", "half-open"]
 
 
-class ShownSocket(Spoken):
+class ShownSocket(MessageModel):
     """A socket of a task. Addresses are empty where there is none."""
 
     number: int
@@ -18,14 +18,14 @@ class ShownSocket(Spoken):
     ailment: Ailment = "well"
 
 
-class Connections(Spoken):
+class Connections(MessageModel):
     """All sockets in use."""
 
     type: Literal["connections"] = "connections"
     sockets: tuple[ShownSocket, ...]
 
 
-class SpokenLine(Spoken):
+class SocketLogLine(MessageModel):
     """A frame of simple_message, or bytes that are none; `way` is seen from the program."""
 
     time: float
@@ -40,12 +40,12 @@ class SpokenLine(Spoken):
     """The bytes are no good frame."""
 
 
-class Conversation(Spoken):
+class Conversation(MessageModel):
     """What sockets said, oldest first; only while somebody listens."""
 
     type: Literal["conversation"] = "conversation"
     listening: bool
-    lines: tuple[SpokenLine, ...]
+    lines: tuple[SocketLogLine, ...]
     missed: int = 0
     """Lines before these that were too many to be told."""
     fresh: bool = False
@@ -55,14 +55,14 @@ class Conversation(Spoken):
 # -- from the page --------------------------------------------------------------------------------
 
 
-class Cut(Spoken):
+class ResetConnection(MessageModel):
     """Cut a connection: the task's socket is reset, and so is the other end."""
 
     do: Literal["cut"] = "cut"
     number: int
 
 
-class Afflict(Spoken):
+class InjectFault(MessageModel):
     """Let a connection be slow, silent and so on from now on."""
 
     do: Literal["afflict"] = "afflict"
@@ -70,7 +70,7 @@ class Afflict(Spoken):
     ailment: Ailment
 
 
-class Listen(Spoken):
+class Listen(MessageModel):
     """Tell what sockets say from now on, or no more."""
 
     do: Literal["listen"] = "listen"

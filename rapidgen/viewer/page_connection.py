@@ -15,7 +15,7 @@ UNREAD: Final = 8_388_608
 
 
 @dataclass(eq=False, slots=True)
-class Viewer:
+class PageConnection:
     """A page. It belongs to the thread of the server's loop."""
 
     transport: asyncio.Transport

@@ -6,12 +6,16 @@ from rapidgen.axes import frames
 from rapidgen.axes.kinematics import Kinematics, Posture, orientation
 from rapidgen.axes.mapping import ABSENT, JointMap
 from rapidgen.viewer.messages import Copy
-from rapidgen.viewer.provider import Declined
-from rapidgen.viewer.robots import Carried
+from rapidgen.viewer.provider import RequestRejected
+from rapidgen.viewer.robots import ToolAndWorkObject
 
 
 def copied(
-    form: Copy, map: JointMap, kinematics: Kinematics | None, posture: Posture, carried: Carried
+    form: Copy,
+    map: JointMap,
+    kinematics: Kinematics | None,
+    posture: Posture,
+    carried: ToolAndWorkObject,
 ) -> str:
     """A posture in the form that was asked for. Declined: the model has no geometry."""
     if form.form == "jointtarget":
@@ -20,7 +24,7 @@ def copied(
         return python(map, posture)
     tcp = carried.tcp(kinematics, posture)
     if tcp is None or kinematics is None:
-        raise Declined(f"the model of {form.group} has no geometry")
+        raise RequestRejected(f"the model of {form.group} has no geometry")
     return robtarget(kinematics, posture, tcp, carried.object)
 
 

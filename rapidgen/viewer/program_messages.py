@@ -4,14 +4,14 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from rapidgen.viewer.message_base import Spoken
+from rapidgen.viewer.message_base import MessageModel
 
 Name = Annotated[str, Field(max_length=200)]
 Text = Annotated[str, Field(max_length=1000)]
 Line = Annotated[int, Field(ge=1, le=1_000_000)]
 
 
-class LoadedModules(Spoken):
+class LoadedModules(MessageModel):
     """Modules of a task. A text that two tasks share has one number."""
 
     task: str
@@ -19,14 +19,14 @@ class LoadedModules(Spoken):
     """Numbers of their texts, by name."""
 
 
-class LoadedPrograms(Spoken):
+class LoadedPrograms(MessageModel):
     """What is loaded; texts are asked for (ReadSource)."""
 
     type: Literal["loaded"] = "loaded"
     tasks: tuple[LoadedModules, ...]
 
 
-class SourceOrigin(Spoken):
+class SourceOrigin(MessageModel):
     """The answer to ReadOrigin: each line that a template made, the template and its line."""
 
     lines: tuple[tuple[int, str, int], ...]
@@ -34,7 +34,7 @@ class SourceOrigin(Spoken):
     """Their texts by name; none: they are not of this version."""
 
 
-class SeenPlace(Spoken):
+class SeenPlace(MessageModel):
     """Where in a program. `made` is the template's line of a generated one."""
 
     module: str
@@ -44,7 +44,7 @@ class SeenPlace(Spoken):
     level: Literal["program", "trap", "event"] = "program"
 
 
-class SeenTask(Spoken):
+class TaskPosition(MessageModel):
     """A task: what it executes, outermost routine first, and what its robot executes."""
 
     name: str
@@ -53,15 +53,15 @@ class SeenTask(Spoken):
     motion: SeenPlace | None
 
 
-class Pointers(Spoken):
+class Pointers(MessageModel):
     """Program pointers and motion pointers."""
 
     type: Literal["pointers"] = "pointers"
     time: float
-    tasks: tuple[SeenTask, ...]
+    tasks: tuple[TaskPosition, ...]
 
 
-class SeenBreakpoint(Spoken):
+class SeenBreakpoint(MessageModel):
     """A breakpoint, and in which line it lies (0: nowhere, `doubt` says why)."""
 
     number: int
@@ -75,7 +75,7 @@ class SeenBreakpoint(Spoken):
     doubt: str
 
 
-class SeenHalt(Spoken):
+class SeenHalt(MessageModel):
     """Why everything is paused."""
 
     reason: Literal["breakpoint", "step", "cursor", "error", "pause", "time"]
@@ -86,7 +86,7 @@ class SeenHalt(Spoken):
     """The controller's, s."""
 
 
-class Debugging(Spoken):
+class Debugging(MessageModel):
     """Breakpoints, the pause, lines of log points, the latest last."""
 
     type: Literal["debugging"] = "debugging"
@@ -96,7 +96,7 @@ class Debugging(Spoken):
     output: tuple[str, ...]
 
 
-class SeenValue(Spoken):
+class SeenValue(MessageModel):
     """A value in RAPID's own words."""
 
     name: str
@@ -105,7 +105,7 @@ class SeenValue(Spoken):
     settable: bool
 
 
-class HeldValues(Spoken):
+class FrameValues(MessageModel):
     """What the routine that is looked at holds, and the watch list."""
 
     type: Literal["held"] = "held"
@@ -116,7 +116,7 @@ class HeldValues(Spoken):
     watch: tuple[SeenValue, ...]
 
 
-class Covered(Spoken):
+class Covered(MessageModel):
     """How often the lines of a text were reached; only where a statement begins."""
 
     type: Literal["covered"] = "covered"
@@ -127,21 +127,21 @@ class Covered(Spoken):
 # -- from the page --------------------------------------------------------------------------------
 
 
-class ReadSource(Spoken):
+class ReadSource(MessageModel):
     """The reply's text is a source."""
 
     do: Literal["source"] = "source"
     number: int
 
 
-class ReadOrigin(Spoken):
+class ReadOrigin(MessageModel):
     """The reply's text is a SourceOrigin, of a source by its number."""
 
     do: Literal["origin"] = "origin"
     number: int
 
 
-class SetBreakpoint(Spoken):
+class SetBreakpoint(MessageModel):
     """A new one, or another wish for one that is there; the reply's text is its number."""
 
     do: Literal["break"] = "break"
@@ -155,14 +155,14 @@ class SetBreakpoint(Spoken):
     log: Text = ""
 
 
-class RemoveBreakpoint(Spoken):
+class RemoveBreakpoint(MessageModel):
     """Take one away."""
 
     do: Literal["unbreak"] = "unbreak"
     number: int
 
 
-class Proceed(Spoken):
+class DebugCommand(MessageModel):
     """Pause, go on, step a task."""
 
     do: Literal["drive"] = "drive"
@@ -170,7 +170,7 @@ class Proceed(Spoken):
     task: Name = ""
 
 
-class RunTo(Spoken):
+class RunTo(MessageModel):
     """Go on to a line."""
 
     do: Literal["run-to"] = "run-to"
@@ -179,21 +179,21 @@ class RunTo(Spoken):
     line: Line
 
 
-class RunFor(Spoken):
+class RunFor(MessageModel):
     """Go on for so many seconds of the controller's time."""
 
     do: Literal["run-for"] = "run-for"
     seconds: Annotated[float, Field(gt=0, le=3600)]
 
 
-class StopOnErrors(Spoken):
+class StopOnErrors(MessageModel):
     """At which errors everything pauses."""
 
     do: Literal["errors"] = "errors"
     errors: Literal["never", "unhandled", "all"]
 
 
-class LookAt(Spoken):
+class SelectFrame(MessageModel):
     """Show the values of a routine of a call stack from now on; -1: the innermost."""
 
     do: Literal["look"] = "look"
@@ -201,14 +201,14 @@ class LookAt(Spoken):
     level: Annotated[int, Field(ge=-1, le=10_000)] = -1
 
 
-class Evaluate(Spoken):
+class Evaluate(MessageModel):
     """The reply's text is the value of an expression where it is looked at."""
 
     do: Literal["evaluate"] = "evaluate"
     expression: Text
 
 
-class Assign(Spoken):
+class Assign(MessageModel):
     """Set a datum, an element or a component where it is looked at."""
 
     do: Literal["assign"] = "assign"
@@ -216,14 +216,14 @@ class Assign(Spoken):
     value: Text
 
 
-class SetWatch(Spoken):
+class SetWatch(MessageModel):
     """The watch list."""
 
     do: Literal["watch"] = "watch"
     expressions: Annotated[tuple[Text, ...], Field(max_length=50)]
 
 
-class Cover(Spoken):
+class CountLines(MessageModel):
     """Count how often lines are reached from now on, or no more."""
 
     do: Literal["cover"] = "cover"
@@ -233,7 +233,7 @@ class Cover(Spoken):
 # -- recordings -----------------------------------------------------------------------------------
 
 
-class Playback(Spoken):
+class Playback(MessageModel):
     """Where a recording is looked at; times in s. `rate` 0: it stands."""
 
     type: Literal["playback"] = "playback"
@@ -245,21 +245,21 @@ class Playback(Spoken):
     """What of it cannot be shown, or is lost."""
 
 
-class Seek(Spoken):
+class Seek(MessageModel):
     """Go to a moment."""
 
     do: Literal["seek"] = "seek"
     time: Annotated[float, Field(allow_inf_nan=False)]
 
 
-class Play(Spoken):
+class Play(MessageModel):
     """Let it run, at so many seconds in a second; 0 stops."""
 
     do: Literal["play"] = "play"
     rate: Annotated[float, Field(ge=0, le=100)]
 
 
-class ReadCurves(Spoken):
+class ReadCurves(MessageModel):
     """The reply's text is PlotData (JSON) of a robot's axes or of a signal."""
 
     do: Literal["curves"] = "curves"

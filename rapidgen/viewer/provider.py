@@ -12,11 +12,11 @@ Handler: TypeAlias = Callable[[Request], str]
 """Carries a request out; its text, empty in general, goes back. Declined: it is not."""
 
 
-class Declined(Exception):
+class RequestRejected(Exception):
     """What was asked for is not done; the text says why."""
 
 
-class Aspect(Protocol):
+class StateProvider(Protocol):
     """One aspect of the page."""
 
     def whole(self) -> Iterable[ToPage]:
@@ -29,11 +29,11 @@ class Aspect(Protocol):
         """What carries out requests, by their class."""
 
 
-class Viewed(Protocol):
+class Subject(Protocol):
     """A simulation, a robot or a recording, seen by the server."""
 
     def post(self, function: Callable[[], None]) -> bool:
         """Run a function on the thread of what is watched; False: not now."""
 
-    def aspects(self) -> tuple[Aspect, ...]:
+    def aspects(self) -> tuple[StateProvider, ...]:
         """The aspects of now, the scene's first; others after a restart."""

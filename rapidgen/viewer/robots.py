@@ -75,7 +75,7 @@ def pose_of(frame: frames.Pose) -> Pose:
 
 
 @dataclass(frozen=True, slots=True)
-class Carried:
+class ToolAndWorkObject:
     """Tool and work object: in the flange what the robot holds, in the world what stands."""
 
     tool: frames.Pose
@@ -83,7 +83,7 @@ class Carried:
     object: frames.Pose
 
     @classmethod
-    def configured(cls, config: GroupConfig) -> "Carried":
+    def configured(cls, config: GroupConfig) -> "ToolAndWorkObject":
         """Those of the configuration."""
         placed = config.work_object
         whole = frames.compose(_frame(placed.user_frame), _frame(placed.object_frame))

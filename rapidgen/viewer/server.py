@@ -16,10 +16,10 @@ from aiohttp import WSMsgType, web
 
 from rapidgen.diagnostics import refusal
 from rapidgen.servers.aiohttp_thread import WebThread
-from rapidgen.viewer.auth import HEADERS, Doorkeeper
-from rapidgen.viewer.broadcaster import Hub, Parcel
-from rapidgen.viewer.page_connection import Viewer, text_frame
-from rapidgen.viewer.provider import Viewed
+from rapidgen.viewer.auth import HEADERS, TokenAuth
+from rapidgen.viewer.broadcaster import Broadcaster, MessageBatch
+from rapidgen.viewer.page_connection import PageConnection, text_frame
+from rapidgen.viewer.provider import Subject
 
 _LOG = logging.getLogger("rapidgen.viewer")
 
@@ -54,7 +54,7 @@ class Page:
 
 
 def serve_page(
-    watched: Viewed,
+    watched: Subject,
     host: str = "127.0.0.1",
     port: int = 0,
     files: Mapping[str, bytes] = MappingProxyType({}),
@@ -92,14 +92,14 @@ class _Server:
     """One port, and the thread with its loop."""
 
     def __init__(
-        self, watched: Viewed, assets: dict[str, tuple[bytes, str]], files: Mapping[str, bytes]
+        self, watched: Subject, assets: dict[str, tuple[bytes, str]], files: Mapping[str, bytes]
     ) -> None:
-        self.hub = Hub(watched, self._tell)
-        self.door = Doorkeeper()
+        self.hub = Broadcaster(watched, self._tell)
+        self.door = TokenAuth()
         self._watched = watched
         self._assets = assets
         self._files = files
-        self._viewers: dict[Viewer, web.WebSocketResponse] = {}
+        self._viewers: dict[PageConnection, web.WebSocketResponse] = {}
         self._looked = True
         app = web.Application(middlewares=[self._guarded], client_max_size=65_536)
         app.router.add_get("/", self._asset)
@@ -198,7 +198,7 @@ class _Server:
         socket = web.WebSocketResponse(max_msg_size=_LARGEST, heartbeat=20, compress=False)
         await socket.prepare(request)
         assert isinstance(request.transport, asyncio.Transport)
-        viewer = Viewer(request.transport)
+        viewer = PageConnection(request.transport)
 
         def join() -> None:
             self._thread.soon(partial(self._begin, viewer, self.hub.join()))
@@ -228,11 +228,11 @@ class _Server:
             _LOG.info("a page has gone: %d now", len(self._viewers))
         return socket
 
-    def _begin(self, viewer: Viewer, whole: Parcel) -> None:
+    def _begin(self, viewer: PageConnection, whole: MessageBatch) -> None:
         viewer.send(text_frame(whole.data))
         viewer.knows = True
 
-    def _tell(self, parcel: Parcel) -> None:
+    def _tell(self, parcel: MessageBatch) -> None:
         self._thread.soon(partial(self._broadcast, text_frame(parcel.data), parcel.passing))
 
     def _broadcast(self, frame: bytes, passing: bool) -> None:

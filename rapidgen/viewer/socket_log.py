@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from typing import Final
 
 from rapidgen.machine.network.sockets import SocketChange
-from rapidgen.viewer.network_messages import SpokenLine
+from rapidgen.viewer.network_messages import SocketLogLine
 from rapidgen.wire.simple_message.codec import decode
 from rapidgen.wire.simple_message.declaration import Content
 from rapidgen.wire.simple_message.frames import ContentError, Frame, FrameSplitter, FramingError
@@ -41,7 +41,7 @@ class Interpreter:
         default_factory=dict
     )
 
-    def lines(self, heard: SocketPiece) -> Iterator[SpokenLine]:
+    def lines(self, heard: SocketPiece) -> Iterator[SocketLogLine]:
         """The lines that a piece completes."""
         if heard.change in ("open", "close"):
             for way in ("in", "out"):
@@ -59,7 +59,7 @@ class Interpreter:
             yield _line(heard, "", _plain(heard.data))
 
 
-def _framed(heard: SocketPiece, frame: Frame) -> SpokenLine:
+def _framed(heard: SocketPiece, frame: Frame) -> SocketLogLine:
     name = _NAMES.get(frame.number, f"type {frame.number}")
     try:
         content = decode(frame)
@@ -90,8 +90,8 @@ def _plain(data: bytes) -> str:
     return text if text.isprintable() else data[: _LONGEST // 3].hex(" ")
 
 
-def _line(heard: SocketPiece, name: str, text: str, *, fault: bool = False) -> SpokenLine:
-    return SpokenLine(
+def _line(heard: SocketPiece, name: str, text: str, *, fault: bool = False) -> SocketLogLine:
+    return SocketLogLine(
         time=heard.time,
         way=heard.change,
         task=heard.task,

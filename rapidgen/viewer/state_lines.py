@@ -26,7 +26,7 @@ _WORDS: dict[TrajectoryState | None, str] = {
 }
 
 
-class Watcher:
+class StateStatistics:
     """Takes states one by one, and remembers rate, jitter and what happened last."""
 
     def __init__(self) -> None:
@@ -104,7 +104,7 @@ def error_text(status: Status) -> str:
     return f"error {status.error_code}" if status.error_code else "error"
 
 
-def as_line(state: State, watcher: Watcher, group: Group) -> str:
+def as_line(state: State, watcher: StateStatistics, group: Group) -> str:
     """Time of day, joints in degrees or mm, rate, mode, what it is at, what happened."""
     units = [_unit(joint.kind) for joint in group.joints]
     values = (v * factor for v, (_, factor) in zip(state.joints, units, strict=True))
@@ -121,7 +121,7 @@ def as_line(state: State, watcher: Watcher, group: Group) -> str:
     return "  ".join(word for word in words if word)
 
 
-def as_json(state: State, watcher: Watcher) -> str:
+def as_json(state: State, watcher: StateStatistics) -> str:
     """One object: when it was received (ISO 8601, UTC), rad or m and their rates by joint, rate in
     1/s, jitter in s; what the controller does not know is null."""
     status = state.status
@@ -172,7 +172,9 @@ def rows(state: State, group: Group, bar: int = 31) -> list[tuple[str, str, str,
     return found
 
 
-def as_table(state: State, watcher: Watcher, group: Group, place: str, width: int = 100) -> Table:
+def as_table(
+    state: State, watcher: StateStatistics, group: Group, place: str, width: int = 100
+) -> Table:
     """The rows under where the robot is (`place`), above what happened last; `width` columns
     wide."""
     status = state.status

@@ -4,10 +4,10 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from rapidgen.viewer.message_base import Spoken
+from rapidgen.viewer.message_base import MessageModel
 
 
-class TrajectoryFinding(Spoken):
+class TrajectoryFinding(MessageModel):
     """What is wrong or doubtful; `point` counts from 0, None: it is of no point."""
 
     code: str
@@ -18,7 +18,7 @@ class TrajectoryFinding(Spoken):
     point: int | None
 
 
-class DroppedTrajectory(Spoken):
+class UploadedTrajectory(MessageModel):
     """A trajectory as it was checked; the file's name is empty when there is none."""
 
     type: Literal["trajectory"] = "trajectory"
@@ -38,7 +38,7 @@ class DroppedTrajectory(Spoken):
     """Why it failed."""
 
 
-class DropTrajectory(Spoken):
+class UploadTrajectory(MessageModel):
     """Check a file's text for a robot; nothing moves."""
 
     do: Literal["drop"] = "drop"
@@ -47,13 +47,13 @@ class DropTrajectory(Spoken):
     text: Annotated[str, Field(max_length=900_000)]
 
 
-class RunTrajectory(Spoken):
+class RunTrajectory(MessageModel):
     """Execute what was checked, through the simulator's driver."""
 
     do: Literal["run"] = "run"
 
 
-class ForgetTrajectory(Spoken):
+class RemoveTrajectory(MessageModel):
     """Take it off the page."""
 
     do: Literal["forget"] = "forget"

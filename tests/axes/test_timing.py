@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as npst
 
-from rapidgen.axes.timing import demand, parametrise, resample, slow_down, thin
+from rapidgen.axes.timing import decimate, limit_usage, parametrise, resample, slow_down
 
 SPEED = np.array([3.0, 2.0])
 ACCELERATION = np.array([8.0, 5.0])
@@ -20,7 +20,7 @@ waypoints = st.integers(2, 30).flatmap(
 def test_limits_hold_and_times_increase(points):
     times = parametrise(points, SPEED, ACCELERATION)
     assert (np.diff(times) > 0).all()
-    assert demand(times, points, SPEED, ACCELERATION).worst <= 1 + 1e-9
+    assert limit_usage(times, points, SPEED, ACCELERATION).worst <= 1 + 1e-9
 
 
 def test_a_straight_line_is_as_fast_as_its_trapezoid():
@@ -41,7 +41,7 @@ def test_slow_down_stretches_as_little_as_needed_and_else_not():
     assert slow_down(slow, points, SPEED, ACCELERATION) is not None
     assert slow_down(slow, points, SPEED, ACCELERATION) == pytest.approx(slow)
     fast = slow_down(slow / 100, points, SPEED, ACCELERATION)
-    assert demand(fast, points, SPEED, ACCELERATION).worst == pytest.approx(1.0)
+    assert limit_usage(fast, points, SPEED, ACCELERATION).worst == pytest.approx(1.0)
 
 
 @settings(max_examples=40)
@@ -60,15 +60,15 @@ def test_resampling_keeps_the_ends_and_stays_inside(points, period):
 def test_thinning_drops_what_lies_on_the_way_only():
     times = np.arange(7) * 0.02
     points = np.array([[0, 0], [1, 0], [2, 0], [3, 0], [3, 1], [3, 2], [3, 3]], dtype=float)
-    kept = thin(times, points, 0.05, 1e-6)
+    kept = decimate(times, points, 0.05, 1e-6)
     assert kept.tolist() == [0, 3, 6]
-    assert thin(times, points, 0.2, 1e-6).tolist() == [0, 3, 6]
-    assert thin(times, points, 0.2, 2.0).tolist() == [0, 6]
+    assert decimate(times, points, 0.2, 1e-6).tolist() == [0, 3, 6]
+    assert decimate(times, points, 0.2, 2.0).tolist() == [0, 6]
 
 
 def test_times_must_increase():
     with pytest.raises(ValueError, match="increase"):
-        demand(np.array([0.0, 0.0]), np.zeros((2, 2)), SPEED, ACCELERATION)
+        limit_usage(np.array([0.0, 0.0]), np.zeros((2, 2)), SPEED, ACCELERATION)
 
 
 def test_no_segment_is_shorter_than_the_period():

@@ -9,7 +9,7 @@ import pytest
 
 from rapidgen.cli import sim, view
 from rapidgen.controller.boot_targets import load_target
-from rapidgen.controller.runner import Cabinet
+from rapidgen.controller.runner import ControllerRunner
 
 PROGRAM = "MODULE m\n PROC main()\n  WaitTime 100;\n ENDPROC\nENDMODULE\n"
 
@@ -81,7 +81,7 @@ def cabinet(tmp_path):
     path = tmp_path / "m.mod"
     path.write_text(PROGRAM)
     found = load_target([path])
-    with Cabinet.boot(found, clock="real") as cabinet:
+    with ControllerRunner.boot(found, clock="real") as cabinet:
         cabinet.serve = lambda: sim._serve(cabinet, found, "127.0.0.1", 1.0, {})
         yield cabinet
 

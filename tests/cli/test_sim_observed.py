@@ -4,7 +4,7 @@ import pytest
 
 from rapidgen.cli.run_outputs import Outputs, observing
 from rapidgen.controller.boot_targets import load_target
-from rapidgen.controller.runner import Cabinet
+from rapidgen.controller.runner import ControllerRunner
 from rapidgen.diagnostics import DiagnosticError
 
 TEXT = (
@@ -19,7 +19,10 @@ def test_what_was_reached_is_written_at_the_end_and_before_a_restart(tmp_path):
     path.write_text(TEXT)
     wanted = Outputs(coverage=(tmp_path / "c.lcov",), plots=(tmp_path / "p.png",))
     found = load_target([path])
-    with Cabinet.boot(found, tracing=wanted.tracing) as cabinet, observing(cabinet, wanted):
+    with (
+        ControllerRunner.boot(found, tracing=wanted.tracing) as cabinet,
+        observing(cabinet, wanted),
+    ):
         cabinet.run(lambda: cabinet.controller.now > 2)
         assert not (tmp_path / "c.lcov").exists()
         cabinet.ask_restart()

@@ -8,20 +8,20 @@ import pytest
 import typer
 
 from rapidgen.cli.sim import _look, _recording
-from rapidgen.controller.boot_targets import Wishes, load_target
-from rapidgen.controller.runner import Cabinet
+from rapidgen.controller.boot_targets import BootOptions, load_target
+from rapidgen.controller.runner import ControllerRunner
 from rapidgen.viewer.recording.reader import RecordingFile
 
 
 @pytest.fixture
 def cabinet():
-    with Cabinet.boot(load_target(["irb120"], Wishes()), clock="virtual") as cabinet:
+    with ControllerRunner.boot(load_target(["irb120"], BootOptions()), clock="virtual") as cabinet:
         yield cabinet
 
 
 @pytest.fixture(scope="module")
 def look():
-    return _look(load_target(["irb120"], Wishes()))
+    return _look(load_target(["irb120"], BootOptions()))
 
 
 def test_a_restart_begins_another_file(cabinet, look, tmp_path):

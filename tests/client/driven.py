@@ -66,14 +66,14 @@ def driven(name="irb120", *, group=0, seed=0, signals=(), overrides=None, module
 def caller_comes_late(monkeypatch, seconds):
     """From now on a call goes on so many s after what it waited for, as in a thread that gets no
     time, while everything else goes on."""
-    prompt = aio.Loop._perform
+    prompt = aio.AsyncFlowRunner._perform
 
     async def late(loop, effect):
         outcome = await prompt(loop, effect)
         await asyncio.sleep(seconds)
         return outcome
 
-    monkeypatch.setattr(aio.Loop, "_perform", late)
+    monkeypatch.setattr(aio.AsyncFlowRunner, "_perform", late)
 
 
 def complaints(peer):

@@ -4,12 +4,12 @@ import random
 
 import pytest
 
-from rapidgen.client.core.clock_rate import PaceMeter
+from rapidgen.client.core.clock_rate import ClockRateEstimator
 
 
 def told(*reads):
     """What a meter tells after each read: (s since the last one, states that came with it)."""
-    meter, now, number, rates = PaceMeter(), 100.0, 0, []
+    meter, now, number, rates = ClockRateEstimator(), 100.0, 0, []
     for step, count in reads:
         now += step
         for _ in range(count):
@@ -57,7 +57,7 @@ def test_a_controller_behind_a_tunnel_that_was_held_up_is_no_simulation(pieces):
 def test_no_stall_of_a_tunnel_makes_a_controller_seem_a_simulation():
     """1.2 is where the client would give a simulation three times as long (`_SIMULATION`)."""
     for seed in range(1500):
-        dice, meter, free = random.Random(seed), PaceMeter(), 0.0
+        dice, meter, free = random.Random(seed), ClockRateEstimator(), 0.0
         stalls = [(dice.uniform(0, 6), dice.uniform(0.05, 1)) for _ in range(dice.randint(1, 3))]
         for number in range(1, 61):
             now = number * 0.1 + dice.uniform(0, 0.004)

@@ -13,11 +13,11 @@ from rapidgen.client import (
     MotionFailed,
     MotionStopped,
     NotSupported,
-    OwnTool,
-    OwnWorkObject,
     Program,
     Speed,
     Trigger,
+    UserTool,
+    UserWorkObject,
     pulse,
 )
 from rapidgen.client.core.group import Group
@@ -347,9 +347,9 @@ def test_another_tool_in_another_object():
 
 def test_a_tool_and_an_object_by_values():
     """The same ways as with those of the configuration, which the driver knows by name."""
-    grip = OwnTool(((0.0, 0.0, 0.1), (1, 0, 0, 0)), 1.0, centre=(0.0, 0.0, 0.05))
+    grip = UserTool(((0.0, 0.0, 0.1), (1, 0, 0, 0)), 1.0, centre=(0.0, 0.0, 0.05))
     longer = replace(grip, frame=((0.0, 0.0, 0.15), (1, 0, 0, 0)))
-    table = OwnWorkObject(((0.3, 0.0, 0.0), (1, 0, 0, 0)), ((0.0, 0.0, 0.1), (1, 0, 0, 0)))
+    table = UserWorkObject(((0.3, 0.0, 0.0), (1, 0, 0, 0)), ((0.0, 0.0, 0.1), (1, 0, 0, 0)))
     with cell() as (robot, controller):
         robot.move_to(BENT, speed=1.0)
         (x, y, z), q = robot.pose
@@ -376,21 +376,21 @@ UPRIGHT = ((0.0, 0.0, 0.1), (1.0, 0.0, 0.0, 0.0))
 @pytest.mark.parametrize(
     ("own", "told"),
     [
-        (OwnTool(UPRIGHT, 0.0), "more than nothing"),
-        (OwnTool(UPRIGHT, float("nan")), "more than nothing"),
-        (OwnTool(UPRIGHT, 2001.0), "more than nothing"),
-        (OwnTool(UPRIGHT, 1.0, inertia=(0.0, -1.0, 0.0)), "moments"),
-        (OwnTool(UPRIGHT, 1.0, inertia=(0.0, 1.0)), "moments"),
-        (OwnTool(UPRIGHT, 1.0, centre=(0.0, 101.0, 0.0)), "centre"),
-        (OwnTool(UPRIGHT, 1.0, axes=(1.0, 1.0, 0.0, 0.0)), "quaternion"),
-        (OwnTool((0.0, 0.0, 0.1), 1.0), "is no pose"),
-        (OwnTool(UPRIGHT, "heavy"), "heavy"),
-        (OwnWorkObject(((float("inf"), 0.0, 0.0), UPRIGHT[1])), "finite"),
-        (OwnWorkObject(UPRIGHT, ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0))), "object frame"),
+        (UserTool(UPRIGHT, 0.0), "more than nothing"),
+        (UserTool(UPRIGHT, float("nan")), "more than nothing"),
+        (UserTool(UPRIGHT, 2001.0), "more than nothing"),
+        (UserTool(UPRIGHT, 1.0, inertia=(0.0, -1.0, 0.0)), "moments"),
+        (UserTool(UPRIGHT, 1.0, inertia=(0.0, 1.0)), "moments"),
+        (UserTool(UPRIGHT, 1.0, centre=(0.0, 101.0, 0.0)), "centre"),
+        (UserTool(UPRIGHT, 1.0, axes=(1.0, 1.0, 0.0, 0.0)), "quaternion"),
+        (UserTool((0.0, 0.0, 0.1), 1.0), "is no pose"),
+        (UserTool(UPRIGHT, "heavy"), "heavy"),
+        (UserWorkObject(((float("inf"), 0.0, 0.0), UPRIGHT[1])), "finite"),
+        (UserWorkObject(UPRIGHT, ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0))), "object frame"),
     ],
 )
 def test_values_of_no_tool_are_told(own, told):
-    key = "tool" if isinstance(own, OwnTool) else "work_object"
+    key = "tool" if isinstance(own, UserTool) else "work_object"
     with cell() as (robot, _):
         program = Program().use(**{key: own}).move_linear(robot.pose)
         with pytest.raises(InvalidProgram, match=told) as error:

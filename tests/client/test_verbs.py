@@ -163,10 +163,10 @@ def test_the_live_table(controller):
     from rich.console import Console
 
     from rapidgen.client import Robot
-    from rapidgen.viewer.state_lines import Watcher, as_table
+    from rapidgen.viewer.state_lines import StateStatistics, as_table
 
     with Robot("irb120", address=controller.address, watch=True) as robot:
-        watcher = Watcher()
+        watcher = StateStatistics()
         for state in robot.states():
             watcher.take(state)
             if state.number > 5:
@@ -320,10 +320,10 @@ def test_monitor_tells_what_a_stream_is_at(streaming, capsys):
 
 def test_words_of_a_monitor():
     from rapidgen.client import Event, Status
-    from rapidgen.viewer.state_lines import Watcher
+    from rapidgen.viewer.state_lines import StateStatistics
     from rapidgen.wire.simple_message.spec import EventType, TrajectoryState
 
-    watcher = Watcher()
+    watcher = StateStatistics()
     for number, trajectory in enumerate((TrajectoryState.MOVING, TrajectoryState.STARVED)):
         watcher.take(
             SimpleNamespace(number=number, time=number, status=Status(), trajectory=trajectory)

@@ -13,7 +13,7 @@ from rapidgen.config import shipped_names
 from rapidgen.config.catalogue import model_description
 from rapidgen.config.load import drafts_of
 from rapidgen.config.variant_library import entry, variants
-from rapidgen.config.variant_model import lacks
+from rapidgen.config.variant_model import missing_figures
 
 PATH = data_folder("robots") / "variants.json"
 CELLS = {"irb120_track"}
@@ -54,10 +54,10 @@ def doubts():
         alone = [*marked, *variant.unsure]
         if alone:
             yield f"{variant.name}: unsure {', '.join(alone)}"
-        if not variant.model and lacks(variant):
-            yield f"{variant.name}: no model, lacks {'; '.join(lacks(variant))}"
+        if not variant.model and missing_figures(variant):
+            yield f"{variant.name}: no model, lacks {'; '.join(missing_figures(variant))}"
     others = [v for v in variants() if not v.model]
-    models = [v for v in others if not lacks(v)]
+    models = [v for v in others if not missing_figures(v)]
     fast = sum(all(axis.speed for axis in v.axes) for v in models)
     differing = sum(bool(v.disagreements) for v in variants())
     shipped = len(variants()) - len(others)

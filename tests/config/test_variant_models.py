@@ -9,11 +9,11 @@ from rapidgen.axes.kinematics import Kinematics
 from rapidgen.cli.app import main
 from rapidgen.config import load_config
 from rapidgen.config.variant_library import variants
-from rapidgen.config.variant_model import lacks, model_name, named
+from rapidgen.config.variant_model import missing_figures, model_name, named
 from rapidgen.diagnostics import DiagnosticError
 
-KNOWN = [v for v in variants() if not v.model and not lacks(v)]
-LACKING = [v for v in variants() if not v.model and lacks(v)]
+KNOWN = [v for v in variants() if not v.model and not missing_figures(v)]
+LACKING = [v for v in variants() if not v.model and missing_figures(v)]
 
 
 def loaded(tmp_path, variant):
@@ -55,7 +55,7 @@ def test_a_variant_that_is_not_known_enough_says_what_it_lacks(tmp_path, variant
         loaded(tmp_path, variant)
     (found,) = fault.value.diagnostics
     assert found.code == "RG009"
-    assert all(text in found.message for text in lacks(variant))
+    assert all(text in found.message for text in missing_figures(variant))
 
 
 def test_new_writes_a_variant(tmp_path, capsys):

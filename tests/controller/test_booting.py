@@ -7,9 +7,9 @@ from rapidgen.axes.kinematics import Kinematics
 from rapidgen.config import load_config
 from rapidgen.config.cell import load_cell
 from rapidgen.controller import VirtualController
-from rapidgen.controller.boot_targets import Wishes, load_target
+from rapidgen.controller.boot_targets import BootOptions, load_target
 from rapidgen.controller.cell_setup import GUESSED
-from rapidgen.controller.inference.robot_model import Likely
+from rapidgen.controller.inference.robot_model import RobotCandidate
 from rapidgen.controller.inference.start_poses import shown
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.system.releases import UNTOLD
@@ -80,7 +80,7 @@ def test_a_described_cell_answers_the_program(program, cell, tmp_path):
 
 
 def test_a_guessed_cell_has_what_the_program_names(program):
-    found = load_target([program], Wishes(cell="guess"))
+    found = load_target([program], BootOptions(cell="guess"))
     assert found.guessed is not None
     named = {one.name: one.type for one in found.guessed.named}
     assert named == {
@@ -153,9 +153,9 @@ def refused(call, *words):
 
 
 def test_a_start_that_the_robot_cannot_have_is_refused(program):
-    far = Wishes(start=(0, 0, 0, 0, 130, 0))
+    far = BootOptions(start=(0, 0, 0, 0, 130, 0))
     assert refused(lambda: load_target([program], far), "rax_5", "-120 to 120") == "RG435"
-    few = Wishes(start=(0, 0))
+    few = BootOptions(start=(0, 0))
     assert refused(lambda: load_target([program], few), "2 values", "rax_6") == "RG435"
 
 
@@ -164,11 +164,11 @@ def test_a_cell_that_does_not_fit_is_refused(program, cell):
         "signals: {doGrip: {kind: DO}}\ndevices: {a: [{when: {dGrip: 1}, then: {x: 1}}]}"
     )
     with pytest.raises(DiagnosticError) as caught:
-        load_target([program], Wishes(cell=cell))
+        load_target([program], BootOptions(cell=cell))
     assert [d.code for d in caught.value.diagnostics] == ["RG434", "RG434"]
     assert "did you mean 'doGrip'" in caught.value.diagnostics[0].help
     cell.write_text("robots: {T_ROB2: {model: irb120}}")
-    assert refused(lambda: load_target([program], Wishes(cell=cell)), "T_ROB2") == "RG434"
+    assert refused(lambda: load_target([program], BootOptions(cell=cell)), "T_ROB2") == "RG434"
     cell.write_text("signal: {doGrip: {kind: DO}}")
     assert refused(lambda: load_cell(cell), "signal", "signals") == "RG005"
 
@@ -176,7 +176,7 @@ def test_a_cell_that_does_not_fit_is_refused(program, cell):
 def test_a_robot_of_a_cell_may_be_a_configuration_beside_it(program, cell, tmp_path):
     (tmp_path / "mine.yaml").write_text("name: mine\nmodel: irb1600\n")
     cell.write_text("robots: {T_ROB1: {model: mine.yaml, mechanical_unit: ROB_7}}")
-    (group,) = load_target([program], Wishes(cell=cell)).groups
+    (group,) = load_target([program], BootOptions(cell=cell)).groups
     assert (group.model, group.mechanical_unit) == ("irb1600", "ROB_7")
 
 
@@ -277,7 +277,7 @@ def test_plain_data_that_nobody_declares_are_what_their_use_says(tmp_path):
         '  FOR i FROM 1 TO nParts DO\n   TPWrite "part";\n  ENDFOR\n  x{3} := unheard;\n'
         " ENDPROC\nENDMODULE\n"
     )
-    found = load_target([path], Wishes(cell="guess", robot="irb1600"))
+    found = load_target([path], BootOptions(cell="guess", robot="irb1600"))
     assert found.guessed is not None
     assert {one.name: one.type for one in found.guessed.named} == {
         "sig_a": "signaldo",
@@ -309,7 +309,7 @@ def test_a_folder_with_a_folder_for_each_task_is_those_tasks(tmp_path):
     for task, said in (("T_ROB_L", "SetDO"), ("T_ROB_R", "WaitDO")):
         (tmp_path / task).mkdir()
         (tmp_path / task / "m.mod").write_text(text.format(said))
-    found = load_target([tmp_path], Wishes(cell="guess", robot="irb14000"))
+    found = load_target([tmp_path], BootOptions(cell="guess", robot="irb14000"))
     assert [group.task for group in found.groups] == ["T_ROB_L", "T_ROB_R"]
     with VirtualController.boot(found, cycle="once") as controller:
         assert controller.run(max_time=20) == "finished"
@@ -334,14 +334,14 @@ def test_a_guess_takes_the_robot_that_reaches_what_the_program_aims_at(tmp_path)
         "  MoveJ q, v100, fine, tRod \\WObj:=wAway;\n  MoveJ [[0,0,0],[0,0,0,0],[0,0,0,0],"
         "[9E9,9E9,9E9,9E9,9E9,9E9]], v100, fine, tool0;\n ENDPROC\nENDMODULE\n"
     )
-    found = load_target([path], Wishes(cell="guess"))
-    assert found.likely == Likely("irb4600", 2, 2)
+    found = load_target([path], BootOptions(cell="guess"))
+    assert found.likely == RobotCandidate("irb4600", 2, 2)
     assert found.groups[0].model == "irb4600"
-    assert load_target([path], Wishes(cell="guess", robot="irb1600")).likely is None
+    assert load_target([path], BootOptions(cell="guess", robot="irb1600")).likely is None
     assert load_target([path]).groups[0].model == "irb120"
     text = path.read_text().replace("MODULE far\n", "MODULE far\n VAR num i := 3;\n")
     path.write_text(text.replace("Offs(p, 0, 0, 1)", "RelTool(Offs(p, 0, 0, i), 0, 0, -1)"))
-    assert load_target([path], Wishes(cell="guess")).likely == Likely("irb4600", 2, 2)
+    assert load_target([path], BootOptions(cell="guess")).likely == RobotCandidate("irb4600", 2, 2)
 
 
 @pytest.mark.parametrize(("eax_a", "robot"), [(101.96, "irb14000"), (0, "irb120")])
@@ -353,13 +353,13 @@ def test_an_arm_angle_guesses_the_robot_with_seven_axes(eax_a, robot, tmp_path):
         "MODULE angle\n PROC main()\n  MoveJ [[300,0,400],[0,0.707107,0.707107,0],[0,0,0,0],"
         f"[{eax_a},9E9,9E9,9E9,9E9,9E9]], v100, fine, tool0;\n ENDPROC\nENDMODULE\n"
     )
-    found = load_target([path], Wishes(cell="guess"))
+    found = load_target([path], BootOptions(cell="guess"))
     assert found.groups[0].model == robot
 
 
 def test_loose_files_are_on_the_controller_that_is_said(program, cell):
     """An OmniCore before anybody came: its tasks, its robot, its firewall (backups of 7.5, 7.6)."""
-    found = load_target([program], Wishes(robotware=(7, 6), cell=cell))
+    found = load_target([program], BootOptions(robotware=(7, 6), cell=cell))
     assert found.system.robotware == (7, 6)
     assert found.cfg.tasks == {"t_rob1"}
     assert found.cfg.units == {"rob_1"}
@@ -370,7 +370,7 @@ def test_loose_files_are_on_the_controller_that_is_said(program, cell):
 def test_what_tells_its_release_is_not_given_another(program):
     assert load_target([program]).system.robotware == UNTOLD
     with pytest.raises(DiagnosticError, match="'crb15000' tells its RobotWare"):
-        load_target(["crb15000"], Wishes(robotware=(7, 6)))
+        load_target(["crb15000"], BootOptions(robotware=(7, 6)))
 
 
 def test_the_folder_one_is_in_has_a_name(tmp_path, monkeypatch):

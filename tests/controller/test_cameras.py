@@ -3,7 +3,7 @@
 import pytest
 
 from rapidgen.controller import VirtualController
-from rapidgen.controller.boot_targets import Wishes, load_target
+from rapidgen.controller.boot_targets import BootOptions, load_target
 from rapidgen.diagnostics import DiagnosticError
 
 CELL = """cameras:
@@ -63,7 +63,7 @@ def files(tmp_path):
 
 def shown(files, **wishes):
     lines: list[str] = []
-    found = load_target([files / "cam.mod"], Wishes(**wishes))
+    found = load_target([files / "cam.mod"], BootOptions(**wishes))
     with VirtualController.boot(found, cycle="once") as controller:
         controller.operator.subscribe(lambda _task, line: lines.append(line))
         ended = controller.run(max_time=60)

@@ -3,8 +3,8 @@
 import pytest
 
 from rapidgen.controller import VirtualController
-from rapidgen.controller.boot_targets import Wishes, load_target
-from rapidgen.controller.inference.restarts import run_through
+from rapidgen.controller.boot_targets import BootOptions, load_target
+from rapidgen.controller.inference.restarts import run_past_stops
 
 SERVER = """MODULE server
  VAR socketdev s;
@@ -132,7 +132,7 @@ def test_a_server_that_counts_values_hears_as_many_of_where_the_robot_stands(tmp
     shown: list[str] = []
     with VirtualController.from_files([path], cell="guess", cycle="once") as controller:
         controller.operator.subscribe(lambda _task, line: shown.append(line))
-        run_through(controller, max_time=300)
+        run_past_stops(controller, max_time=300)
         said = [text for what, text in controller.guessed.answered if what == "SocketReceive"]
     assert "3 0 0 0 0 30 0 #" in said
     assert {"moved", "on", "off"} <= set(shown)
@@ -241,7 +241,7 @@ def test_a_text_of_fields_has_what_each_is_compared_with(tmp_path):
     shown: list[str] = []
     with VirtualController.from_files([path], cell="guess", cycle="once") as controller:
         controller.operator.subscribe(lambda _task, line: shown.append(line))
-        run_through(controller, max_time=300)
+        run_past_stops(controller, max_time=300)
         said = [text for what, text in controller.guessed.answered if what == "SocketReceive"]
     assert said[:3] == ["250;left;", "250;right;", "J;012;"]
     assert shown[:3] == ["left", "right", "twelve"]
@@ -286,7 +286,7 @@ def test_what_stops_behind_such_an_answer_starts_from_main_and_hears_the_next(tm
     shown: list[str] = []
     with VirtualController.from_files([path], cell="guess", cycle="once") as controller:
         controller.operator.subscribe(lambda _task, line: shown.append(line))
-        ended = run_through(controller, max_time=120)
+        ended = run_past_stops(controller, max_time=120)
         assert ended == "finished"
         assert ("server.mod:24", "ERR_OUTOFBND") in controller.guessed.stopped
         assert "shortt" in shown, "the one behind that which stopped it"
@@ -298,7 +298,7 @@ def test_a_program_that_stops_by_itself_is_not_started_again(tmp_path):
         'MODULE wrong\n PROC main()\n  TPWrite StrPart("a", 5, 1);\n ENDPROC\nENDMODULE\n'
     )
     with VirtualController.from_files([path], cell="guess", cycle="once") as controller:
-        run_through(controller, max_time=120)
+        run_past_stops(controller, max_time=120)
         assert "ERR_OUTOFBND" in str(controller.task("T_ROB1").fault)
         assert controller.guessed.stopped == []
 
@@ -313,7 +313,7 @@ def test_without_a_guess_nobody_is_there(tmp_path, text):
 def test_on_real_sockets_nobody_is_made_up(tmp_path):
     path = tmp_path / "server.mod"
     path.write_text(SERVER)
-    found = load_target([path], Wishes(cell="guess"))
+    found = load_target([path], BootOptions(cell="guess"))
     with VirtualController.boot(found, host="127.0.0.1", cycle="once") as controller:
         controller.run(max_time=10)
         assert controller.sockets.on_awaited is None

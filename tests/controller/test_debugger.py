@@ -5,7 +5,7 @@ import threading
 import pytest
 
 from rapidgen.controller import VirtualController
-from rapidgen.controller.debugger import Breakpoint, Debugger, NotNow
+from rapidgen.controller.debugger import Breakpoint, Debugger, NotPaused
 from rapidgen.controller.debugger.stack import where_it_looks
 from rapidgen.controller.debugger.values import evaluate
 
@@ -93,7 +93,7 @@ def test_steps(boot):
         controller.run_for(1.0)
         lines.append(line(debugger))
     assert lines == [16, 17, 18, 18, 18, 20, 11, 9, 10, 16, 11]
-    with pytest.raises(NotNow, match="outermost"):
+    with pytest.raises(NotPaused, match="outermost"):
         debugger.step("T_ROB1", "out")
 
 
@@ -113,13 +113,13 @@ def test_stack_values_and_setting_them(boot):
     assert debugger.evaluate("T_ROB1", "corner").text == "[1,2,3]"
     assert debugger.evaluate("T_ROB1", "i", level=0).text == "1"
     assert debugger.evaluate("T_ROB1", "StrLen(text) = 1").text == "TRUE"
-    with pytest.raises(NotNow, match="not known here"):
+    with pytest.raises(NotPaused, match="not known here"):
         debugger.evaluate("T_ROB1", "i")
-    with pytest.raises(NotNow, match="calls a routine"):
+    with pytest.raises(NotPaused, match="calls a routine"):
         debugger.evaluate("T_ROB1", "twice(1)")
-    with pytest.raises(NotNow, match="can be assigned"):
+    with pytest.raises(NotPaused, match="can be assigned"):
         debugger.assign("T_ROB1", "limit", "5")
-    with pytest.raises(NotNow, match="ERR_DIVZERO"):
+    with pytest.raises(NotPaused, match="ERR_DIVZERO"):
         debugger.evaluate("T_ROB1", "1 / (n - 1)")
     assert debugger.assign("T_ROB1", "n", "2.5").text == "2.5"
     assert debugger.assign("T_ROB1", "corner.y", "n").text == "2.5"
@@ -181,7 +181,7 @@ def test_a_routine_that_is_being_executed_notices_a_new_breakpoint(boot):
 
 def test_run_to_cursor_and_pause(boot):
     controller, debugger = boot()
-    with pytest.raises(NotNow, match="nothing is paused"):
+    with pytest.raises(NotPaused, match="nothing is paused"):
         debugger.resume()
     controller.run_for(0.7)
     debugger.pause()
@@ -281,7 +281,7 @@ def test_a_task_that_executes_nothing_has_its_data_and_no_variables(boot):
     task = controller.rapid_tasks["T_ROB1"]
     frame = where_it_looks(task)
     assert evaluate(task.program, frame, "corner.y + limit").text == "6"
-    with pytest.raises(NotNow, match="not being executed"):
+    with pytest.raises(NotPaused, match="not being executed"):
         evaluate(task.program, frame, "i")
 
 
@@ -422,7 +422,7 @@ def test_steps_stay_in_a_module_that_is_executed_as_a_whole_only_if_they_began_t
 
 def test_a_time_step_lets_so_much_time_pass(boot):
     controller, debugger = boot()
-    with pytest.raises(NotNow):
+    with pytest.raises(NotPaused):
         debugger.run_for(0.1)
     controller.run_for(0.2)
     debugger.pause()

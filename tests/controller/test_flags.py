@@ -3,7 +3,7 @@
 import pytest
 
 from rapidgen.controller import VirtualController
-from rapidgen.controller.inference.restarts import run_through
+from rapidgen.controller.inference.restarts import run_past_stops
 
 PROGRAM = """MODULE flag
  PERS bool bStart := FALSE;
@@ -112,7 +112,7 @@ def test_behind_a_stop_somebody_presses_start(cell, starts, tmp_path):
     path = tmp_path / "stops.mod"
     path.write_text(STOPS)
     with VirtualController.from_files([path], cell=cell, cycle="once") as controller:
-        run_through(controller, max_time=60)
+        run_past_stops(controller, max_time=60)
         assert controller.guessed.answered == [("Stop at stops.mod:5", "start")] * starts
 
 
@@ -130,7 +130,7 @@ def test_what_fails_behind_each_answer_has_failed_in_the_end(tmp_path):
     path = tmp_path / "fails.mod"
     path.write_text(FAILS)
     with VirtualController.from_files([path], robot="irb120", cell="guess", cycle="once") as driven:
-        run_through(driven, max_time=600)
+        run_past_stops(driven, max_time=600)
         (task,) = driven.tasks.values()
         assert task.fault is not None
         error, why = task.fault.arguments

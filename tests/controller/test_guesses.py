@@ -3,7 +3,7 @@
 import pytest
 
 from rapidgen.controller import VirtualController
-from rapidgen.controller.boot_targets import Wishes, load_target
+from rapidgen.controller.boot_targets import BootOptions, load_target
 from rapidgen.diagnostics import Severity
 from rapidgen.rapid import check
 
@@ -18,7 +18,7 @@ def test_routines_in_no_file_do_nothing_and_are_told(tmp_path):
         '  x := x + sizeOf("k");\n  p := lookUp(x);\n  MoveJ p, v100, fine, tool0;\n'
         '  %"later"% 3;\n  TPWrite "x " + ValToStr(x);\n ENDPROC\nENDMODULE\n'
     )
-    found = load_target([path], Wishes(cell="guess"))
+    found = load_target([path], BootOptions(cell="guess"))
     assert found.guessed is not None
     named = {one.name: one.type for one in found.guessed.named}
     assert named == {
@@ -69,7 +69,7 @@ def test_a_trap_in_no_file_does_nothing_and_is_told(tmp_path):
         "MODULE calls\n VAR intnum i;\n PROC main()\n  CONNECT i WITH later;\n"
         '  ITimer \\Single, 0.1, i;\n  WaitTime 1;\n  TPWrite "end";\n ENDPROC\nENDMODULE\n'
     )
-    found = load_target([path], Wishes(cell="guess"))
+    found = load_target([path], BootOptions(cell="guess"))
     assert found.guessed is not None
     assert {one.name: one.type for one in found.guessed.named} == {"later": "trap"}
     with VirtualController.boot(found, cycle="once") as controller:
@@ -149,7 +149,7 @@ def test_the_size_of_an_array_that_nobody_says_is_a_constant(tmp_path):
         " PROC main()\n  FOR i FROM 1 TO maxParts DO\n   many{i} := few{i};\n  ENDFOR\n"
         "  TPWrite ValToStr(Dim(few, 1) + many{3});\n ENDPROC\nENDMODULE\n"
     )
-    found = load_target([path], Wishes(cell="guess"))
+    found = load_target([path], BootOptions(cell="guess"))
     assert [d for d in check(found.system, gaps=True) if d.severity is Severity.ERROR] == []
     shown: list[str] = []
     with VirtualController.boot(found, cycle="once") as controller:
@@ -223,7 +223,7 @@ def test_inputs_that_a_backup_declares_are_given_but_for_what_crosses(tmp_path):
     }.items():
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).write_text(text)
-    with VirtualController.boot(load_target([tmp_path], Wishes(cell="guess"))) as controller:
+    with VirtualController.boot(load_target([tmp_path], BootOptions(cell="guess"))) as controller:
         assert controller.run(max_time=20) == "deadlock"
         assert controller.guessed.answered == [("diPart", 1), ("diPart", 0)]
         assert "waits for diBoth = 1" in controller.where()[0]

@@ -1,7 +1,7 @@
 """A controller with a power switch: what was asked of it before a restart is done."""
 
 from rapidgen.controller.boot_targets import load_target
-from rapidgen.controller.runner import Cabinet
+from rapidgen.controller.runner import ControllerRunner
 
 PROGRAM = "MODULE m\n PROC main()\n  WaitTime 100;\n ENDPROC\nENDMODULE\n"
 
@@ -10,7 +10,7 @@ def test_what_was_taken_before_a_restart_is_carried_out(tmp_path):
     path = tmp_path / "m.mod"
     path.write_text(PROGRAM)
     done, taken = [], []
-    with Cabinet.boot(load_target([path]), clock="real") as cabinet:
+    with ControllerRunner.boot(load_target([path]), clock="real") as cabinet:
 
         def restart_and_more():
             cabinet.ask_restart()

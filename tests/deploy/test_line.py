@@ -15,7 +15,7 @@ from rapidgen.client.address import Address
 from rapidgen.config import load_config
 from rapidgen.controller import VirtualController
 from rapidgen.deploy import Access, TransportFault, apply, connect, make_plan, parse_target
-from rapidgen.deploy.command_run import wanted_set
+from rapidgen.deploy.command_run import desired_set
 from rapidgen.deploy.transports.folder import FolderTransport
 from rapidgen.servers import serve_ftp, serve_sftp
 from rapidgen.wire.simple_message.spec import TriState
@@ -44,7 +44,7 @@ def test_from_an_empty_controller_to_a_moved_robot(serve, home, tmp_path, monkey
     (tmp_path / "known").write_text(service.host_key + "\n")
     scheme = "ftp" if serve is serve_ftp else "sftp"
     target = parse_target(f"{scheme}://Default%20User@{service.host}:{service.port}")
-    wanted = wanted_set("irb120")
+    wanted = desired_set("irb120")
     transport = connect(target, Access(known_hosts=str(tmp_path / "known")))
     apply(transport, make_plan(transport, wanted))
     transport.close()
@@ -98,7 +98,7 @@ class Cut(FolderTransport):
 @pytest.mark.parametrize("renames", [0, 1, 3])
 def test_a_set_that_was_cut_refuses_to_move(home, tmp_path, renames):
     """0: the old set, which moves; 1: the fence alone; 3: the fence and two new modules."""
-    old, new = wanted_set("irb120"), wanted_set("irb120", ["trajectory.capacity=500"])
+    old, new = desired_set("irb120"), desired_set("irb120", ["trajectory.capacity=500"])
     transport = FolderTransport(home)
     apply(transport, make_plan(transport, old))
     cut = Cut(home, renames)

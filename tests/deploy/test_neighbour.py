@@ -11,7 +11,7 @@ import pytest
 from rapidgen.cli.deploy import deploy as deploy_verb
 from rapidgen.deploy import apply, make_plan
 from rapidgen.deploy.command_run import save_neighbours
-from rapidgen.deploy.doctor import examine
+from rapidgen.deploy.doctor import run_checks
 from rapidgen.deploy.syspar import loaded_cfg
 from rapidgen.deploy.target import Access, parse_target
 from rapidgen.deploy.transports.folder import FolderTransport
@@ -264,7 +264,7 @@ def test_doctor_says_whether_the_steps_were_done(kit, controller, tmp_path):
     kit.deploy(FolderTransport(controller), kit.driver(BUILD))
     target = parse_target(f"dir://{controller / 'HOME'}")
     for backup, verdict in ((tmp_path / "before", "warn"), (controller, "ok"), (None, "unknown")):
-        checks = examine(
+        checks = run_checks(
             target, Access(), kit.driver(BUILD), hello=lambda host, port: None, backup=backup
         )
         assert [c.verdict for c in checks if c.area == "configuration"] == [verdict]
@@ -302,7 +302,7 @@ def built(kit, tmp_path):
 
 def test_doctor_names_it_and_a_copy_loads_it_again(kit, controller, tmp_path, monkeypatch):
     target = parse_target(f"dir://{controller}")
-    checks = examine(target, Access(), kit.driver(BUILD), hello=lambda host, port: None)
+    checks = run_checks(target, Access(), kit.driver(BUILD), hello=lambda host, port: None)
     (found,) = [c for c in checks if c.area == "drivers"]
     assert (found.verdict, "ROS_common.sys -AllTask" in found.found) == ("fail", True)
     folder = built(kit, tmp_path)

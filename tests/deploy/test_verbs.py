@@ -17,7 +17,7 @@ from rapidgen.cli.rollback import rollback
 from rapidgen.cli.uninstall import uninstall
 from rapidgen.deploy import TransportFault, parse_target
 from rapidgen.deploy.driver_set import NEW as STAGED
-from rapidgen.deploy.fleet import GivingUp, on_all, parse_targets
+from rapidgen.deploy.fleet import Interruption, on_all, parse_targets
 from rapidgen.deploy.secrets import Credentials, Secret, find_password, redact
 from rapidgen.deploy.transports.folder import FolderTransport
 from rapidgen.deploy.transports.transport import FILE_LIMIT
@@ -175,7 +175,7 @@ def test_ctrl_c_ends_before_files_are_switched_and_tells_what_stands(
     homes = [tmp_path / f"c{n}" for n in range(3)]
     for home in homes:
         home.mkdir()
-    heard, whole, begin = threading.Event(), FolderTransport.write, GivingUp.begin
+    heard, whole, begin = threading.Event(), FolderTransport.write, Interruption.begin
     handled = []
 
     def write(self, path, data):
@@ -191,7 +191,7 @@ def test_ctrl_c_ends_before_files_are_switched_and_tells_what_stands(
         heard.set()
 
     monkeypatch.setattr(FolderTransport, "write", write)
-    monkeypatch.setattr(GivingUp, "begin", told)
+    monkeypatch.setattr(Interruption, "begin", told)
     urls = [word for home in homes for word in ("--to", f"dir://{home}")]
     code, out, err = run("deploy", built(OLD), *urls, "--yes", "--parallel", "1")
     assert code == 130
@@ -207,7 +207,7 @@ def test_ctrl_c_ends_before_files_are_switched_and_tells_what_stands(
 def test_an_interruption_begins_nothing_more_wherever_it_comes(monkeypatch):
     """Leaving a pool begins what was handed in."""
     begun, told = [], threading.Event()
-    hand_in, begin = ThreadPoolExecutor.submit, GivingUp.begin
+    hand_in, begin = ThreadPoolExecutor.submit, Interruption.begin
 
     def work(target):
         begun.append(target)
@@ -222,7 +222,7 @@ def test_an_interruption_begins_nothing_more_wherever_it_comes(monkeypatch):
         begin(self)
         told.set()
 
-    monkeypatch.setattr(GivingUp, "begin", tells)
+    monkeypatch.setattr(Interruption, "begin", tells)
     monkeypatch.setattr(ThreadPoolExecutor, "submit", submit)
     with pytest.raises(KeyboardInterrupt):
         on_all(["first", "second", "third"], work, parallel=1)

@@ -11,7 +11,7 @@ from dataclasses import replace
 
 from rapidgen.config import load_config
 from rapidgen.controller import VirtualController
-from rapidgen.controller.runner import Cabinet
+from rapidgen.controller.runner import ControllerRunner
 from rapidgen.servers.rws.server import KNOWN, serve_rws
 from rapidgen.system import read_files
 from rapidgen.system.base import Robot, base_system
@@ -53,7 +53,7 @@ def _empty(stack, folder, model, generation, release) -> str:
     cfg = base_system(release, [Robot("T_ROB1", "ROB_1")])
     robots = load_config(model).groups
     options = {"autostart": False, "entry_needed": False, "clock": "real", "host": HOST}
-    cabinet = stack.enter_context(Cabinet(system, cfg=cfg, robots=robots, **options))
+    cabinet = stack.enter_context(ControllerRunner(system, cfg=cfg, robots=robots, **options))
     cabinet.start()
     service = serve_rws(cabinet, generation, HOST)
     stack.callback(service.close)

@@ -13,7 +13,7 @@ from rapidgen.machine.event_log import Domain, EventLog, EventType
 from rapidgen.machine.force import ForceSensors, Measured
 from rapidgen.machine.io import IOSystem
 from rapidgen.machine.scheduler import S, Scheduler
-from rapidgen.machine.sync_points import Meetings
+from rapidgen.machine.sync_points import SyncPoints
 from rapidgen.machine.text_tables import TextTables
 from rapidgen.system.model import ArcSignals, SignalSpec, System, UdpDevice
 
@@ -289,5 +289,5 @@ def test_costs_are_scaled_in_their_built_in_part():
 
 
 def test_nobody_waits_for_anybody_at_first():
-    meetings = Meetings()
+    meetings = SyncPoints()
     assert (meetings.points, meetings.moves, meetings.any_task) == ({}, {}, False)

@@ -5,7 +5,7 @@ import math
 import pytest
 
 from rapidgen.machine.event_log import EventLog
-from rapidgen.machine.io import Awaited, IOSystem, status_name
+from rapidgen.machine.io import IOSystem, SignalCondition, status_name
 from rapidgen.machine.scheduler import S, Scheduler
 from rapidgen.system.model import (
     CrossConnection,
@@ -85,7 +85,7 @@ def test_the_largest_value():
 )
 def test_what_is_awaited(relation, held, fulfilling):
     board = Board(SignalSpec("g", "GI", size=4))
-    awaited = Awaited(board["g"], relation, 5)
+    awaited = SignalCondition(board["g"], relation, 5)
     found = []
     for value in (4, 5, 6):
         board.put("g", value)
@@ -97,15 +97,15 @@ def test_what_is_awaited(relation, held, fulfilling):
 
 def test_what_cannot_be_fulfilled():
     board = Board(SignalSpec("d", "DI"))
-    assert Awaited(board["d"], ">", 1).fulfilling() is None
-    assert Awaited(board["d"], "<", 0).fulfilling() is None
-    assert Awaited(board["d"], "<>", 1).fulfilling() == 0
-    assert Awaited(board["d"], "=", 2).fulfilling() is None
+    assert SignalCondition(board["d"], ">", 1).fulfilling() is None
+    assert SignalCondition(board["d"], "<", 0).fulfilling() is None
+    assert SignalCondition(board["d"], "<>", 1).fulfilling() == 0
+    assert SignalCondition(board["d"], "=", 2).fulfilling() is None
 
 
 def test_whoever_drives_inputs_is_told_what_is_awaited():
     board = Board(SignalSpec("d", "DI"))
-    awaited = Awaited(board["d"], "=", 1)
+    awaited = SignalCondition(board["d"], "=", 1)
     board.await_value(awaited)
     told = []
     board.on_awaited = told.append

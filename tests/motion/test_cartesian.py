@@ -8,8 +8,8 @@ import pytest
 from rapidgen.axes import frames
 from rapidgen.axes.path_shapes import arc_through
 from rapidgen.machine.scheduler import S
-from rapidgen.motion.fault_reasons import MotionFault, Refusal
-from rapidgen.motion.moves import Carrier, CartesianMove, MoveSpeed, Singularities
+from rapidgen.motion.fault_reasons import FaultReason, MotionFault
+from rapidgen.motion.moves import CartesianMove, MoveFrames, MoveSpeed, Singularities
 
 HOME = (0.0, 0.2, 0.1, 0.0, 0.6, 0.0)
 TOOL = ((0.02, 0.0, 0.15), (1.0, 0.0, 0.0, 0.0))
@@ -27,7 +27,7 @@ def linear(robot, zones):
     start = robot.group.kinematics.forward(HOME)
 
     def make(x, y, z, *, turn=0.0, zone=0, tcp=0.2, via=None, tool=None, **more):
-        carrier = Carrier(tool=tool) if tool else Carrier()
+        carrier = MoveFrames(tool=tool) if tool else MoveFrames()
         base = carrier.pose(start)
         target = (
             frames.add(base[0], (x, y, z)),
@@ -46,7 +46,7 @@ def linear(robot, zones):
 
 def tcp(cell, tool=None):
     """Positions relative to the TCP at HOME, and orientations."""
-    carrier = Carrier(tool=tool) if tool else Carrier()
+    carrier = MoveFrames(tool=tool) if tool else MoveFrames()
     own = cell.group.kinematics
     start = carrier.pose(own.forward(HOME))[0]
     poses = [carrier.pose(own.forward(tuple(q))) for q in cell.path]
@@ -141,7 +141,7 @@ def test_three_points_that_make_no_circle(robot, linear, via, end):
     def program(task):
         with pytest.raises(MotionFault) as fault:
             robot.group.move(task, linear(*end, via=via))
-        assert fault.value.refusal is Refusal.NO_CIRCLE
+        assert fault.value.refusal is FaultReason.NO_CIRCLE
 
     robot.run(program)
 
@@ -160,7 +160,7 @@ def test_more_than_240_degrees_are_two_instructions(robot, linear):
     def program(task):
         with pytest.raises(MotionFault) as fault:
             robot.group.move(task, linear(0, 0.01, 0.0, via=(0.0, 0.005, 0.08)))
-        assert fault.value.refusal is Refusal.CIRCLE_TOO_LONG
+        assert fault.value.refusal is FaultReason.CIRCLE_TOO_LONG
 
     robot.run(program)
 
@@ -262,7 +262,7 @@ def test_a_stationary_tool_moves_the_object(robot, zones):
     group = robot.group
     own = group.kinematics
     fixed = ((0.5, 0.1, 0.6), (1.0, 0.0, 0.0, 0.0))
-    carrier = Carrier(tool=fixed, object=TOOL, stationary=True)
+    carrier = MoveFrames(tool=fixed, object=TOOL, stationary=True)
     start = carrier.pose(own.forward(HOME))
     target = (frames.add(start[0], (0.02, 0.03, 0.0)), start[1])
     move = CartesianMove(
@@ -285,7 +285,7 @@ def test_out_of_reach_and_out_of_range_are_errors_before_motion(robot, linear):
             found.append(fault.value.refusal)
 
     robot.run(program)
-    assert found == [Refusal.OUT_OF_REACH, Refusal.OUT_OF_RANGE]
+    assert found == [FaultReason.OUT_OF_REACH, FaultReason.OUT_OF_RANGE]
     assert robot.group.positions() == HOME
 
 
@@ -302,7 +302,7 @@ def test_a_line_through_the_wrist_singularity(make_cell, zones):
     def program(task):
         with pytest.raises(MotionFault) as fault:
             group.move(task, move)
-        assert fault.value.refusal is Refusal.SINGULARITY
+        assert fault.value.refusal is FaultReason.SINGULARITY
 
     cell.run(program)
 
@@ -337,7 +337,7 @@ def test_a_line_that_ends_in_another_configuration(robot, linear):
     def program(task):
         with pytest.raises(MotionFault) as fault:
             robot.group.move(task, linear(0, 0.1, 0, wanted=(0, 0, 0, 1)))
-        assert fault.value.refusal is Refusal.CONFIGURATION
+        assert fault.value.refusal is FaultReason.CONFIGURATION
         robot.group.move(task, linear(0, 0.1, 0, wanted=(0, 0, 0, 0)))
 
     robot.run(program)

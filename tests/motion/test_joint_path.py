@@ -8,7 +8,7 @@ import pytest
 from rapidgen.machine.scheduler import S
 from rapidgen.motion import MotionSettings
 from rapidgen.motion.events import CORNER_PATH_FAILURE, TIME_NOT_MET
-from rapidgen.motion.fault_reasons import MotionFault, Refusal
+from rapidgen.motion.fault_reasons import FaultReason, MotionFault
 from rapidgen.motion.group import MotionGroup
 
 MS = 1_000_000
@@ -297,14 +297,14 @@ def test_concurrent_moves_return_at_once_but_five_at_most(cell, joint):
         cell.group.move(task, joint(6, time=0.5))
 
     cell.run(program)
-    assert refused == [Refusal.TOO_MANY_CONCURRENT]
+    assert refused == [FaultReason.TOO_MANY_CONCURRENT]
     assert at_rest(cell, 6)
 
 
 def test_a_target_outside_the_range_moves_nothing(make_cell, joint):
     for settings, refusal in (
-        (MotionSettings(), Refusal.OUT_OF_RANGE),
-        (MotionSettings(range_error="fatal"), Refusal.TARGET_OUT_OF_RANGE),
+        (MotionSettings(), FaultReason.OUT_OF_RANGE),
+        (MotionSettings(range_error="fatal"), FaultReason.TARGET_OUT_OF_RANGE),
     ):
         cell = make_cell(settings=settings)
 

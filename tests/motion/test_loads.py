@@ -3,8 +3,8 @@
 import pytest
 
 from rapidgen.config import load_config
-from rapidgen.controller.boot_targets import Wishes, load_target
-from rapidgen.controller.runner import Cabinet
+from rapidgen.controller.boot_targets import BootOptions, load_target
+from rapidgen.controller.runner import ControllerRunner
 from rapidgen.motion import MotionSettings
 
 PAYLOAD = load_config("irb120").groups[0].max_payload
@@ -151,7 +151,7 @@ def test_the_payload_of_a_robot_that_stands_in_is_not_known(tmp_path, robot, cou
     module.write_text(
         f"MODULE m\n{tool}\nPROC main()\nMoveAbsJ {AXES}, v1000, fine, tool;\nENDPROC\nENDMODULE\n"
     )
-    with Cabinet.boot(load_target([module], Wishes(robot=robot))) as cabinet:
+    with ControllerRunner.boot(load_target([module], BootOptions(robot=robot))) as cabinet:
         cabinet.controller.run_for(10)
         assert sum(event.code == 59_902 for event in cabinet.controller.log) == count
 

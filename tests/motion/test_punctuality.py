@@ -3,10 +3,10 @@
 import pytest
 
 from rapidgen.motion.events import TIME_NOT_MET
-from rapidgen.motion.legs import JointWay, Leg
+from rapidgen.motion.legs import JointPath, Leg
 from rapidgen.motion.moves import Measure
 from rapidgen.motion.pieces import AxisLimits
-from rapidgen.motion.timing_monitor import Punctuality
+from rapidgen.motion.timing_monitor import TimingMonitor
 
 
 @pytest.fixture
@@ -16,7 +16,7 @@ def passed(cell, joint):
 
     def make(took: float, promised: float | None = 1.0) -> Leg:
         move = joint(10, time=promised)
-        way = JointWay(cell.group.positions(), move.target, 1.0, (Measure(), 0.0), limits, 1.0)
+        way = JointPath(cell.group.positions(), move.target, 1.0, (Measure(), 0.0), limits, 1.0)
         return Leg(move, way, 0.0, 1.0, began=5.0, passed_at=5.0 + took)
 
     return make
@@ -26,14 +26,14 @@ def passed(cell, joint):
     ("took", "reported"), [(0.9, 0), (1.0, 0), (1.0019, 0), (1.0021, 1), (1.5, 1)]
 )
 def test_late_by_more_than_two_milliseconds(cell, passed, took, reported):
-    punctuality = Punctuality()
+    punctuality = TimingMonitor()
     punctuality.finished(passed(took), cell.group.motion)
     punctuality.report(cell.log, "rob1")
     assert cell.events(TIME_NOT_MET) == reported
 
 
 def test_one_report_sums_up_the_late_moves_since_the_last_one(cell, passed):
-    punctuality = Punctuality()
+    punctuality = TimingMonitor()
     for took in (1.25, 1.001, 1.5):
         punctuality.finished(passed(took), cell.group.motion)
     punctuality.finished(passed(9.0, promised=None), cell.group.motion)

@@ -3,7 +3,7 @@
 import pytest
 
 from rapidgen.motion import MotionSettings
-from rapidgen.motion.fault_reasons import MotionFault, Refusal
+from rapidgen.motion.fault_reasons import FaultReason, MotionFault
 from rapidgen.runtime.motion_faults import in_rapid
 
 P = "[[364.354,0,594],[0.5,0,0.866025,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]"
@@ -89,6 +89,6 @@ def test_a_robot_without_geometry_moves_in_joints_only(rapid):
     assert fault.arguments[0].startswith("rob1: the configuration has no chain")
 
 
-@pytest.mark.parametrize("refusal", Refusal)
+@pytest.mark.parametrize("refusal", FaultReason)
 def test_every_refusal_has_a_meaning_in_rapid(refusal):
     assert in_rapid(MotionFault(refusal, "one", "two"))

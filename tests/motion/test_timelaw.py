@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from rapidgen.motion.speed_profile import TimeLaw, brake, plan
+from rapidgen.motion.speed_profile import SpeedProfile, brake, plan
 
 
 @dataclass(frozen=True)
@@ -117,7 +117,7 @@ def test_too_fast_for_what_comes_is_no_plan():
 
 
 def test_one_law_after_the_other():
-    first, second = TimeLaw(0.0), TimeLaw(1.0)
+    first, second = SpeedProfile(0.0), SpeedProfile(1.0)
     first.add(0.0, 1.0, 0.0, 1.0)
     second.add(1.0, 0.5, 0.0, 2.0)
     chain = first.then(second)

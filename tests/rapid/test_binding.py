@@ -4,8 +4,8 @@ import pytest
 
 from rapidgen.rapid import parse
 from rapidgen.rapid.binding import (
-    Bound,
-    Misfit,
+    ArgumentFault,
+    BoundModule,
     NotConstant,
     TaskScope,
     builtin,
@@ -273,13 +273,18 @@ def matched(call, routine=ROUTINE):
         ('p a:=1, B:="b";', ["a", "b"], [], []),
         ('p 1, "b" \\x?o \\y?o;', ["a", "b", "x", "y"], [], []),
         ("p 1;", ["a"], [], ["b"]),
-        ('p 1, "b", 3;', ["a", "b", None], [Misfit.SURPLUS], []),
-        ('p 1, "b" \\t;', ["a", "b", None], [Misfit.UNKNOWN], []),
-        ('p 1, "b" \\a:=1;', ["a", "b", None], [Misfit.UNKNOWN], []),
-        ('p 1, "b" \\s;', ["a", "b", "s"], [Misfit.ORDER], []),
-        ('p 1, "b", b:="c";', ["a", "b", "b"], [Misfit.TWICE], []),
-        ('p 1, "b" \\x:=1 \\y:=TRUE;', ["a", "b", "x", "y"], [Misfit.EXCLUSIVE], []),
-        ('p 1, "b" \\y:=TRUE \\x:=1;', ["a", "b", "y", "x"], [Misfit.ORDER, Misfit.EXCLUSIVE], []),
+        ('p 1, "b", 3;', ["a", "b", None], [ArgumentFault.SURPLUS], []),
+        ('p 1, "b" \\t;', ["a", "b", None], [ArgumentFault.UNKNOWN], []),
+        ('p 1, "b" \\a:=1;', ["a", "b", None], [ArgumentFault.UNKNOWN], []),
+        ('p 1, "b" \\s;', ["a", "b", "s"], [ArgumentFault.ORDER], []),
+        ('p 1, "b", b:="c";', ["a", "b", "b"], [ArgumentFault.TWICE], []),
+        ('p 1, "b" \\x:=1 \\y:=TRUE;', ["a", "b", "x", "y"], [ArgumentFault.EXCLUSIVE], []),
+        (
+            'p 1, "b" \\y:=TRUE \\x:=1;',
+            ["a", "b", "y", "x"],
+            [ArgumentFault.ORDER, ArgumentFault.EXCLUSIVE],
+            [],
+        ),
         ("q;", [], [], []),
     ],
 )
@@ -335,7 +340,7 @@ ENDMODULE
 @pytest.fixture(scope="module")
 def places():
     scope, other = bind(TEXT, "MODULE other\nVAR intnum far;\nENDMODULE")
-    return Bound(scope), Bound(other)
+    return BoundModule(scope), BoundModule(other)
 
 
 def place(line, word, nth=0):

@@ -8,7 +8,7 @@ from driven import booted, robot_of
 from ready import goal
 
 from rapidgen.client.address import Address
-from rapidgen.ros.goal_execution import Policy, UnderWay
+from rapidgen.ros.goal_execution import ActiveGoal, Policy
 from rapidgen.ros.robot_link import RobotLink
 from rapidgen.testing.asyncio_clock import VirtualLoop
 
@@ -75,7 +75,7 @@ class Cell:
             names = self.robots[number].group.names
             here = self.robots[number].state.joints
             asked = goal(here, [value + 0.1 for value in here], seconds=4.0, names=names)
-            following = self.links[number].follow(asked, lambda _: None, UnderWay())
+            following = self.links[number].follow(asked, lambda _: None, ActiveGoal())
             goals.append(asyncio.ensure_future(following))
         for number in numbers:
             await self.robots[number].wait_until(lambda state: state.is_moving, 10.0)

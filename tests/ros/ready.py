@@ -5,7 +5,7 @@ from contextlib import contextmanager
 import numpy as np
 from driven import booted, robot_of
 
-from rapidgen.ros.goal_execution import Follower, Policy, UnderWay
+from rapidgen.ros.goal_execution import ActiveGoal, GoalExecutor, Policy
 from rapidgen.ros.goals import Goal, Point
 from rapidgen.testing.asyncio_clock import VirtualLoop
 
@@ -18,10 +18,10 @@ class Station:
     def __init__(self, controller, robot, loop, policy):
         self.controller, self.robot, self.loop = controller, robot, loop
         self.notes, self.fed = [], []
-        self.follower = Follower(robot, policy, loop.time, self.notes.append)
+        self.follower = GoalExecutor(robot, policy, loop.time, self.notes.append)
 
     def follow(self, goal, under=None):
-        return self.follower.follow(goal, self.fed.append, under or UnderWay())
+        return self.follower.follow(goal, self.fed.append, under or ActiveGoal())
 
     def run(self, coroutine):
         return self.loop.run_until_complete(coroutine)

@@ -12,8 +12,8 @@ from itertools import pairwise
 import numpy as np
 from ready import NAMES, station
 
-from rapidgen.ros.goal_execution import Policy, UnderWay
-from rapidgen.ros.goals import Code, Defaults, Ending, Goal, Point, Tolerance
+from rapidgen.ros.goal_execution import ActiveGoal, Policy
+from rapidgen.ros.goals import Code, Defaults, FinalStatus, Goal, Point, Tolerance
 
 PATIENCE = 200.0
 """Simulated s after which a goal that is not over is one that hangs: 12 s take 120 s at a tenth."""
@@ -60,7 +60,7 @@ def _recover(s):
 def _one(s, draw, found, where):
     asked, spoiled = _goal(draw, s.joints)
     before, recorder = s.joints, next(iter(s.controller.record().values()))
-    under = UnderWay()
+    under = ActiveGoal()
     outcome = s.run(_with_fault(s, draw, s.follow(asked, under), under))
     if outcome is None:
         found.wrong.append(f"{where}: not over after {PATIENCE:g} s")
@@ -74,7 +74,7 @@ def _one(s, draw, found, where):
 
     if not outcome.text:
         wrong("no reason")
-    if outcome.status is Ending.SUCCEEDED:
+    if outcome.status is FinalStatus.SUCCEEDED:
         last = np.array(
             [dict(zip(asked.names, asked.points[-1].positions, strict=True))[n] for n in NAMES]
         )
@@ -86,9 +86,9 @@ def _one(s, draw, found, where):
             wrong("succeeded on another path")
     elif outcome.code in (Code.INVALID_JOINTS, Code.OLD_HEADER_TIMESTAMP) and moved > 1e-6:
         wrong("refused, and the robot moved")
-    elif outcome.status is Ending.CANCELED and not s.stands:
+    elif outcome.status is FinalStatus.CANCELED and not s.stands:
         wrong("cancelled, and the robot moves")
-    elif outcome.status is Ending.CANCELED and not under.ending.is_set():
+    elif outcome.status is FinalStatus.CANCELED and not under.ending.is_set():
         wrong("cancelled by nobody")
     if outcome.code is Code.INVALID_GOAL and moved > 1e-6:
         wrong("refused, and the robot moved")

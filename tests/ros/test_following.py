@@ -12,8 +12,8 @@ import pytest
 from ready import NAMES, goal, station
 
 from rapidgen.client import Trajectory
-from rapidgen.ros.goal_execution import GoalFeedback, Policy, UnderWay, _violation
-from rapidgen.ros.goals import Code, Defaults, Ending, Goal, JudgedGoal, Point, Tolerance
+from rapidgen.ros.goal_execution import ActiveGoal, GoalFeedback, Policy, _violation
+from rapidgen.ros.goals import Code, Defaults, FinalStatus, Goal, Point, Tolerance, ValidatedGoal
 
 THERE = goal(0.0, 0.1, 0.2)
 APPROACH = Policy(replace="approach")
@@ -23,7 +23,7 @@ def test_a_path_longer_than_the_ring_of_the_driver():
     rows = [0.2 * (1 - np.cos(n * 0.05)) for n in range(500)]
     with station() as s:
         outcome = s.outcome(goal(*rows, seconds=0.1))
-        assert outcome.status is Ending.SUCCEEDED, outcome.text
+        assert outcome.status is FinalStatus.SUCCEEDED, outcome.text
         assert s.joints == pytest.approx([rows[-1]] * 6, abs=1e-4)
 
 
@@ -34,18 +34,18 @@ def test_manual_mode_moves_while_the_enabling_device_is_held(mode):
         s.controller.set_motors(True)
         s.controller.start_program()
         s.controller.run_for(2.0)
-        assert s.outcome(goal(0.0, 0.05, seconds=2.0)).status is Ending.SUCCEEDED
+        assert s.outcome(goal(0.0, 0.05, seconds=2.0)).status is FinalStatus.SUCCEEDED
 
 
 def test_joints_of_a_coupled_model_are_those_of_its_urdf():
     """Axis 3 of the controller is joint 3 and joint 2: `J23_coupled` of abb_driver."""
     with station(name="irb2400") as s:
         asked = goal(0.0, [0.0, 0.4, -0.3, 0.0, 0.0, 0.0], seconds=2.0)
-        assert s.outcome(asked).status is Ending.SUCCEEDED
+        assert s.outcome(asked).status is FinalStatus.SUCCEEDED
         assert s.joints[:3] == pytest.approx([0.0, 0.4, 0.1], abs=1e-4)
         assert s.robot.state.joints[2] == pytest.approx(-0.3, abs=1e-4)
         far = s.outcome(goal(s.robot.state.joints, [0.0, 1.0, 0.6, 0.0, 0.0, 0.0], seconds=4.0))
-        assert (far.status, far.code) == (Ending.ABORTED, Code.INVALID_GOAL)
+        assert (far.status, far.code) == (FinalStatus.ABORTED, Code.INVALID_GOAL)
 
 
 def test_joints_of_a_track_and_a_positioner():
@@ -54,14 +54,14 @@ def test_joints_of_a_track_and_a_positioner():
         there = {"track": 0.5, "positioner": 1.0}
         row = [there.get(name, 0.1) for name in names]
         asked = goal(here, row, seconds=4.0, names=names)
-        assert s.outcome(asked).status is Ending.SUCCEEDED
+        assert s.outcome(asked).status is FinalStatus.SUCCEEDED
         assert s.robot.state.joints == pytest.approx(row, abs=1e-3)
 
 
 def test_succeeded_only_where_the_controller_is_done():
     with station() as s:
         outcome = s.outcome(THERE)
-        assert outcome.status is Ending.SUCCEEDED
+        assert outcome.status is FinalStatus.SUCCEEDED
         assert outcome.code is Code.SUCCESSFUL
         assert s.stands
         assert s.joints == pytest.approx([0.2] * 6, abs=1e-4)
@@ -75,7 +75,7 @@ def test_names_in_any_order():
     with station() as s:
         rows = [[0.0] * 6, [0.1, 0.2, -0.1, 0.3, 0.05, -0.2]]
         backwards = goal(*(row[::-1] for row in rows), names=NAMES[::-1])
-        assert s.outcome(backwards).status is Ending.SUCCEEDED
+        assert s.outcome(backwards).status is FinalStatus.SUCCEEDED
         assert s.joints == pytest.approx(rows[1], abs=1e-4)
 
 
@@ -117,10 +117,10 @@ def test_a_refusal_says_what_to_do_in_words_of_ros(asked, mend):
 def test_refused_is_aborted_with_a_reason_and_nothing_moves(asked, code, text):
     with station() as s:
         outcome = s.outcome(asked)
-        assert (outcome.status, outcome.code) == (Ending.ABORTED, code)
+        assert (outcome.status, outcome.code) == (FinalStatus.ABORTED, code)
         assert text in outcome.text
         assert s.joints == pytest.approx([0.0] * 6, abs=1e-9)
-        assert s.outcome(THERE).status is Ending.SUCCEEDED
+        assert s.outcome(THERE).status is FinalStatus.SUCCEEDED
 
 
 def test_a_velocity_at_the_end_is_refused_and_effort_is_said():
@@ -132,7 +132,7 @@ def test_a_velocity_at_the_end_is_refused_and_effort_is_said():
         assert refused.code is Code.INVALID_GOAL
         assert "joint_4 0.2" in refused.text
         done = s.outcome(pushed)
-        assert done.status is Ending.SUCCEEDED
+        assert done.status is FinalStatus.SUCCEEDED
         assert "effort was ignored" in done.text
         assert any("effort" in note for note in s.notes)
 
@@ -143,7 +143,7 @@ def test_a_stamp_in_the_future_is_waited_for():
         asked = replace(THERE, stamp=start)
         began = []
         s.follower._robot.execute = _noting(s, s.robot.execute, began)
-        assert s.outcome(asked).status is Ending.SUCCEEDED
+        assert s.outcome(asked).status is FinalStatus.SUCCEEDED
         assert began == [pytest.approx(start, abs=1e-6)]
 
 
@@ -158,17 +158,17 @@ def _noting(s, execute, began):
 def test_a_stamp_in_the_past_is_refused_and_one_under_way_is_not():
     with station() as s:
         late = s.outcome(replace(THERE, stamp=s.loop.time() - 0.5))
-        assert (late.status, late.code) == (Ending.ABORTED, Code.OLD_HEADER_TIMESTAMP)
+        assert (late.status, late.code) == (FinalStatus.ABORTED, Code.OLD_HEADER_TIMESTAMP)
         assert s.joints == pytest.approx([0.0] * 6, abs=1e-9)
-        assert s.outcome(replace(THERE, stamp=s.loop.time() - 0.1)).status is Ending.SUCCEEDED
+        assert s.outcome(replace(THERE, stamp=s.loop.time() - 0.1)).status is FinalStatus.SUCCEEDED
 
 
 @pytest.mark.parametrize("after", [0.0, 0.05, 0.4, 1.2])
 def test_cancel_ends_when_the_robot_stands(after):
     with station() as s:
-        under = UnderWay()
+        under = ActiveGoal()
         outcome = s.run(_after(s, after, s.follow(goal(0.0, 0.5, 1.0), under), under.cancel))
-        assert outcome.status is Ending.CANCELED
+        assert outcome.status is FinalStatus.CANCELED
         assert s.stands
         stood = s.joints
         assert stood.max() < 1.0
@@ -187,25 +187,25 @@ async def _after(s, seconds, following, act):
 def test_cancel_before_the_stamp():
     with station() as s:
         asked = replace(THERE, stamp=s.loop.time() + 5)
-        under = UnderWay()
+        under = ActiveGoal()
         outcome = s.run(_after(s, 1.0, s.follow(asked, under), under.cancel))
-        assert outcome.status is Ending.CANCELED
+        assert outcome.status is FinalStatus.CANCELED
         assert s.joints == pytest.approx([0.0] * 6, abs=1e-9)
 
 
 def test_cancelled_before_it_was_begun():
     with station() as s:
-        under = UnderWay()
+        under = ActiveGoal()
         under.cancel()
-        assert s.run(s.follow(goal(0.0, 0.5), under)).status is Ending.CANCELED
+        assert s.run(s.follow(goal(0.0, 0.5), under)).status is FinalStatus.CANCELED
         assert s.joints == pytest.approx([0.0] * 6, abs=1e-9)
 
 
 def test_a_second_goal_is_refused_and_the_first_goes_on():
     with station() as s:
         first, second = s.run(_two(s, THERE, goal(0.2, 0.0)))
-        assert first.status is Ending.SUCCEEDED
-        assert second.status is Ending.ABORTED
+        assert first.status is FinalStatus.SUCCEEDED
+        assert second.status is FinalStatus.ABORTED
         assert "another goal" in second.text
         assert s.joints == pytest.approx([0.2] * 6, abs=1e-4)
 
@@ -220,9 +220,9 @@ async def _two(s, one, other):
 def test_a_second_goal_replaces_where_the_user_said_so():
     with station(APPROACH) as s:
         first, second = s.run(_two(s, goal(0.0, 0.5, 1.0), goal(0.0, 0.3)))
-        assert first.status is Ending.ABORTED
+        assert first.status is FinalStatus.ABORTED
         assert "replaced" in first.text
-        assert second.status is Ending.SUCCEEDED
+        assert second.status is FinalStatus.SUCCEEDED
         assert "put in front" in second.text
         assert s.joints == pytest.approx([0.3] * 6, abs=1e-4)
 
@@ -234,7 +234,7 @@ def test_dense_points_are_resampled_where_the_user_said_so():
         assert "shorter" in s.outcome(dense).text
     with station(Policy(dense="resample")) as s:
         outcome = s.outcome(dense)
-        assert outcome.status is Ending.SUCCEEDED
+        assert outcome.status is FinalStatus.SUCCEEDED
         assert "off by up to" in outcome.text
         assert s.joints == pytest.approx([rows[-1]] * 6, abs=1e-4)
 
@@ -245,7 +245,7 @@ def test_the_rest_that_a_planner_leaves_at_the_end():
     points = [Point(t, [0.15 * (1 - np.cos(np.pi * t / 2.03))] * 6) for t in times]
     with station() as s:
         outcome = s.outcome(replace(THERE, points=points))
-        assert outcome.status is Ending.SUCCEEDED
+        assert outcome.status is FinalStatus.SUCCEEDED
         assert "last segment of 0.030 s was given 0.1 s" in outcome.text
         assert s.joints == pytest.approx([0.3] * 6, abs=1e-4)
 
@@ -262,7 +262,7 @@ def test_the_rest_that_a_planner_leaves_at_the_end():
 def test_what_the_controller_ends_is_aborted_and_the_next_goal_runs(fault, text):
     with station() as s:
         outcome = s.run(_after(s, 1.0, s.follow(goal(0.0, 0.5, 1.0)), lambda: fault(s.controller)))
-        assert outcome.status is Ending.ABORTED
+        assert outcome.status is FinalStatus.ABORTED
         assert outcome.code is Code.PATH_TOLERANCE_VIOLATED
         assert text in outcome.text
         s.controller.run_for(1.0)
@@ -281,20 +281,20 @@ def test_a_client_that_was_held_up_reads_before_it_calls_the_robot_silent(after)
 
     with station() as s:
         outcome = s.run(held_up(s))
-        assert outcome.status is Ending.SUCCEEDED, outcome.text
+        assert outcome.status is FinalStatus.SUCCEEDED, outcome.text
 
 
 def test_a_controller_that_is_gone_aborts():
     with station() as s:
         outcome = s.run(_after(s, 1.0, s.follow(goal(0.0, 0.5, 1.0)), s.controller.power_loss))
-        assert outcome.status is Ending.ABORTED
+        assert outcome.status is FinalStatus.ABORTED
 
 
 @pytest.mark.parametrize("cancelled", [False, True])
 @pytest.mark.parametrize("after", [0.0, 0.03, 0.08])
 def test_a_link_that_is_lost_while_a_goal_is_sent_leaves_open_whether_it_moves(after, cancelled):
     """-1 says that nothing has moved: nobody knows that any more, nor behind a lost STOP."""
-    asked, under = goal(*(0.01 * n for n in range(50)), seconds=0.2), UnderWay()
+    asked, under = goal(*(0.01 * n for n in range(50)), seconds=0.2), ActiveGoal()
     with station() as s:
 
         def fault():
@@ -303,7 +303,7 @@ def test_a_link_that_is_lost_while_a_goal_is_sent_leaves_open_whether_it_moves(a
                 under.cancel()
 
         outcome = s.run(_after(s, after, s.follow(asked, under), fault))
-        assert (outcome.status, outcome.code) == (Ending.ABORTED, Code.PATH_TOLERANCE_VIOLATED)
+        assert (outcome.status, outcome.code) == (FinalStatus.ABORTED, Code.PATH_TOLERANCE_VIOLATED)
         assert ("STOP" if cancelled else "connection") in outcome.text
 
 
@@ -313,7 +313,7 @@ def test_a_link_that_is_lost_before_the_stamp_aborts_at_once():
         asked = replace(THERE, stamp=began + 600.0)
         outcome = s.run(_after(s, 1.0, s.follow(asked), s.controller.power_loss))
         # Nothing was sent: nothing can have moved.
-        assert (outcome.status, outcome.code) == (Ending.ABORTED, Code.INVALID_GOAL)
+        assert (outcome.status, outcome.code) == (FinalStatus.ABORTED, Code.INVALID_GOAL)
         assert "connection" in outcome.text
         assert s.loop.time() - began < 60.0
 
@@ -333,7 +333,7 @@ def test_a_first_point_with_a_time_is_gone_to_in_that_time(points):
     with station() as s:
         began = s.loop.time()
         outcome = s.outcome(asked)
-        assert outcome.status is Ending.SUCCEEDED
+        assert outcome.status is FinalStatus.SUCCEEDED
         assert "from where the robot stood" in outcome.text
         assert s.joints == pytest.approx(points[-1].positions, abs=1e-4)
         assert s.loop.time() - began == pytest.approx(points[-1].time, abs=0.5)
@@ -343,7 +343,7 @@ def test_a_first_point_with_a_time_is_gone_to_in_that_time(points):
 def test_a_first_point_with_a_time_that_is_too_short_is_refused():
     with station() as s:
         outcome = s.outcome(Goal(NAMES, [Point(0.2, [1.0] * 6)]))
-        assert (outcome.status, outcome.code) == (Ending.ABORTED, Code.INVALID_GOAL)
+        assert (outcome.status, outcome.code) == (FinalStatus.ABORTED, Code.INVALID_GOAL)
         assert "too fast" in outcome.text
         assert s.joints == pytest.approx([0.0] * 6, abs=1e-9)
 
@@ -368,19 +368,19 @@ def test_path_tolerance_holds_where_the_first_feedback_comes_late():
         s.robot.execute, s.robot.next_feedback = taken, held_up
         asked = replace(goal(0.0, 0.4, 0.8), path_tolerance=path)
         outcome = s.outcome(asked)
-        assert outcome.status is Ending.SUCCEEDED, outcome.text
+        assert outcome.status is FinalStatus.SUCCEEDED, outcome.text
 
 
 def test_path_tolerance_is_against_the_controllers_time():
     wide = replace(THERE, path_tolerance=[Tolerance("joint_1", position=0.15)])
     with station() as s:
-        assert s.outcome(wide).status is Ending.SUCCEEDED
+        assert s.outcome(wide).status is FinalStatus.SUCCEEDED
     with station() as s:
         # Nobody holds a robot to its path better than by stopping it from outside.
         s.controller.run_for(0.1)
         tight = replace(goal(0.0, 0.5, 1.0), path_tolerance=[Tolerance("joint_1", position=1e-4)])
         slow = s.run(_after(s, 0.6, s.follow(tight), lambda: s.slow_down(0.1)))
-        assert (slow.status, slow.code) == (Ending.ABORTED, Code.PATH_TOLERANCE_VIOLATED)
+        assert (slow.status, slow.code) == (FinalStatus.ABORTED, Code.PATH_TOLERANCE_VIOLATED)
         assert "joint_1" in slow.text
         assert s.stands
 
@@ -396,10 +396,10 @@ def test_goal_time_counts_the_override_that_was_asked_for():
             await s.robot.set_speed(20)
             return await following
 
-        assert s.run(slower()).status is Ending.SUCCEEDED
+        assert s.run(slower()).status is FinalStatus.SUCCEEDED
     with station() as s:
         late = s.run(_after(s, 0.4, s.follow(timed), lambda: s.slow_down(0.05)))
-        assert (late.status, late.code) == (Ending.ABORTED, Code.GOAL_TOLERANCE_VIOLATED)
+        assert (late.status, late.code) == (FinalStatus.ABORTED, Code.GOAL_TOLERANCE_VIOLATED)
         assert "s were allowed" in late.text
         assert s.stands
 
@@ -423,10 +423,10 @@ def test_goal_tolerance_of_the_user_counts():
     strict = Policy(defaults=Defaults(goal=1e-12))
     with station(strict) as s:
         outcome = s.outcome(THERE)
-        assert (outcome.status, outcome.code) == (Ending.ABORTED, Code.GOAL_TOLERANCE_VIOLATED)
+        assert (outcome.status, outcome.code) == (FinalStatus.ABORTED, Code.GOAL_TOLERANCE_VIOLATED)
         none = replace(THERE, points=goal(0.2, 0.1).points)
         none = replace(none, goal_tolerance=[Tolerance(n, position=-1.0) for n in NAMES])
-        assert s.outcome(none).status is Ending.SUCCEEDED
+        assert s.outcome(none).status is FinalStatus.SUCCEEDED
 
 
 POINTS = Trajectory([0.0, 1.0, 2.0, 3.0], [[0.0], [0.4], [1.2], [1.2]], ["a"])
@@ -455,7 +455,7 @@ def test_a_sample_is_compared_with_all_that_was_asked_for_within_its_window(
     time, actual, velocity, window, violated
 ):
     allowed = [np.array([value]) for value in (0.01, 0.1, 0.0, 0.0)]
-    asked = JudgedGoal(POINTS, None, None, *allowed, goal_time=0.5)
+    asked = ValidatedGoal(POINTS, None, None, *allowed, goal_time=0.5)
     none = np.zeros(1)
     fed = GoalFeedback(("a",), time, none, none, np.array([actual]), np.array([velocity]))
     found = _violation(asked, fed, window)

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rapidgen.ros.goals import Code, Defaults, Goal, GoalRefused, Point, Tolerance, judge
+from rapidgen.ros.goals import Code, Defaults, Goal, GoalRefused, Point, Tolerance, validate_goal
 
 NAMES = ("a", "b", "c")
 GOAL = Goal(
@@ -20,7 +20,7 @@ INF = math.inf
 
 
 def judged(**changes):
-    return judge(replace(GOAL, **changes), NAMES, DEFAULTS, now=100.0)
+    return validate_goal(replace(GOAL, **changes), NAMES, DEFAULTS, now=100.0)
 
 
 def test_columns_are_in_the_order_of_the_robot():
@@ -154,4 +154,4 @@ def test_what_is_desired_at_a_moment(time, positions, velocities):
     ],
 )
 def test_whether_the_way_is_watched(defaults, changes, watched):
-    assert judge(replace(GOAL, **changes), NAMES, defaults, 0.0).watches_path is watched
+    assert validate_goal(replace(GOAL, **changes), NAMES, defaults, 0.0).watches_path is watched

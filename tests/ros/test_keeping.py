@@ -8,8 +8,8 @@ from linked import cell
 from ready import goal
 
 from rapidgen.client.errors import NotReady
-from rapidgen.ros.goal_execution import UnderWay
-from rapidgen.ros.goals import Code, Ending
+from rapidgen.ros.goal_execution import ActiveGoal
+from rapidgen.ros.goals import Code, FinalStatus
 
 
 def test_a_link_comes_back_and_executes_the_first_goal():
@@ -34,10 +34,10 @@ def test_a_link_comes_back_and_executes_the_first_goal():
 
     with cell("irb120") as c:
         ended, refused, done = c.run(tried(c))
-        assert (ended.status, ended.code) == (Ending.ABORTED, Code.PATH_TOLERANCE_VIOLATED)
-        assert (refused.status, refused.code) == (Ending.ABORTED, Code.INVALID_GOAL)
+        assert (ended.status, ended.code) == (FinalStatus.ABORTED, Code.PATH_TOLERANCE_VIOLATED)
+        assert (refused.status, refused.code) == (FinalStatus.ABORTED, Code.INVALID_GOAL)
         assert refused.text.startswith("no link to the robot: ")
-        assert done.status is Ending.SUCCEEDED, done.text
+        assert done.status is FinalStatus.SUCCEEDED, done.text
         stamps = [states.stamp for states in c.heard[0].states]
         assert all(before < after for before, after in pairwise(stamps))
         assert sum("connected to" in note for note in c.heard[0].notes) == 2
@@ -46,7 +46,7 @@ def test_a_link_comes_back_and_executes_the_first_goal():
 def _goal(c):
     here = c.robots[0].state.joints
     asked = goal(here, [value + 0.05 for value in here])
-    return asked, lambda _: None, UnderWay()
+    return asked, lambda _: None, ActiveGoal()
 
 
 def test_resume_only_where_it_still_stands():
@@ -66,4 +66,4 @@ def test_resume_only_where_it_still_stands():
         return await under
 
     with cell("irb120") as c:
-        assert c.run(tried(c)).status is Ending.SUCCEEDED
+        assert c.run(tried(c)).status is FinalStatus.SUCCEEDED

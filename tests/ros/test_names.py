@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from ruamel.yaml import YAML
 
 from rapidgen.config import load_config
-from rapidgen.config.from_description import Answers
+from rapidgen.config.from_description import DescriptionChoices
 from rapidgen.config.scaffold import from_urdf, write_new
 from rapidgen.config.yaml_text import yaml_flow, yaml_text
 from rapidgen.ros.package import CellMember, ros1_package, ros2_cell, ros2_package
@@ -141,7 +141,7 @@ def test_a_new_configuration(tmp_path, first):
     links = ["base", *links, "finger"]
     (tmp_path / "r.urdf").write_bytes(urdf(joints, links))
     axes = {name: f"rax_{number}" for number, name in enumerate(joints, 1)}
-    said = Answers(joints=axes, coupling=0.0)
+    said = DescriptionChoices(joints=axes, coupling=0.0)
     text = from_urdf(tmp_path / "r.urdf", folder=tmp_path, answers=said)
     write_new(tmp_path / "cell.yaml", text)
     assert [j.name for j in load_config(tmp_path / "cell.yaml").groups[0].joints] == joints

@@ -6,7 +6,7 @@ import pytest
 from linked import cell
 
 from rapidgen.client.errors import NotReady, RequestRefused, RobotTimeout
-from rapidgen.ros.goals import Ending
+from rapidgen.ros.goals import FinalStatus
 from rapidgen.ros.robot_link import set_speeds
 
 
@@ -24,7 +24,7 @@ def test_all_that_move_are_slower_and_one_that_stands_is_no_fault():
 
     with cell("irb14000") as c:
         ends = c.run(tried(c))
-        assert [end.status for end in ends] == [Ending.SUCCEEDED] * 2
+        assert [end.status for end in ends] == [FinalStatus.SUCCEEDED] * 2
 
 
 def test_none_is_changed_where_one_refuses():
@@ -43,7 +43,7 @@ def test_none_is_changed_where_one_refuses():
 
     with cell("irb14000") as c:
         ends = c.run(tried(c))
-        assert [end.status for end in ends] == [Ending.SUCCEEDED] * 2
+        assert [end.status for end in ends] == [FinalStatus.SUCCEEDED] * 2
 
 
 def test_none_is_changed_where_one_has_no_link():

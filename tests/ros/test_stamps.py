@@ -5,11 +5,11 @@ import random
 import numpy as np
 import pytest
 
-from rapidgen.ros.time_stamps import Stamps
+from rapidgen.ros.time_stamps import RosTimeEstimator
 
 
 def test_spacing_is_the_controllers():
-    draw, stamps = random.Random(1), Stamps()
+    draw, stamps = random.Random(1), RosTimeEstimator()
     told = [stamps.stamp(n * 0.02, 1000 + n * 0.02 + draw.expovariate(200)) for n in range(2000)]
     spacing = np.diff(told[500:]) * 1e-9
     # p99 within 5 % of the period, where messages come up to 30 ms late
@@ -17,7 +17,7 @@ def test_spacing_is_the_controllers():
 
 
 def test_never_later_than_received_and_never_backwards():
-    draw, stamps = random.Random(2), Stamps()
+    draw, stamps = random.Random(2), RosTimeEstimator()
     last = 0
     for n in range(500):
         received = 50 + n * 0.1 + draw.random() * 0.05
@@ -28,14 +28,14 @@ def test_never_later_than_received_and_never_backwards():
 
 def test_drift_is_followed():
     """A quartz that is 50 ppm slow: after an hour stamps are still of now."""
-    stamps = Stamps()
+    stamps = RosTimeEstimator()
     for n in range(36_000):
         stamp = stamps.stamp(n * 0.1, 7 + n * 0.1 * (1 + 5e-5))
     assert stamp * 1e-9 == pytest.approx(7 + 3599.9 * (1 + 5e-5), abs=0.01)
 
 
 def test_a_clock_that_begins_again():
-    stamps = Stamps()
+    stamps = RosTimeEstimator()
     before = stamps.stamp(800.0, 10.0)
     after = stamps.stamp(0.5, 10.1)
     assert before < after <= 10.1e9
@@ -45,7 +45,7 @@ def test_a_clock_that_begins_again():
 
 def test_a_simulators_clock_goes_at_its_own_speed():
     """Four times as fast as this machine, and on behind a restart."""
-    stamps = Stamps(is_clock=True)
+    stamps = RosTimeEstimator(is_clock=True)
     told = [stamps.stamp(n * 0.02, 1000 + n * 0.005) for n in range(200)]
     assert np.diff(told) * 1e-9 == pytest.approx(0.02)
     assert told[0] == 1000 * 10**9

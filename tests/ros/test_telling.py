@@ -5,7 +5,7 @@ from ready import goal, station
 
 from rapidgen.client import Trajectory
 from rapidgen.client.core.state import Driver, State, Status
-from rapidgen.ros.goals import Ending
+from rapidgen.ros.goals import FinalStatus
 from rapidgen.ros.status_messages import Level, health, no_link, robot_status, unknown_status
 from rapidgen.wire.simple_message.spec import Mode, Reason, TrajectoryState, TriState
 
@@ -113,7 +113,7 @@ def test_a_refusal_stays_visible():
             return made
 
         s.robot._core.check = unchecked
-        assert s.outcome(goal(0.0, 0.1)).status is Ending.ABORTED
+        assert s.outcome(goal(0.0, 0.1)).status is FinalStatus.ABORTED
         status, found = told(s)
         assert status.in_error == 1
         assert status.error_code == 104

@@ -5,7 +5,7 @@ It comes between two statements, where no handler is asked.
 
 import pytest
 
-from rapidgen.motion.fault_reasons import MotionFault, Refusal
+from rapidgen.motion.fault_reasons import FaultReason, MotionFault
 from tests.runtime.booting import boot
 
 PROGRAM = """
@@ -21,11 +21,11 @@ ENDPROC
 @pytest.mark.parametrize(
     ("refusal", "title"),
     [
-        (Refusal.OUT_OF_REACH_IN_CORNER, "Unhandled error ERR_OUTSIDE_REACH"),
-        (Refusal.SINGULARITY, "Close to singularity"),
+        (FaultReason.OUT_OF_REACH_IN_CORNER, "Unhandled error ERR_OUTSIDE_REACH"),
+        (FaultReason.SINGULARITY, "Close to singularity"),
     ],
 )
-def test_a_refusal_in_an_event(refusal: Refusal, title: str) -> None:
+def test_a_refusal_in_an_event(refusal: FaultReason, title: str) -> None:
     controller, _ = boot(PROGRAM, cycle="once")
     with controller:
 

@@ -8,7 +8,7 @@ import pytest
 
 from rapidgen.system import parse_cfg
 from rapidgen.system.base import Robot, base_system, header_digits
-from rapidgen.system.cfg_loading import Addition, add, faults_within
+from rapidgen.system.cfg_loading import CfgFileLoad, add, faults_within
 
 ONE = (Robot("T_ROB1", "ROB_1"),)
 TWO = (Robot("T_ROB1", "ROB_1", ("TRACK_1",)), Robot("T_ROB2", "ROB_2"))
@@ -20,7 +20,7 @@ SIGNAL = 'EIO_SIGNAL:\n -Name "doA" -SignalType "DO"\n -Name "aoA" -SignalType "
 
 
 def load(*texts, robotware=(6, 15), robots=ONE, **options):
-    files = (Addition(parse_cfg(text, path=text[:3])) for text in texts)
+    files = (CfgFileLoad(parse_cfg(text, path=text[:3])) for text in texts)
     return add(base_system(robotware, robots), files, **options)
 
 
@@ -200,8 +200,8 @@ def test_a_file_that_may_be_refused_is_left_out_whole():
     open_file = SYS7 + (
         'CAB_TASKS:\n -Name "T_A"\nSYSSIG_OUT:\n -Status "MotOnState" -Name "doA"\n'
     )
-    signals = Addition(parse_cfg(EIO7 + SIGNAL))
-    optional = Addition(parse_cfg(open_file, path="SYS_open.cfg"), optional=True)
+    signals = CfgFileLoad(parse_cfg(EIO7 + SIGNAL))
+    optional = CfgFileLoad(parse_cfg(open_file, path="SYS_open.cfg"), optional=True)
     loaded = add(base_system((7, 6), ONE), (optional, signals))
     assert loaded.faults == ()
     assert [note.code for note in loaded.notes] == ["RG722"]
@@ -218,7 +218,7 @@ def test_the_firewall_is_set_and_not_added():
     """The services are instances of a delivered OmniCore (backups of 7.5.2 and 7.6.1)."""
     sio = "SIO:CFG_1.0:7:0::\n" + RULE
     assert codes(load(sio, **SEVEN)) == [("RG721", 3)]
-    loaded = add(base_system((7, 6), ONE), (Addition(parse_cfg(sio), replace=True),))
+    loaded = add(base_system((7, 6), ONE), (CfgFileLoad(parse_cfg(sio), replace=True),))
     assert loaded.faults == ()
     rules = list(loaded.cfg.instances("SIO", "FIREWALL_MANAGEMENT"))
     (rule,) = (r for r in rules if r.text("Name") == "RapidSockets")
@@ -268,6 +268,6 @@ def test_planners_and_units_of_a_group():
 
 
 def test_letters_beyond_ascii():
-    file = Addition(parse_cfg(SYS6), ascii=False)
+    file = CfgFileLoad(parse_cfg(SYS6), ascii=False)
     (fault,) = add(base_system((6, 15), ONE), (file,)).faults
     assert fault.code == "RG723"

@@ -6,7 +6,7 @@ import pytest
 
 from rapidgen.config import load_config
 from rapidgen.generate import build, make_system
-from rapidgen.verification.model import Broken
+from rapidgen.verification.model import CheckFailed
 
 CONFIG = load_config("irb120")
 SYSTEM = make_system(CONFIG, build(CONFIG))
@@ -24,5 +24,5 @@ def along(*places, steps=20):
     return found
 
 
-def red(what="", *, by=Broken):
+def red(what="", *, by=CheckFailed):
     return pytest.raises(by, match=what)

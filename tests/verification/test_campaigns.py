@@ -13,20 +13,20 @@ from rapidgen.cli.progress import Bars
 from rapidgen.config import load_config
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.verification.campaign import Limits
-from rapidgen.verification.model import Broken
+from rapidgen.verification.model import CheckFailed
 from rapidgen.verification.position_checks import changed
 from rapidgen.verification.raw_programs import in_rapid
 from rapidgen.verification.report import as_json
 from rapidgen.verification.result_file import Results
-from rapidgen.verification.suite_runner import prove
+from rapidgen.verification.suite_runner import run_suite
 from rapidgen.verification.worker_pool import (
+    CachedResult,
     Call,
-    Known,
-    Local,
+    LocalPool,
     WorkersLost,
     each,
-    in_a_fork,
     in_order,
+    run_in_fork,
 )
 
 SIX_AXES = load_config("irb120")
@@ -59,35 +59,35 @@ def fails(_context, number):
 
 @pytest.mark.parametrize("jobs", [1, 2, 3])
 def test_results_are_in_order_whoever_finds_them(jobs):
-    with Local(None, jobs) as workers:
+    with LocalPool(None, jobs) as workers:
         assert list(each(workers, range(20), double)) == list(range(0, 40, 2))
 
 
 def test_a_worker_that_is_killed_loses_nothing(tmp_path):
-    with Local(tmp_path / "was-killed", 2) as workers:
+    with LocalPool(tmp_path / "was-killed", 2) as workers:
         assert list(each(workers, range(12), killed_once)) == list(range(12))
         assert len(workers.processes()) == 2
     assert (tmp_path / "was-killed").exists()
 
 
 def test_a_worker_that_is_killed_while_it_has_nothing_to_do_is_replaced():
-    with Local(None, 1) as workers:
+    with LocalPool(None, 1) as workers:
         (process,) = workers.processes()
         os.kill(process, signal.SIGKILL)
         assert list(each(workers, range(3), double)) == [0, 2, 4]
 
 
 def test_a_piece_that_ends_every_worker_ends_the_work():
-    with Local(None, 2) as workers, pytest.raises(WorkersLost, match="3 workers ended with 1"):
+    with LocalPool(None, 2) as workers, pytest.raises(WorkersLost, match="3 workers ended with 1"):
         list(each(workers, range(3), killed))
 
 
 def test_what_a_piece_raises_is_raised_with_where_that_was():
-    with Local(None, 2) as workers, pytest.raises(ValueError, match="of the second") as raised:
+    with LocalPool(None, 2) as workers, pytest.raises(ValueError, match="of the second") as raised:
         list(each(workers, range(3), fails))
     assert "in fails" in str(raised.value.__cause__)
     with pytest.raises(ValueError, match="of the second") as raised:
-        in_a_fork(lambda: in_a_fork(lambda: fails(None, 1)))
+        run_in_fork(lambda: run_in_fork(lambda: fails(None, 1)))
     assert "in fails" in str(raised.value.__cause__)
 
 
@@ -96,9 +96,9 @@ def test_a_piece_may_depend_on_the_results_before_it():
 
     def make(number):
         assert len(taken) >= max(0, number - 3)
-        return Known(number) if number % 4 == 0 else Call(number, double, number)
+        return CachedResult(number) if number % 4 == 0 else Call(number, double, number)
 
-    with Local(None, 2) as workers:
+    with LocalPool(None, 2) as workers:
         for result in in_order(workers, 20, make, lambda number: number - 3):
             taken.append(result)
     assert taken == [n if n % 4 == 0 else 2 * n for n in range(20)]
@@ -109,7 +109,7 @@ def test_workers_end_with_whoever_gives_them_work():
     reading, writing = os.pipe()
     child = os.fork()
     if child == 0:
-        workers = Local(None, 2)
+        workers = LocalPool(None, 2)
         os.write(writing, json.dumps(workers.processes()).encode())
         os.kill(os.getpid(), signal.SIGKILL)
     os.waitpid(child, 0)
@@ -134,21 +134,21 @@ def test_results_are_the_same_whatever_the_workers_and_where_it_was_broken_off(t
     files = []
     for jobs in (1, 2):
         path = tmp_path / f"{jobs}.jsonl"
-        report = prove(SIX_AXES, jobs=jobs, only=FEW, strength=0, results=path)
+        report = run_suite(SIX_AXES, jobs=jobs, only=FEW, strength=0, results=path)
         assert len(report.outcomes) == 3
         files.append(path.read_bytes())
     assert files[0] == files[1]
     lines = files[0].splitlines(keepends=True)
     broken_off = tmp_path / "broken-off.jsonl"
     broken_off.write_bytes(b"".join(lines[:2]) + lines[2][:40])
-    again = prove(SIX_AXES, jobs=2, only=FEW, strength=0, results=broken_off, resume=True)
+    again = run_suite(SIX_AXES, jobs=2, only=FEW, strength=0, results=broken_off, resume=True)
     assert broken_off.read_bytes() == files[0]
     assert told(again) == told(report)
 
 
 def test_schedules_and_programs_are_the_same_whatever_the_workers(tmp_path):
     found = [
-        prove(
+        run_suite(
             SIX_AXES,
             seeds=10,
             programs=2,
@@ -166,7 +166,7 @@ def test_schedules_and_programs_are_the_same_whatever_the_workers(tmp_path):
 
 
 def test_a_budget_that_is_over_leaves_the_rest(tmp_path):
-    report = prove(SIX_AXES, jobs=1, only=FEW, strength=0, limits=Limits(budget=0))
+    report = run_suite(SIX_AXES, jobs=1, only=FEW, strength=0, limits=Limits(budget=0))
     assert (report.outcomes, report.left, report.passed) == ([], 3, True)
 
 
@@ -213,7 +213,7 @@ def test_a_basic_driver_takes_no_programs(capsys):
 
 
 def _ill(bench):
-    raise Broken("it is ill")
+    raise CheckFailed("it is ill")
 
 
 def test_work_that_ends_its_workers_is_told(monkeypatch, capsys):

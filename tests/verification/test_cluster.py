@@ -11,13 +11,13 @@ import pytest
 from rapidgen.cli.app import main
 from rapidgen.config import load_config
 from rapidgen.diagnostics import DiagnosticError
-from rapidgen.verification.suite_runner import prove
+from rapidgen.verification.suite_runner import run_suite
 from rapidgen.verification.worker_pool import each
 from tests.verification.test_campaigns import FEW, double, told
 
 pytest.importorskip("distributed")
 
-from rapidgen.verification.cluster import Cluster, admitted
+from rapidgen.verification.cluster import Cluster, rejection_reason
 
 SIX_AXES = load_config("irb120")
 
@@ -85,8 +85,8 @@ def test_the_results_are_those_of_this_machine(scheduler, hired, tmp_path):
     said = []
     here, there = tmp_path / "here.jsonl", tmp_path / "there.jsonl"
     found = [
-        prove(SIX_AXES, jobs=2, only=FEW, strength=0, results=here),
-        prove(
+        run_suite(SIX_AXES, jobs=2, only=FEW, strength=0, results=here),
+        run_suite(
             SIX_AXES,
             hire=lambda driver: Cluster(scheduler, driver, said.append),
             only=FEW,
@@ -102,8 +102,8 @@ def test_the_results_are_those_of_this_machine(scheduler, hired, tmp_path):
 def test_schedules_are_those_of_this_machine(scheduler, hired, tmp_path):
     hired(2)
     here, there = tmp_path / "here.jsonl", tmp_path / "there.jsonl"
-    prove(SIX_AXES, seeds=4, jobs=1, cases=False, strength=0, results=here)
-    prove(
+    run_suite(SIX_AXES, seeds=4, jobs=1, cases=False, strength=0, results=here)
+    run_suite(
         SIX_AXES,
         seeds=4,
         strength=0,
@@ -135,7 +135,7 @@ def test_a_worker_that_comes_later_works_too(scheduler, hired):
 
 
 def test_a_worker_of_another_build_is_refused(scheduler, hired, monkeypatch, capsys):
-    assert "not another" in admitted("another", "key", b"")
+    assert "not another" in rejection_reason("another", "key", b"")
     hired(1)
     monkeypatch.setattr("rapidgen.verification.cluster.identity", lambda: "another")
     with pytest.raises(DiagnosticError, match="no worker can be used: its rapidgen is"):

@@ -13,12 +13,12 @@ from rapidgen.controller.faults import FaultPlan
 from rapidgen.generate import build, make_system
 from rapidgen.machine.network.fault_rules import NetworkRule
 from rapidgen.rapid import check, parse
-from rapidgen.verification.bench_pool import FreshBenches
-from rapidgen.verification.model import Finding
-from rapidgen.verification.schedule import Disturbance, Plan, drawn, named
-from rapidgen.verification.schedule_exploration import STEPS, Explored, explore, ground_of
+from rapidgen.verification.bench_pool import BenchPool
+from rapidgen.verification.model import Counterexample
+from rapidgen.verification.schedule import Disturbance, TaskSchedule, drawn, named
+from rapidgen.verification.schedule_exploration import STEPS, ScheduleResult, explore, ground_of
 from rapidgen.verification.schedule_minimizer import smaller
-from rapidgen.verification.schedule_selection import Guide
+from rapidgen.verification.schedule_selection import ScheduleSelector
 from rapidgen.verification.settings import Setting
 from rapidgen.verification.suite_runner import DriverUnderTest, minimised, schedule
 from rapidgen.verification.testbench import Bench, with_module
@@ -41,7 +41,7 @@ SYMPTOMS = {
 def test_a_known_defect_is_found_soon(defect):
     """Also `tools/exploration.py`: how soon in the median of many campaigns."""
     system = small_driver(defect)
-    guide = Guide(ground_of(SMALL, system))
+    guide = ScheduleSelector(ground_of(SMALL, system))
     for number in range(30):
         finding = guide.take(explore(SMALL, system, guide.name(number))).finding
         if finding is not None:
@@ -53,7 +53,7 @@ def test_a_known_defect_is_found_soon(defect):
         assert ("pp-to-main" in finding.plan) == (defect == "R7a")
 
 
-RESULTS = [Explored("", "", None, ((n, n + 1),) if n % 3 else ()) for n in range(60)]
+RESULTS = [ScheduleResult("", "", None, ((n, n + 1),) if n % 3 else ()) for n in range(60)]
 
 
 def names_of(guide, *, late):
@@ -69,11 +69,11 @@ def names_of(guide, *, late):
 
 def test_a_guide_names_the_same_however_many_schedules_are_under_way():
     ground = ground_of(SMALL, small_driver())
-    early = names_of(Guide(ground), late=False)
-    assert early == names_of(Guide(ground), late=True)
+    early = names_of(ScheduleSelector(ground), late=False)
+    assert early == names_of(ScheduleSelector(ground), late=True)
     assert len(set(early)) == len(RESULTS)
     assert any("~" in name for name in early)
-    assert names_of(Guide(ground, first=1), late=False) != early
+    assert names_of(ScheduleSelector(ground, first=1), late=False) != early
 
 
 @pytest.mark.parametrize("text", ["17", "17~4~2", "17~4/steps=1,3", "0/steps=/turns/calm"])
@@ -153,7 +153,7 @@ def test_a_copy_of_a_kept_controller_does_what_one_that_boots_does(name):
 
 
 def test_what_is_kept_is_for_settings_that_differ_in_chances_and_network_alone():
-    system, fresh = small_driver(), FreshBenches()
+    system, fresh = small_driver(), BenchPool()
     slow = FaultPlan(network=(NetworkRule("delay", 11000, "in", seconds=0.1),))
     kept, other = Setting(seed=1), Setting(seed=2, faults=slow)
     fresh.keep(SMALL, system, kept)
@@ -178,9 +178,11 @@ LEAVES, IN_E_STOP = (
     "plan",
     [
         # A download that is on its way for longer than the STOP over the control port.
-        Plan((Disturbance("stopped", "STOP", None, "a"), STOPS_LATE), "turns", "delay", "0"),
+        TaskSchedule(
+            (Disturbance("stopped", "STOP", None, "a"), STOPS_LATE), "turns", "delay", "0"
+        ),
         # A client behind one that is gone without a word, whose data is read after Start.
-        Plan((LEAVES, IN_E_STOP), "turns", "good", "107"),
+        TaskSchedule((LEAVES, IN_E_STOP), "turns", "good", "107"),
     ],
 )
 def test_what_is_received_late_was_asked_for_late(plan, monkeypatch):
@@ -216,19 +218,21 @@ def test_a_schedule_is_made_smaller_as_long_as_the_same_demand_does_not_hold():
     def run(tried):
         steps = tried.steps if tried.steps is not None else (0, 1, 2, 3)
         if not {1, 3} <= set(steps):
-            return Finding(str(tried), "something else", "") if 1 in steps else None
+            return Counterexample(str(tried), "something else", "") if 1 in steps else None
         # It needs the order in which tasks ran, and comes at another time in each.
-        return None if tried.turns else Finding(str(tried), f"at {len(steps)}.5 s it moved", "")
+        return (
+            None if tried.turns else Counterexample(str(tried), f"at {len(steps)}.5 s it moved", "")
+        )
 
     whole = run(named("7~2"))
-    assert smaller(named("7~2"), 4, whole, run) == Finding(
+    assert smaller(named("7~2"), 4, whole, run) == Counterexample(
         "7~2/steps=1,3/calm", "at 2.5 s it moved", ""
     )
 
 
 def test_a_race_in_its_smallest_schedule_is_still_there():
     driver = DriverUnderTest(SMALL, small_driver("R7a"))
-    guide = Guide(ground_of(SMALL, driver.system))
+    guide = ScheduleSelector(ground_of(SMALL, driver.system))
     names = (guide.name(number) for number in range(8))
     found = (explore(SMALL, driver.system, name).finding for name in names)
     finding = next(one for one in found if one is not None)

@@ -9,7 +9,7 @@ from rapidgen.generate import build, make_system
 from rapidgen.verification.fast_stops import FAST, fast_stop
 from rapidgen.verification.settings import assumed
 from rapidgen.verification.testbench import Bench, with_module
-from rapidgen.verification.worker_pool import in_a_fork
+from rapidgen.verification.worker_pool import run_in_fork
 
 
 @cache
@@ -30,7 +30,7 @@ def booted(robot, *texts, stuck=False):
 
 def stopped(seed, *texts, robot="irb120", stuck=False):
     bench = booted(robot, *texts, stuck=stuck)
-    return in_a_fork(lambda: fast_stop(bench, seed))
+    return run_in_fork(lambda: fast_stop(bench, seed))
 
 
 @pytest.mark.parametrize("robot", ["irb120", "irb6700", "irb14000"])

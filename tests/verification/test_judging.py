@@ -14,7 +14,7 @@ from rapidgen.verification.campaign import Campaign, Limits
 from rapidgen.verification.result_file import Results
 from rapidgen.verification.suite import CASES
 from rapidgen.verification.testbench import with_module
-from rapidgen.verification.worker_pool import ForkFailed, Local, each, in_a_fork
+from rapidgen.verification.worker_pool import ForkFailed, LocalPool, each, run_in_fork
 from tools.mutation.driver import Mutant, mutants
 from tools.mutation.judging import (
     Judge,
@@ -34,7 +34,7 @@ FEW = [case for case in CASES if case.name in ("ping", "stop-answered", "whole-t
 
 @pytest.fixture(scope="module")
 def given():
-    return grounds(SIX_AXES, SYSTEM, FEW, partial(Local, jobs=1))
+    return grounds(SIX_AXES, SYSTEM, FEW, partial(LocalPool, jobs=1))
 
 
 @pytest.fixture(scope="module")
@@ -78,7 +78,7 @@ def test_a_case_that_does_not_hold_at_all_judges_nothing():
     file = file_of("ROS_motion")
     text = file.data.replace(b"MoveAbsJ point.target", b"MoveAbsJ ROS_none.target")
     with pytest.raises(ValueError, match="does not hold"):
-        grounds(SIX_AXES, with_module(SYSTEM, file.path, text), FEW, partial(Local, jobs=1))
+        grounds(SIX_AXES, with_module(SYSTEM, file.path, text), FEW, partial(LocalPool, jobs=1))
 
 
 def test_the_statement_around_a_mutant_is_where_the_suite_must_get_to():
@@ -91,11 +91,11 @@ def test_the_statement_around_a_mutant_is_where_the_suite_must_get_to():
 
 
 def test_a_fork_answers_raises_or_fails():
-    assert in_a_fork(lambda: [1, "two"]) == [1, "two"]
+    assert run_in_fork(lambda: [1, "two"]) == [1, "two"]
     with pytest.raises(KeyError, match="lost"):
-        in_a_fork(lambda: {}["lost"])
+        run_in_fork(lambda: {}["lost"])
     with pytest.raises(ForkFailed):
-        in_a_fork(lambda: os.kill(os.getpid(), signal.SIGKILL))
+        run_in_fork(lambda: os.kill(os.getpid(), signal.SIGKILL))
 
 
 def test_a_case_that_noticed_a_neighbour_is_tried_first(judge):
@@ -155,7 +155,7 @@ def test_verdicts_are_the_same_whatever_the_workers_and_where_it_was_broken_off(
         work = verdicts([Question(m) for m in some], Learning(given.cases), str)
         with (
             Results(path, "mutants", resume=resume) as results,
-            Local(replace(given, kept=[]), jobs) as workers,
+            LocalPool(replace(given, kept=[]), jobs) as workers,
         ):
             campaign = Campaign(workers, results, Limits(), None)
             return [replace(verdict, elapsed=0) for verdict in campaign.run(work)]
@@ -171,7 +171,7 @@ def test_verdicts_are_the_same_whatever_the_workers_and_where_it_was_broken_off(
 
 def test_a_worker_with_another_checkout_is_refused(given):
     other = replace(given, text="of another state", kept=[])
-    with Local(other, 1) as workers, pytest.raises(RuntimeError, match="checkout"):
+    with LocalPool(other, 1) as workers, pytest.raises(RuntimeError, match="checkout"):
         list(each(workers, [Question(Mutant("ROS_motion.mod", 1, 0, "", b""))], judged))
 
 

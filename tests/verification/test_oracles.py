@@ -9,7 +9,7 @@ import pytest
 
 from rapidgen.motion.moves import Zone
 from rapidgen.verification import messages, position_checks
-from rapidgen.verification.history import nothing_follows
+from rapidgen.verification.history import assert_no_move_follows
 from rapidgen.verification.instruction_hooks import Order, at_call, fails, watched_orders
 from rapidgen.verification.messages import (
     JOINT_POSITION,
@@ -380,7 +380,7 @@ def orders(*rows):
     ],
 )
 def test_orders_until_a_stop_are_good(given):
-    nothing_follows(given, 1.9, 2.5)
+    assert_no_move_follows(given, 1.9, 2.5)
 
 
 @pytest.mark.parametrize(
@@ -393,7 +393,7 @@ def test_orders_until_a_stop_are_good(given):
 )
 def test_an_order_behind_a_stop_is_seen(given):
     with red("of the old trajectory"):
-        nothing_follows(given, 1.9, 2.5)
+        assert_no_move_follows(given, 1.9, 2.5)
 
 
 def test_orders_are_heard(bench):

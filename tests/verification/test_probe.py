@@ -11,7 +11,7 @@ from rapidgen.config import load_config
 from rapidgen.controller import VirtualController
 from rapidgen.rapid import check, parse
 from rapidgen.rapid.switches import Switches
-from rapidgen.verification.settings import answers_to, said
+from rapidgen.verification.settings import assumption_choices, said
 from tests.verification.probing import answers, asked
 
 PROBE = data_folder("templates") / "ROS_probe.mod"
@@ -20,7 +20,9 @@ TEXT = PROBE.read_text(encoding="ascii")
 # Only a task that moves no robot can be asked these.
 BEHIND = ("calc_in_background", "data_of_tasks")
 ASKED = tuple(name for name in asked(TEXT) if name not in BEHIND)
-CASES = [(n, value) for n, own in answers_to(Switches()).items() if n in ASKED for value in own]
+CASES = [
+    (n, value) for n, own in assumption_choices(Switches()).items() if n in ASKED for value in own
+]
 
 
 def run(path, dialect):

@@ -13,14 +13,17 @@ from rapidgen.controller import VirtualController
 from rapidgen.machine.operator import Answer
 from rapidgen.motion.settings import MotionSettings
 from rapidgen.rapid import check, parse
-from rapidgen.verification.settings import answers_to, said
+from rapidgen.verification.settings import assumption_choices, said
 from tests.verification.probing import answers, asked
 
 PROBE = data_folder("templates") / "ROS_probe_motion.mod"
 TEXT = PROBE.read_text(encoding="ascii")
 ASKED = asked(TEXT)
 CASES = [
-    (n, value) for n, own in answers_to(MotionSettings()).items() if n in ASKED for value in own
+    (n, value)
+    for n, own in assumption_choices(MotionSettings()).items()
+    if n in ASKED
+    for value in own
 ]
 
 

@@ -11,10 +11,10 @@ from rapidgen.cli.app import main
 from rapidgen.config import load_config
 from rapidgen.motion.settings import MotionSettings
 from rapidgen.rapid.switches import NOT_THE_DRIVERS, Switches
-from rapidgen.verification.assumption_minimizer import blamed, smallest
-from rapidgen.verification.case import Behaviour
+from rapidgen.verification.assumption_minimizer import minimal_assumptions, smallest
+from rapidgen.verification.case import SuiteCase
 from rapidgen.verification.covering_array import covering
-from rapidgen.verification.model import Broken
+from rapidgen.verification.model import CheckFailed
 from rapidgen.verification.settings import (
     FIGURES,
     NEEDED,
@@ -136,21 +136,21 @@ def test_what_explains_one_row_explains_others():
         tried.append(part)
         return {"a", "b"} <= set(part)
 
-    found = blamed({"1": "abcd", "2": "fbga", "3": "ba"}, breaks)
+    found = minimal_assumptions({"1": "abcd", "2": "fbga", "3": "ba"}, breaks)
     assert {name: set(part) for name, part in found.items()} == {key: {"a", "b"} for key in "123"}
     before = len(tried)
-    blamed({"1": "abcd"}, breaks)
+    minimal_assumptions({"1": "abcd"}, breaks)
     assert len(tried) == 2 * before
 
 
 def _a_pair_breaks(bench):
     if bench.setting.motion.settle > 0 and bench.setting.dialect.for_loop == "tested":
-        raise Broken("it did not hold")
+        raise CheckFailed("it did not hold")
 
 
 @pytest.fixture
 def made_up(monkeypatch):
-    case = Behaviour("made-up", "a pair of assumptions breaks it", "made up", _a_pair_breaks)
+    case = SuiteCase("made-up", "a pair of assumptions breaks it", "made up", _a_pair_breaks)
     monkeypatch.setattr("rapidgen.verification.suite.CASES", (case,))
     monkeypatch.setattr("rapidgen.verification.suite_runner.CASES", (case,))
     hostile = ("costs=4.0", "settle=0.2", "retry_raised=false", "for_loop=tested", "seed=3")

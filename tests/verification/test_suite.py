@@ -12,12 +12,12 @@ from rapidgen.cli.app import main
 from rapidgen.config import load_config
 from rapidgen.diagnostics import refusal
 from rapidgen.generate import build, make_system
-from rapidgen.verification.model import Broken, Proof, Verdict
+from rapidgen.verification.model import CaseResult, CheckFailed, SuiteResult
 from rapidgen.verification.report import slowest, write_html
 from rapidgen.verification.schedule_exploration import explore
 from rapidgen.verification.settings import Setting, assumed, rows, settings
 from rapidgen.verification.suite import CASES
-from rapidgen.verification.suite_runner import Starter, prove
+from rapidgen.verification.suite_runner import Starter, run_suite
 from rapidgen.verification.testbench import Bench, with_module
 
 KINDS = ("irb2400", "irb14000", "irb120_track", "irb910sc", "irb460")
@@ -104,7 +104,7 @@ def test_it_holds_whatever_is_assumed(texts):
 
 
 def test_no_schedule_breaks_the_invariant():
-    report = prove(load_config("irb120"), seeds=12, jobs=1, only=(), strength=0, cases=False)
+    report = run_suite(load_config("irb120"), seeds=12, jobs=1, only=(), strength=0, cases=False)
     assert report.schedules == 12
     assert report.findings == []
 
@@ -169,7 +169,7 @@ DEFECTS = {
 def test_a_defect_turns_its_case_red(name):
     config, system = generated()
     bench = Bench(config, patched(system, *DEFECTS[name]))
-    with pytest.raises(Broken):
+    with pytest.raises(CheckFailed):
         BY_NAME[name].prove(bench)
     bench.close()
 
@@ -201,11 +201,11 @@ def test_the_verb_writes_reports_and_says_what_failed(tmp_path, capsys):
 
 def test_a_group_is_open_where_one_did_not_hold(tmp_path):
     outcomes = [
-        Verdict("fine", "A", "holds", "", True, elapsed=1.0),
-        Verdict("fine", "A", "holds", "", True, setting="other", elapsed=3.0),
-        Verdict("poor", "B", "does not", "", False, "because", elapsed=2.0),
+        CaseResult("fine", "A", "holds", "", True, elapsed=1.0),
+        CaseResult("fine", "A", "holds", "", True, setting="other", elapsed=3.0),
+        CaseResult("poor", "B", "does not", "", False, "because", elapsed=2.0),
     ]
-    report = Proof("cell", "0123456789ab", outcomes)
+    report = SuiteResult("cell", "0123456789ab", outcomes)
     write_html(report, tmp_path / "r.html")
     page = (tmp_path / "r.html").read_text(encoding="utf-8")
     assert re.findall(r'<details class="group"(.*?)><summary>(\w)', page) == [

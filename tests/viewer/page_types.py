@@ -4,7 +4,7 @@ from pathlib import Path
 
 from pydantic import TypeAdapter
 
-from rapidgen.viewer.messages import Answer, FromPage, Request, ToPage
+from rapidgen.viewer.messages import Answer, PageRequest, Request, ToPage
 
 TARGET = Path(__file__).parents[2] / "rapidgen" / "viewer" / "page" / "src" / "messages.ts"
 _HEAD = (
@@ -14,7 +14,7 @@ _HEAD = (
 
 def made() -> str:
     """The text of messages.ts."""
-    whole = TypeAdapter(ToPage | FromPage | Answer).json_schema(mode="serialization")["$defs"]
+    whole = TypeAdapter(ToPage | PageRequest | Answer).json_schema(mode="serialization")["$defs"]
     parts = [_HEAD, *(_interface(name, whole[name]) for name in sorted(whole))]
     parts += [_union("ToPage", ToPage), _union("Request", Request)]
     return "\n".join(parts)

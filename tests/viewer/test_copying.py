@@ -8,15 +8,15 @@ from rapidgen.axes.kinematics import Kinematics
 from rapidgen.config import load_config
 from rapidgen.viewer.messages import Copy
 from rapidgen.viewer.pose_snippets import copied
-from rapidgen.viewer.provider import Declined
-from rapidgen.viewer.robots import Carried
+from rapidgen.viewer.provider import RequestRejected
+from rapidgen.viewer.robots import ToolAndWorkObject
 
 
 def text(name, form, posture):
     group = load_config(name).groups[0]
     kinematics = Kinematics.of(group)
     request = Copy(group=group.name, form=form)
-    return copied(request, kinematics.map, kinematics, posture, Carried.configured(group))
+    return copied(request, kinematics.map, kinematics, posture, ToolAndWorkObject.configured(group))
 
 
 def test_rapid_and_python():
@@ -40,7 +40,11 @@ def test_external_axes_are_mm():
 def test_without_geometry_there_is_no_robtarget():
     group = load_config("irb120").groups[0]
     map = Kinematics.of(group).map
-    with pytest.raises(Declined, match="no geometry"):
+    with pytest.raises(RequestRejected, match="no geometry"):
         copied(
-            Copy(group="rob1", form="robtarget"), map, None, (0.0,) * 6, Carried.configured(group)
+            Copy(group="rob1", form="robtarget"),
+            map,
+            None,
+            (0.0,) * 6,
+            ToolAndWorkObject.configured(group),
         )

@@ -4,11 +4,11 @@ import math
 
 import pytest
 
-from rapidgen.controller.boot_targets import Wishes, load_target
-from rapidgen.controller.runner import Cabinet
+from rapidgen.controller.boot_targets import BootOptions, load_target
+from rapidgen.controller.runner import ControllerRunner
 from rapidgen.viewer.messages import Jog, JogTo
-from rapidgen.viewer.provider import Declined
-from rapidgen.viewer.simulator.motion import MotionAspect
+from rapidgen.viewer.provider import RequestRejected
+from rapidgen.viewer.simulator.motion import MotionProvider
 
 AT_THE_LIMIT = """MODULE Far
   PROC main()
@@ -33,12 +33,12 @@ def test_a_robot_that_is_jogged_keeps_its_tool(tmp_path):
     """It was that of the flange afterwards: the next jog to a TCP went 120 mm too far."""
     module = tmp_path / "held.mod"
     module.write_text(WITH_A_TOOL)
-    target = load_target([str(module)], Wishes(robot="irb120"))
-    with Cabinet.boot(target, clock="virtual") as cabinet:
+    target = load_target([str(module)], BootOptions(robot="irb120"))
+    with ControllerRunner.boot(target, clock="virtual") as cabinet:
         cabinet.controller.run_for(20)
         cabinet.controller.stop_program()
         cabinet.controller.run_for(1)
-        aspect = MotionAspect(cabinet)
+        aspect = MotionProvider(cabinet)
         handlers = aspect.handlers()
         (name,) = cabinet.controller.motion.groups
 
@@ -72,8 +72,8 @@ def test_a_robot_that_stands_at_its_limit_is_jogged(tmp_path):
     cell, module = tmp_path / "cell.yaml", tmp_path / "far.mod"
     cell.write_text("model: irb120\njoints: {joint_5: {upper: 100.3}}\n")
     module.write_text(AT_THE_LIMIT)
-    target = load_target([str(module)], Wishes(robot=str(cell)))
-    with Cabinet.boot(target, clock="virtual") as cabinet:
+    target = load_target([str(module)], BootOptions(robot=str(cell)))
+    with ControllerRunner.boot(target, clock="virtual") as cabinet:
         controller = cabinet.controller
         controller.run_for(20)
         controller.stop_program()
@@ -81,11 +81,11 @@ def test_a_robot_that_stands_at_its_limit_is_jogged(tmp_path):
         (group,) = controller.motion.groups.values()
         here = list(group.positions())
         assert here[4] > math.radians(100.3)
-        aspect = MotionAspect(cabinet)
+        aspect = MotionProvider(cabinet)
         jog = aspect.handlers()[Jog]
         here[0] = 0.2
         jog(Jog(group=group.name, axes=tuple(here)))
         assert group.positions() == pytest.approx(here)
         here[4] = math.radians(100.4)
-        with pytest.raises(Declined, match="joint_5 would leave its range"):
+        with pytest.raises(RequestRejected, match="joint_5 would leave its range"):
             jog(Jog(group=group.name, axes=tuple(here)))

@@ -4,9 +4,9 @@ import json
 
 import pytest
 
-from rapidgen.controller.boot_targets import Wishes, load_target
-from rapidgen.controller.runner import Cabinet
-from rapidgen.viewer.broadcaster import Hub
+from rapidgen.controller.boot_targets import BootOptions, load_target
+from rapidgen.controller.runner import ControllerRunner
+from rapidgen.viewer.broadcaster import Broadcaster
 from rapidgen.viewer.simulator.simulation import Simulation
 from tests.viewer.test_program_page import PROGRAM
 
@@ -16,7 +16,7 @@ class Viewer:
 
     def __init__(self, cabinet):
         self.cabinet = cabinet
-        self.hub = Hub(Simulation(cabinet), self.take)
+        self.hub = Broadcaster(Simulation(cabinet), self.take)
         self.told = {}
         self.number = 0
         self.hub.renew()
@@ -42,8 +42,8 @@ class Viewer:
 @pytest.fixture
 def viewer(tmp_path):
     (tmp_path / "work.mod").write_text(PROGRAM)
-    target = load_target([tmp_path / "work.mod"], Wishes())
-    with Cabinet.boot(target, clock="virtual") as cabinet:
+    target = load_target([tmp_path / "work.mod"], BootOptions())
+    with ControllerRunner.boot(target, clock="virtual") as cabinet:
         yield Viewer(cabinet)
 
 

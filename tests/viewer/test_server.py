@@ -12,7 +12,7 @@ import pytest
 
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.viewer import server as serving
-from rapidgen.viewer.messages import Act, Positions, Request, Scene
+from rapidgen.viewer.messages import PendantAction, Positions, Request, Scene
 from rapidgen.viewer.server import serve_page
 
 
@@ -71,7 +71,7 @@ class Watched:
         yield Positions(time=1.0, groups=())
 
     def handlers(self):
-        return {Act: self._act}
+        return {PendantAction: self._act}
 
     def _act(self, request: Request):
         self.allowed.wait(60)

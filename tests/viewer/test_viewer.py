@@ -6,7 +6,7 @@ from contextlib import asynccontextmanager
 
 import pytest
 
-from rapidgen.viewer.page_connection import UNREAD, Viewer, text_frame
+from rapidgen.viewer.page_connection import UNREAD, PageConnection, text_frame
 
 FRAME = text_frame(bytes(range(256)) * 4000)
 """Longer than what a socket takes at once."""
@@ -20,7 +20,7 @@ async def viewed():
     with theirs:
         loop = asyncio.get_running_loop()
         transport, _ = await loop.create_connection(asyncio.Protocol, sock=ours)
-        viewer = Viewer(transport)
+        viewer = PageConnection(transport)
         yield viewer, theirs
         viewer.close()
         transport.abort()

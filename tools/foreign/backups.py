@@ -23,7 +23,7 @@ from rapidgen.generate.existing_controller import Cell, fit, read_cell
 from rapidgen.rapid import check
 from rapidgen.system import System, is_backup, parse_cfg
 from rapidgen.system.build_loading import of_backup
-from rapidgen.system.cfg_loading import Addition, add
+from rapidgen.system.cfg_loading import CfgFileLoad, add
 
 
 @dataclass(frozen=True)
@@ -56,7 +56,7 @@ def answer(folder: Path, name: str) -> Answer:
         return Answer(name, release, rules, f"refused: {found}", str(alone))
     files = [f for f in output.files if f.kind == "cfg"]
     given = tuple(
-        Addition(parse_cfg(f.data), f.path.endswith("_open.cfg"), f.path == "SIO.cfg")
+        CfgFileLoad(parse_cfg(f.data), f.path.endswith("_open.cfg"), f.path == "SIO.cfg")
         for f in files
     )
     lost = list(changed(cell, given))
@@ -75,7 +75,7 @@ def robot(cell: Cell) -> RobotConfig:
     return load_config(next(filter(None, models), default))
 
 
-def changed(cell: Cell, given: tuple[Addition, ...]) -> Iterator[str]:
+def changed(cell: Cell, given: tuple[CfgFileLoad, ...]) -> Iterator[str]:
     """Instances that the cell had and has no more; a firewall service may be opened."""
     after = add(cell.cfg, given).cfg
     for before in cell.cfg.domains:
@@ -86,7 +86,7 @@ def changed(cell: Cell, given: tuple[Addition, ...]) -> Iterator[str]:
                     yield f"{before.domain} {section.name} {instance.text('Name')}"
 
 
-def counts(given: tuple[Addition, ...]) -> Iterator[int]:
+def counts(given: tuple[CfgFileLoad, ...]) -> Iterator[int]:
     """Instances of each file."""
     for addition in given:
         yield sum(len(section.instances) for section in addition.file.sections)

@@ -18,12 +18,12 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from rapidgen.config import load_config
-from rapidgen.config.from_description import Answers
+from rapidgen.config.from_description import DescriptionChoices
 from rapidgen.config.model import RobotConfig
 from rapidgen.config.scaffold import from_urdf, write_new
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
 from rapidgen.generate import build, make_system
-from rapidgen.verification.model import Broken
+from rapidgen.verification.model import CheckFailed
 from rapidgen.verification.testbench import Bench
 
 MOST_ANSWERS = 3
@@ -65,7 +65,7 @@ def descriptions(folders: list[Path]) -> Iterator[Path]:
 
 def tried(path: Path, folders: list[Path], quick: bool) -> Outcome:
     """`new`, its answers, boot and motion."""
-    answers, said = Answers(), []
+    answers, said = DescriptionChoices(), []
     macro, arguments, macro_arguments = None, {}, {}
     with tempfile.TemporaryDirectory() as scratch:
         cell = Path(scratch) / "cell.yaml"
@@ -104,7 +104,9 @@ def tried(path: Path, folders: list[Path], quick: bool) -> Outcome:
         return Outcome(path.name, end, len(said), note or ", ".join(said))
 
 
-def _answer(wrong: list[Diagnostic], answers: Answers) -> tuple[Answers, str] | None:
+def _answer(
+    wrong: list[Diagnostic], answers: DescriptionChoices
+) -> tuple[DescriptionChoices, str] | None:
     """What one more answer settles, and what it is about."""
     lines = [d.message for d in wrong if d.code == "RG022"]
     if len(lines) < len(wrong):
@@ -130,14 +132,14 @@ def _refused(path: Path, wrong: list[Diagnostic], answers: int) -> Outcome:
 def _moved(config: RobotConfig) -> tuple[str, str]:
     try:
         bench = Bench(config, make_system(config, build(config)))
-    except (DiagnosticError, Broken) as fault:
+    except (DiagnosticError, CheckFailed) as fault:
         return "not booted", str(fault)[:200]
     try:
         for number in range(len(config.groups)):
             own = bench.of_group(number)
             own.moves_through(own.motion(), own.wave(3, duration=1.0))
         bench.healthy()
-    except Broken as fault:
+    except CheckFailed as fault:
         return "not moved", str(fault)[:200]
     finally:
         bench.close()

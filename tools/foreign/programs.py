@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from rapidgen.controller.cell_setup import furnish
+from rapidgen.controller.cell_setup import apply_cell
 from rapidgen.controller.inference.cell import guess
 from rapidgen.rapid import parse
 from rapidgen.rapid.syntax import nodes as n
@@ -42,7 +42,7 @@ class Program:
 
 def furnished(system: System) -> System:
     """A system with the signals, tools and work objects that its modules lack."""
-    return furnish(system, guess(system).cell)
+    return apply_cell(system, guess(system).cell)
 
 
 def programs(folder: Path) -> Iterator[Program]:

@@ -20,7 +20,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from rapidgen.config import load_config
-from rapidgen.controller.runner import Cabinet
+from rapidgen.controller.runner import ControllerRunner
 from rapidgen.servers.rws.server import serve_rws
 from rapidgen.system import read_files
 from rapidgen.system.base import Robot, base_system
@@ -52,7 +52,9 @@ def controller(generation: Generation) -> Iterator[int]:
         system = replace(system, robotware=RELEASES[generation], signals=signals, name="cell")
         cfg = base_system(system.robotware, [Robot("T_ROB1", "ROB_1")])
         groups = load_config("irb120").groups
-        with Cabinet(system, cfg=cfg, robots=groups, clock="real", autostart=False) as cabinet:
+        with ControllerRunner(
+            system, cfg=cfg, robots=groups, clock="real", autostart=False
+        ) as cabinet:
             cabinet.start()
             service = serve_rws(cabinet, generation)
             try:

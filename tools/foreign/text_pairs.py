@@ -17,7 +17,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from rapidgen.controller import VirtualController
-from rapidgen.controller.boot_targets import Wishes, load_target
+from rapidgen.controller.boot_targets import BootOptions, load_target
 
 _READY = 10.0
 Talk = Callable[["Line", VirtualController], None]
@@ -62,7 +62,7 @@ class Pair:
 def serving(folder: Path, pair: Pair) -> Iterator[tuple[VirtualController, Line]]:
     """The server in real time, and a client of its first listener."""
     files = [sorted(folder.rglob(pattern))[0] for pattern in pair.files]
-    found = load_target(files, Wishes(cell="guess", robot=pair.robot))
+    found = load_target(files, BootOptions(cell="guess", robot=pair.robot))
     with VirtualController.boot(
         found, clock="real", host="127.0.0.1", ports="auto", speed=20, autostart=False
     ) as controller:

@@ -20,9 +20,9 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from rapidgen.controller import VirtualController
-from rapidgen.controller.boot_targets import Wishes, load_target
+from rapidgen.controller.boot_targets import BootOptions, load_target
 from rapidgen.controller.controller import Cycle
-from rapidgen.controller.inference.restarts import run_through
+from rapidgen.controller.inference.restarts import run_past_stops
 from rapidgen.controller.tracing import Coverage
 from rapidgen.diagnostics import DiagnosticError, Severity
 from rapidgen.rapid import check
@@ -74,7 +74,7 @@ def trial(program: Program, robot: str = "") -> Outcome:
 def cycles(program: Program, robot: str, cycle: Cycle) -> Outcome:
     """Load, start, run until it ends, or for a while."""
     try:
-        found = load_target(program.files, Wishes(cell="guess", robot=robot))
+        found = load_target(program.files, BootOptions(cell="guess", robot=robot))
         errors = [d for d in check(found.system, gaps=True) if d.severity is Severity.ERROR]
         if errors:
             raise DiagnosticError(errors)
@@ -91,7 +91,7 @@ def cycles(program: Program, robot: str, cycle: Cycle) -> Outcome:
         covered = Coverage(controller)
         controller.operator.attach()
         controller.start_program()
-        ended = run_through(controller, max_time=_TIME, max_statements=_STATEMENTS)
+        ended = run_past_stops(controller, max_time=_TIME, max_statements=_STATEMENTS)
         by_file = covered.lines()
         lines = [hits for file in by_file.values() for hits in file.values()]
         called = lines_called(controller)

@@ -23,13 +23,13 @@ from rapidgen.rapid import parse
 from rapidgen.runtime.errors import FatalError
 from rapidgen.system.model import System
 from rapidgen.verification.campaign import Workload
-from rapidgen.verification.case import Behaviour
-from rapidgen.verification.model import NothingToProve
+from rapidgen.verification.case import SuiteCase
+from rapidgen.verification.model import NotApplicable
 from rapidgen.verification.settings import Setting
 from rapidgen.verification.suite import CASES
 from rapidgen.verification.suite_runner import Starter
 from rapidgen.verification.testbench import FAILURES, Bench, with_module
-from rapidgen.verification.worker_pool import Workers, each, in_a_fork
+from rapidgen.verification.worker_pool import WorkerPool, each, run_in_fork
 from tools.mutation.driver import Mutant
 
 PATIENCE = (2.0, 12.0)
@@ -138,8 +138,8 @@ class Grounds:
 def grounds(
     config: RobotConfig,
     system: System,
-    cases: Sequence[Behaviour],
-    hire: Callable[[Grounds], Workers],
+    cases: Sequence[SuiteCase],
+    hire: Callable[[Grounds], WorkerPool],
     setting: Setting | None = None,
     row: str = "",
 ) -> Grounds:
@@ -227,7 +227,7 @@ class Judge:
         self._bench = Bench(given.config, given.system, given.setting)
         self._bench.compile()
 
-    def concerned(self, mutant: Mutant, learned: Learned) -> list[Behaviour]:
+    def concerned(self, mutant: Mutant, learned: Learned) -> list[SuiteCase]:
         """The cases that execute the mutant's statement, in the order to be tried."""
         place = (mutant.path, mutant.statement)
         names = [n for n in self._names if not mutant.statement or place in self._lines[n]]
@@ -240,7 +240,7 @@ class Judge:
     def judge(self, question: Question) -> Noticed:
         """Try one case after another until one notices it, or its budget is spent."""
         started = _spent()
-        by, tried, left = in_a_fork(partial(self._try, question))
+        by, tried, left = run_in_fork(partial(self._try, question))
         mutant = question.mutant
         return Noticed(mutant.path, mutant.line, by, _spent() - started, tried, left)
 
@@ -266,21 +266,21 @@ class Judge:
                 return "", tried, len(concerned) - len(tried)
             tried = (*tried, case.name + self._row)
             try:
-                by = in_a_fork(partial(self._noticed_by, case))
+                by = run_in_fork(partial(self._noticed_by, case))
             except STUMBLES:
                 by = case.name + FAILS
             if by:
                 return by, tried, 0
         return "", tried, 0
 
-    def _noticed_by(self, case: Behaviour) -> str:
+    def _noticed_by(self, case: SuiteCase) -> str:
         least, times = PATIENCE
         signal.signal(signal.SIGPROF, _hang)
         signal.setitimer(signal.ITIMER_PROF, max(least, times * self._usual[case.name]))
         try:
             case.prove(self._bench)
             self._bench.healthy()
-        except NothingToProve:
+        except NotApplicable:
             return ""
         except (*FAILURES, DiagnosticError):
             return case.name

@@ -70,7 +70,7 @@ class CheckedPoints:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Asked:
+class _CheckInput:
     """What is looked at: points with the robot's columns, as axis values (n, k) and durations
     (n,) s; `start` are the ten axis values where the robot stands, `before` the points that these
     go on from."""
@@ -121,7 +121,7 @@ def require_trajectory(given: object) -> None:
     )
 
 
-def require_way(given: object) -> None:
+def require_mode(given: object) -> None:
     """Raise ValueError for what is no way: nobody shall take another one than was meant."""
     if given is not None and given not in get_args(Way):
         raise ValueError(f"a way is 'download', 'stream' or None, not {given!r}")
@@ -148,7 +148,7 @@ def check_trajectory(
     with np.errstate(invalid="ignore", over="ignore"):
         wire = group.to_wire(ordered.positions)
         durations = np.concatenate([[first], np.diff(times)])
-        asked = _Asked(ordered, group, wire, durations, start)
+        asked = _CheckInput(ordered, group, wire, durations, start)
         found = _content(asked)
         if len(wire) > 1 or not (times[0] > 0 or goes_to_single):
             found += _start(asked)
@@ -174,7 +174,7 @@ def check_points(
     since = times[0] - first if before is None else before.time
     with np.errstate(invalid="ignore", over="ignore"):
         wire = group.to_wire(ordered.positions)
-        asked = _Asked(ordered, group, wire, np.diff(times, prepend=since), start, before)
+        asked = _CheckInput(ordered, group, wire, np.diff(times, prepend=since), start, before)
         found = _content(asked)
         if before is None:
             found += _start(asked)
@@ -195,21 +195,21 @@ def to_stream(
         _raise_errors(list(_capacity(ordered, capacity)))
         return checked
     since = ordered.times[0] - durations[0]
-    asked = _Asked(ordered, group, checked.wire, durations, None)
+    asked = _CheckInput(ordered, group, checked.wire, durations, None)
     return _points(asked, since, checked.warnings)
 
 
-def _points(asked: _Asked, since: float, warnings: tuple[Diagnostic, ...]) -> CheckedPoints:
+def _points(asked: _CheckInput, since: float, warnings: tuple[Diagnostic, ...]) -> CheckedPoints:
     ordered, group, durations = asked.ordered, asked.group, asked.durations
     # Times are put on the grid, not durations: nothing adds up over a long stream.
     steps = np.diff(np.rint(ordered.times * FIXED_SCALE), prepend=np.rint(since * FIXED_SCALE))
     least = np.rint(np.minimum(durations, group.policy.min_segment) * FIXED_SCALE)
-    wire = on_the_grid(asked.wire, group)
+    wire = quantised(asked.wire, group)
     last = LastPoint(len(ordered) + asked.origin, float(ordered.times[-1]), wire[-1])
     return CheckedPoints(ordered, wire, np.maximum(steps, least) / FIXED_SCALE, last, warnings)
 
 
-def on_the_grid(wire: Array, group: Group) -> Array:
+def quantised(wire: Array, group: Group) -> Array:
     """Axis values (n, k) in steps of the wire's numbers, none of them outside the limits."""
     with np.errstate(invalid="ignore"):
         low = np.ceil(np.array([joint.lower for joint in group.joints]) * FIXED_SCALE)
@@ -235,7 +235,7 @@ def _fitting(trajectory: Trajectory, group: Group, found: list[Diagnostic]) -> T
     return trajectory.reordered(group.names)
 
 
-def _content(asked: _Asked) -> list[Diagnostic]:
+def _content(asked: _CheckInput) -> list[Diagnostic]:
     """What is the same of a whole trajectory and of a piece."""
     return [f for look in (_finite, _times, _limits, _speeds, _short) for f in look(asked)]
 
@@ -300,7 +300,7 @@ def _names(trajectory: Trajectory, group: Group) -> list[Diagnostic]:
     return found
 
 
-def _finite(asked: _Asked) -> Iterator[Diagnostic]:
+def _finite(asked: _CheckInput) -> Iterator[Diagnostic]:
     bad = ~np.isfinite(asked.ordered.positions)
     for column in np.flatnonzero(bad.any(axis=0)).tolist():
         points = np.flatnonzero(bad[:, column])
@@ -309,7 +309,7 @@ def _finite(asked: _Asked) -> Iterator[Diagnostic]:
         yield asked.finding("RG613", message, points, "", _NUMBERS)
 
 
-def _times(asked: _Asked) -> Iterator[Diagnostic]:
+def _times(asked: _CheckInput) -> Iterator[Diagnostic]:
     times, before = asked.ordered.times, asked.before
     unknown = np.flatnonzero(~np.isfinite(times))
     if len(unknown):
@@ -328,7 +328,7 @@ def _times(asked: _Asked) -> Iterator[Diagnostic]:
         yield asked.finding("RG612", "the time does not increase at", late, figures, mend)
 
 
-def _limits(asked: _Asked) -> Iterator[Diagnostic]:
+def _limits(asked: _CheckInput) -> Iterator[Diagnostic]:
     ordered = asked.ordered
     whole = np.isfinite(ordered.positions).all(axis=1) & np.isfinite(ordered.times)
     for column, joint in enumerate(asked.group.joints):
@@ -352,7 +352,7 @@ def _limits(asked: _Asked) -> Iterator[Diagnostic]:
         )
 
 
-def _speeds(asked: _Asked) -> Iterator[Diagnostic]:
+def _speeds(asked: _CheckInput) -> Iterator[Diagnostic]:
     """Segment speeds; the approach to a first point with a time of its own counts as one."""
     wire, start, before = asked.wire, asked.start, asked.before
     if before is not None:
@@ -382,7 +382,7 @@ def _speeds(asked: _Asked) -> Iterator[Diagnostic]:
         )
 
 
-def _start(asked: _Asked) -> Iterator[Diagnostic]:
+def _start(asked: _CheckInput) -> Iterator[Diagnostic]:
     group, wire, start = asked.group, asked.wire, asked.start
     if start is None:
         return
@@ -413,7 +413,7 @@ def _start(asked: _Asked) -> Iterator[Diagnostic]:
     )
 
 
-def _short(asked: _Asked) -> list[Diagnostic]:
+def _short(asked: _CheckInput) -> list[Diagnostic]:
     least, durations = asked.group.policy.min_segment, asked.durations
     points = np.flatnonzero((durations < least - _TIME_ROUNDING) & (durations > 0))
     if not len(points):
@@ -428,7 +428,7 @@ def _short(asked: _Asked) -> list[Diagnostic]:
     return [found if asked.group.has_limits else replace(found, severity=Severity.WARNING)]
 
 
-def _fits(asked: _Asked) -> list[Diagnostic]:
+def _fits(asked: _CheckInput) -> list[Diagnostic]:
     values = np.concatenate([asked.wire, asked.durations[:, None]], axis=1)
     points = np.flatnonzero((np.abs(values) > FIXED_LIMIT).any(axis=1))
     if not len(points):

@@ -18,7 +18,7 @@ _LATER = 0.3
 """s between the two reads since which it is taken: the lower counts, as for a controller."""
 
 
-class PaceMeter:
+class ClockRateEstimator:
     """States per second of this clock, measured where they come evenly.
 
     A moment in which the simulation or this process had no time says nothing of the clock's speed:

@@ -15,10 +15,10 @@ from rapidgen.config.model import (
     ExposedSignal,
     GroupConfig,
     Joint,
-    OwnDatum,
-    OwnRoutine,
     RobotConfig,
     TrajectoryPolicy,
+    UserDatum,
+    UserRoutine,
 )
 from rapidgen.wire.simple_message.mapping import mapping_hash
 from rapidgen.wire.simple_message.messages import HelloReply
@@ -41,9 +41,9 @@ class Group:
     """False: neither a configuration nor the driver told the limits."""
     signals: tuple[ExposedSignal, ...] = ()
     """What the configuration exposes, in the order of their numbers."""
-    routines: tuple[OwnRoutine, ...] = ()
+    routines: tuple[UserRoutine, ...] = ()
     """Procedures that a program may call, in the order of their numbers."""
-    data: tuple[OwnDatum, ...] = ()
+    data: tuple[UserDatum, ...] = ()
     """PERS that clients may reach, in the order of their numbers."""
     geometry: GroupFrames | None = None
     """What poses mean; None where that is not known."""

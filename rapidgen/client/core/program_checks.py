@@ -17,7 +17,7 @@ from rapidgen.axes.path_shapes import LARGEST_ARC, Arc, Line, arc_through
 from rapidgen.client.core import program_stationary as standing
 from rapidgen.client.core.frames import Frames
 from rapidgen.client.core.group import Group
-from rapidgen.client.core.program_state import Walk, operands, unit, within
+from rapidgen.client.core.program_state import ProgramTraversal, operands, unit, within
 from rapidgen.client.errors import InvalidProgram
 from rapidgen.client.program import (
     Program,
@@ -77,7 +77,7 @@ def check_program(
 
     Raises InvalidProgram with all faults.
     """
-    walk = Walk(group, tuple(start[: len(group.names)]))
+    walk = ProgramTraversal(group, tuple(start[: len(group.names)]))
     if not program.steps:
         raise InvalidProgram.because("RG619", "the program has no instructions", "add one")
     if len(program) > most:
@@ -113,7 +113,7 @@ def check_program(
     return CheckedProgram(program, words, seconds, walk.here, tuple(walk.found))
 
 
-def _failed(walk: Walk) -> bool:
+def _failed(walk: ProgramTraversal) -> bool:
     return any(d.severity is Severity.ERROR for d in walk.found)
 
 
@@ -136,7 +136,7 @@ def _words(
     )
 
 
-def _frames(walk: Walk, step: ProgramStep) -> tuple[int, int]:
+def _frames(walk: ProgramTraversal, step: ProgramStep) -> tuple[int, int]:
     """Numbers of tool and work object."""
     geometry = walk.group.geometry
     found: list[int] = []
@@ -162,7 +162,7 @@ def _frames(walk: Walk, step: ProgramStep) -> tuple[int, int]:
     return found[0], found[1]
 
 
-def _stopped(walk: Walk, last: ProgramStep, step: ProgramStep, changed: bool) -> None:
+def _stopped(walk: ProgramTraversal, last: ProgramStep, step: ProgramStep, changed: bool) -> None:
     """Say where the robot stops though a zone was given."""
     why = "another tool or work object is next" if changed else "the next one does not move"
     if last.kind in _MOVES and (changed or step.kind not in _MOVES):
@@ -170,13 +170,13 @@ def _stopped(walk: Walk, last: ProgramStep, step: ProgramStep, changed: bool) ->
         walk.found.append(error("RG674", None, place, severity=Severity.INFO))
 
 
-def _speed(walk: Walk, speed: Speed) -> None:
+def _speed(walk: ProgramTraversal, speed: Speed) -> None:
     limits = (_FASTEST, _TURNING, _FASTEST, _TURNING)
     if not all(0 < value <= most for value, most in zip(speed.words, limits, strict=True)):
         walk.say("RG670", f"{speed} is outside what a robot is asked", "m/s and rad/s, above 0")
 
 
-def _zone(walk: Walk, zone: Zone) -> None:
+def _zone(walk: ProgramTraversal, zone: Zone) -> None:
     if not all(0 <= value <= _WIDEST for value in zone.words[1:]):
         walk.say("RG670", f"{zone} is outside what a robot is asked", "m and rad, 0 to 1")
 
@@ -184,7 +184,7 @@ def _zone(walk: Walk, zone: Zone) -> None:
 # -- moves ----------------------------------------------------------------------------------------
 
 
-def _to_joints(walk: Walk, step: ProgramStep) -> standing.Checked:
+def _to_joints(walk: ProgramTraversal, step: ProgramStep) -> standing.Checked:
     group = walk.group
     if len(step.joints) != len(group.names) or not all(map(isfinite, step.joints)):
         walk.say(
@@ -198,7 +198,7 @@ def _to_joints(walk: Walk, step: ProgramStep) -> standing.Checked:
     return target, _go(walk, target, step)
 
 
-def _joint_move(walk: Walk, step: ProgramStep) -> standing.Checked:
+def _joint_move(walk: ProgramTraversal, step: ProgramStep) -> standing.Checked:
     pose, near, robot = _target(walk, step)
     if pose is None or robot is None:
         return (), 0.0
@@ -209,7 +209,7 @@ def _joint_move(walk: Walk, step: ProgramStep) -> standing.Checked:
     return operands(pose, found[0]), _go(walk, found[0], step)
 
 
-def _line(walk: Walk, step: ProgramStep) -> standing.Checked:
+def _line(walk: ProgramTraversal, step: ProgramStep) -> standing.Checked:
     pose, near, robot = _target(walk, step)
     if pose is None or robot is None:
         return (), 0.0
@@ -218,7 +218,7 @@ def _line(walk: Walk, step: ProgramStep) -> standing.Checked:
     return operands(pose, walk.here), seconds
 
 
-def _circle(walk: Walk, step: ProgramStep) -> standing.Checked:
+def _circle(walk: ProgramTraversal, step: ProgramStep) -> standing.Checked:
     pose, near, robot = _target(walk, step)
     via = unit(walk, step.via)
     if pose is None or via is None or robot is None:
@@ -238,7 +238,7 @@ def _circle(walk: Walk, step: ProgramStep) -> standing.Checked:
     return (*via[0], *via[1], *operands(pose, walk.here)), seconds
 
 
-_MAKERS: dict[Instruction, Callable[[Walk, ProgramStep], standing.Checked]] = {
+_MAKERS: dict[Instruction, Callable[[ProgramTraversal, ProgramStep], standing.Checked]] = {
     Instruction.MOVE_ABSJ: _to_joints,
     Instruction.MOVE_J: _joint_move,
     Instruction.MOVE_L: _line,
@@ -253,7 +253,9 @@ _MAKERS: dict[Instruction, Callable[[Walk, ProgramStep], standing.Checked]] = {
 }
 
 
-def _target(walk: Walk, step: ProgramStep) -> tuple[Pose | None, Posture, Frames | None]:
+def _target(
+    walk: ProgramTraversal, step: ProgramStep
+) -> tuple[Pose | None, Posture, Frames | None]:
     """The pose of an instruction, where the external axes are at its end, and the geometry."""
     names = walk.group.names
     values = list(walk.group.map.to_urdf(walk.here))
@@ -272,7 +274,9 @@ def _target(walk: Walk, step: ProgramStep) -> tuple[Pose | None, Posture, Frames
     return pose, walk.group.map.to_controller(values), walk.frames
 
 
-def _unreached(walk: Walk, robot: Frames, pose: Pose, near: Posture, step: ProgramStep) -> None:
+def _unreached(
+    walk: ProgramTraversal, robot: Frames, pose: Pose, near: Posture, step: ProgramStep
+) -> None:
     if step.configuration is not None and robot.postures(pose, near):
         others = sorted({robot.kinematics.configuration(p) for p in robot.postures(pose, near)})
         walk.say(
@@ -288,7 +292,7 @@ def _unreached(walk: Walk, robot: Frames, pose: Pose, near: Posture, step: Progr
         )
 
 
-def _go(walk: Walk, target: Posture, step: ProgramStep) -> float:
+def _go(walk: ProgramTraversal, target: Posture, step: ProgramStep) -> float:
     """Be there; seconds that it takes, at least."""
     pairs = zip(walk.group.joints, walk.here, target, strict=True)
     seconds = max(abs(b - a) / joint.speed for joint, a, b in pairs)
@@ -301,7 +305,9 @@ def _go(walk: Walk, target: Posture, step: ProgramStep) -> float:
     return seconds
 
 
-def _along(walk: Walk, step: ProgramStep, robot: Frames, way: _Way, outer: Posture) -> float:
+def _along(
+    walk: ProgramTraversal, step: ProgramStep, robot: Frames, way: _Way, outer: Posture
+) -> float:
     """Follow a way of the TCP on the branch where the robot is; seconds that it takes, at least."""
     speed = step.speed
     seconds = max(way.length / speed.tcp, way.angle / speed.orientation, 1e-4)
@@ -351,7 +357,7 @@ def _along(walk: Walk, step: ProgramStep, robot: Frames, way: _Way, outer: Postu
 
 
 def _left(
-    walk: Walk,
+    walk: ProgramTraversal,
     step: ProgramStep,
     robot: Frames,
     pose: Pose,
@@ -371,7 +377,7 @@ def _left(
     )
 
 
-def _slowed(walk: Walk, nodes: Sequence[Posture], seconds: float) -> float:
+def _slowed(walk: ProgramTraversal, nodes: Sequence[Posture], seconds: float) -> float:
     """s that the axes need for a way; told when they need more than was asked."""
     spacing = seconds / (len(nodes) - 1)
     slowest = 1.0

@@ -14,7 +14,7 @@ _UNIT = 1e-3
 """A quaternion's length may be off by so much."""
 
 
-class Walk:
+class ProgramTraversal:
     """The way through a program: where the robot is, and what was found."""
 
     def __init__(self, group: Group, start: Posture) -> None:
@@ -58,7 +58,7 @@ def operands(pose: Pose, posture: Posture) -> tuple[float, ...]:
     return (*pose[0], *pose[1], *posture)
 
 
-def unit(walk: Walk, pose: Pose | None) -> Pose | None:
+def unit(walk: ProgramTraversal, pose: Pose | None) -> Pose | None:
     """A pose with a quaternion of length 1."""
     if pose is None or not all(isfinite(value) for part in pose for value in part):
         walk.say("RG670", f"{pose} is no pose", "finite numbers")
@@ -74,7 +74,7 @@ def unit(walk: Walk, pose: Pose | None) -> Pose | None:
     return pose[0], frames.normalise(pose[1])
 
 
-def within(walk: Walk, posture: Posture) -> bool:
+def within(walk: ProgramTraversal, posture: Posture) -> bool:
     faults: list[LimitFault] = outside(walk.group.joints, posture)
     for fault in faults[:1]:
         walk.say("RG614", str(fault))

@@ -6,18 +6,18 @@ from typing import cast
 
 from rapidgen.axes.frames import Pose
 from rapidgen.axes.kinematics import Posture
-from rapidgen.client.core.program_state import Walk, operands, unit, within
+from rapidgen.client.core.program_state import ProgramTraversal, operands, unit, within
 from rapidgen.client.core.user_frames import own_tool, own_work_object
 from rapidgen.client.errors import InvalidProgram
 from rapidgen.client.program import (
     Argument,
-    OwnTool,
-    OwnWorkObject,
     ProgramStep,
     Trigger,
+    UserTool,
+    UserWorkObject,
     pose_of,
 )
-from rapidgen.config.model import OwnParameter
+from rapidgen.config.model import RoutineParameter
 from rapidgen.diagnostics import suggest
 from rapidgen.wire.simple_message.spec import FIXED_LIMIT, LONGEST_TEXT, Instruction
 
@@ -31,7 +31,7 @@ Checked = tuple[Sequence[float], float]
 """Operands of an instruction, and the s that it takes at least."""
 
 
-def _signal(walk: Walk, name: str, value: float, *, sets: bool) -> int:
+def _signal(walk: ProgramTraversal, name: str, value: float, *, sets: bool) -> int:
     """The number of a signal; told where it cannot be set or have this value."""
     signals = walk.group.signals
     names = [signal.name for signal in signals]
@@ -54,7 +54,7 @@ def _signal(walk: Walk, name: str, value: float, *, sets: bool) -> int:
     return names.index(name)
 
 
-def marks(walk: Walk, step: ProgramStep) -> list[tuple[float, ...]]:
+def marks(walk: ProgramTraversal, step: ProgramStep) -> list[tuple[float, ...]]:
     """The words of the signals on the way."""
     by_joints = step.kind in (Instruction.MOVE_ABSJ, Instruction.MOVE_J)
     if step.triggers and by_joints and walk.group.map.two_sided:
@@ -67,7 +67,7 @@ def marks(walk: Walk, step: ProgramStep) -> list[tuple[float, ...]]:
     return [_mark(walk, trigger) for trigger in step.triggers]
 
 
-def _mark(walk: Walk, trigger: Trigger) -> tuple[float, ...]:
+def _mark(walk: ProgramTraversal, trigger: Trigger) -> tuple[float, ...]:
     """The words of a signal on the way."""
     number = _signal(walk, trigger.signal, trigger.value, sets=True)
     if not (isfinite(trigger.place) and 0 <= trigger.place <= _FARTHEST):
@@ -75,21 +75,21 @@ def _mark(walk: Walk, trigger: Trigger) -> tuple[float, ...]:
     return number, trigger.value, trigger.kind, trigger.place
 
 
-def wait(walk: Walk, step: ProgramStep) -> Checked:
+def wait(walk: ProgramTraversal, step: ProgramStep) -> Checked:
     return (_seconds(walk, step),), step.seconds
 
 
-def wait_signal(walk: Walk, step: ProgramStep) -> Checked:
+def wait_signal(walk: ProgramTraversal, step: ProgramStep) -> Checked:
     number = _signal(walk, step.signal, step.value, sets=False)
     return (number, step.value, _seconds(walk, step)), step.seconds
 
 
-def settings(walk: Walk, step: ProgramStep) -> Checked:
+def settings(walk: ProgramTraversal, step: ProgramStep) -> Checked:
     walk.singular, walk.any_posture = bool(int(step.value) & 1), bool(int(step.value) & 2)
     return (step.value,), 0.0
 
 
-def own_frame(walk: Walk, step: ProgramStep) -> Checked:
+def own_frame(walk: ProgramTraversal, step: ProgramStep) -> Checked:
     geometry, own = walk.group.geometry, step.own
     if geometry is None:
         walk.say(
@@ -99,11 +99,11 @@ def own_frame(walk: Walk, step: ProgramStep) -> Checked:
         )
         return (), 0.0
     try:
-        if isinstance(own, OwnTool):
+        if isinstance(own, UserTool):
             words, pose = own_tool(own)
             walk.own = pose, walk.own[1]
         else:
-            words, pose = own_work_object(cast("OwnWorkObject", own))
+            words, pose = own_work_object(cast("UserWorkObject", own))
             walk.own = walk.own[0], pose
     except (ValueError, TypeError, InvalidProgram) as wrong:
         walk.say("RG670", str(wrong))
@@ -112,11 +112,11 @@ def own_frame(walk: Walk, step: ProgramStep) -> Checked:
     return words, 0.0
 
 
-def set_signal(walk: Walk, step: ProgramStep) -> Checked:
+def set_signal(walk: ProgramTraversal, step: ProgramStep) -> Checked:
     return (_signal(walk, step.signal, step.value, sets=True), step.value), 0.0
 
 
-def call(walk: Walk, step: ProgramStep) -> Checked:
+def call(walk: ProgramTraversal, step: ProgramStep) -> Checked:
     names = [routine.name for routine in walk.group.routines]
     if step.routine not in names:
         walk.say(
@@ -138,7 +138,7 @@ def call(walk: Walk, step: ProgramStep) -> Checked:
 
 
 def _of_routine(
-    walk: Walk, step: ProgramStep, parameter: OwnParameter, value: Argument
+    walk: ProgramTraversal, step: ProgramStep, parameter: RoutineParameter, value: Argument
 ) -> float | bool | str | tuple[float, ...]:
     """An argument as it goes onto the wire: of a target its operands."""
     joints = _joints_of(walk, value) if parameter.type == "jointtarget" else None
@@ -157,7 +157,7 @@ def _of_routine(
     return value
 
 
-def _joints_of(walk: Walk, value: Argument) -> Posture | None:
+def _joints_of(walk: ProgramTraversal, value: Argument) -> Posture | None:
     """Axis values of what are joints of this robot."""
     if isinstance(value, Sequence) and len(value) == len(walk.group.names):
         joints = [v for v in value if isinstance(v, float | int) and isfinite(v)]
@@ -165,7 +165,9 @@ def _joints_of(walk: Walk, value: Argument) -> Posture | None:
     return None
 
 
-def _reached(walk: Walk, parameter: OwnParameter, value: Argument) -> tuple[float, ...] | float:
+def _reached(
+    walk: ProgramTraversal, parameter: RoutineParameter, value: Argument
+) -> tuple[float, ...] | float:
     """A pose with the joints that reach it, nearest to where the robot is."""
     try:
         pose = unit(walk, pose_of(cast("Pose", value)))
@@ -198,7 +200,7 @@ def fits(kind: str, value: float | bool | str) -> bool:
     return abs(value) <= _LARGEST
 
 
-def _seconds(walk: Walk, step: ProgramStep) -> float:
+def _seconds(walk: ProgramTraversal, step: ProgramStep) -> float:
     if not 0 <= step.seconds <= _LONGEST:
         walk.say("RG670", f"a wait of {step.seconds:g} s", f"0 to {_LONGEST:g} s")
         return 0.0

@@ -16,8 +16,8 @@ from rapidgen.client.core.checks import (
     Way,
     check_points,
     check_trajectory,
+    require_mode,
     require_trajectory,
-    require_way,
     to_stream,
 )
 from rapidgen.client.core.download import Download
@@ -26,7 +26,7 @@ from rapidgen.client.core.heartbeat import HeartbeatSchedule
 from rapidgen.client.core.motion import Phase, fix_of
 from rapidgen.client.core.program_checks import CheckedProgram, check_program, require_program
 from rapidgen.client.core.request_port import PendingReply, RequestPort
-from rapidgen.client.core.state_port import Evidence, StatePort
+from rapidgen.client.core.state_port import ErrorContext, StatePort
 from rapidgen.client.core.stream import InstructionQueue, PointQueue, PointStream, SendQueue
 from rapidgen.client.errors import (
     ConnectionLost,
@@ -396,7 +396,7 @@ class Core:
         self._group = group
         self.state_port.use(group)
 
-    def evidence(self) -> Evidence:
+    def evidence(self) -> ErrorContext:
         """The last messages and states, for an exception."""
         return self.state_port.evidence()
 
@@ -470,7 +470,7 @@ class Core:
         yet), NotSupported (no driver that streams).
         """
         require_trajectory(trajectory)
-        require_way(way)
+        require_mode(way)
         if way == "stream":
             self.require_streaming()
             return check_points(trajectory, self.known_group, before=None, start=self.start)
@@ -487,7 +487,7 @@ class Core:
         Raises InvalidProgram, NotReady (no state yet), NotSupported.
         """
         require_program(program)
-        require_way(way)
+        require_mode(way)
         hello = self.state_port.driver.hello
         if hello is None or Feature.PROGRAMS not in Feature(hello.features):
             raise NotSupported.because(

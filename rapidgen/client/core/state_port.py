@@ -9,7 +9,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Protocol, TypedDict
 
-from rapidgen.client.core.clock_rate import PaceMeter
+from rapidgen.client.core.clock_rate import ClockRateEstimator
 from rapidgen.client.core.group import Group
 from rapidgen.client.core.state import (
     Driver,
@@ -60,7 +60,7 @@ class Listener(Protocol):
         """The controller has taken a motion, at this time of the client's clock."""
 
 
-class Evidence(TypedDict):
+class ErrorContext(TypedDict):
     """What every RobotError carries."""
 
     messages: tuple[tuple[float, str], ...]
@@ -81,7 +81,7 @@ class StatePort:
         self.progresses = 0
         self._progress_at = (0.0, 0)
         """When PROGRESS came last, and how many joint messages had come then."""
-        self._pace = PaceMeter()
+        self._pace = ClockRateEstimator()
         self.events: deque[Event] = deque(maxlen=KEPT_EVENTS)
         """The last entries of the controller's log, oldest first."""
         self.event_count = 0
@@ -110,7 +110,7 @@ class StatePort:
         self.progress = None
         self.driver = Driver()
         self._arrivals.clear()
-        self._pace = PaceMeter()
+        self._pace = ClockRateEstimator()
         self._status = None
         self.samples = 0
         self.event_count = 0
@@ -281,7 +281,7 @@ class StatePort:
         """The last messages as (time, text), oldest first."""
         return tuple((time, _text(entry)) for time, entry in self._log)
 
-    def evidence(self) -> Evidence:
+    def evidence(self) -> ErrorContext:
         """The last messages and states, for an exception."""
         return {"messages": self.messages, "states": self.states}
 

@@ -4,7 +4,7 @@ from math import isfinite, sqrt
 
 from rapidgen.axes import frames
 from rapidgen.axes.frames import Pose
-from rapidgen.client.program import OwnTool, OwnWorkObject, pose_of
+from rapidgen.client.program import UserTool, UserWorkObject, pose_of
 
 _UNIT = 1e-3
 """A quaternion's length may be off by so much."""
@@ -12,7 +12,7 @@ _FARTHEST, _HEAVIEST, _INERTIA = 100.0, 2000.0, 2000.0
 """m, kg, kg m2 that the driver takes, at most."""
 
 
-def own_tool(tool: OwnTool) -> tuple[tuple[float, ...], Pose]:
+def own_tool(tool: UserTool) -> tuple[tuple[float, ...], Pose]:
     """The words of a TOOL, and where the TCP is in the flange's frame. Raises ValueError, and
     InvalidProgram for what is no pose."""
     frame, load = _frame(tool.frame, "the tool's frame"), (tool.centre, tool.axes)
@@ -26,7 +26,7 @@ def own_tool(tool: OwnTool) -> tuple[tuple[float, ...], Pose]:
     return (*frame[0], *frame[1], *centre[0], *centre[1], mass, *moments), frame
 
 
-def own_work_object(wobj: OwnWorkObject) -> tuple[tuple[float, ...], Pose]:
+def own_work_object(wobj: UserWorkObject) -> tuple[tuple[float, ...], Pose]:
     """The words of a WORK_OBJECT, and where it is in the world. Raises as `own_tool`."""
     user = _frame(wobj.user_frame, "the user frame")
     place = _frame(wobj.object_frame, "the object frame")

@@ -13,7 +13,7 @@ from rapidgen.wire.simple_message.spec import Port
 
 def download(core: Core, checked: CheckedTrajectory) -> Flow[Job]:
     """Send, and wait until the controller took it; only then it moves."""
-    sending = Sending(core, checked)
+    sending = DownloadInProgress(core, checked)
     try:
         yield from sending.points()
         yield from sending.end()
@@ -27,7 +27,7 @@ def download(core: Core, checked: CheckedTrajectory) -> Flow[Job]:
     return sending.job()
 
 
-class Sending:
+class DownloadInProgress:
     """A trajectory on its way, in three steps."""
 
     def __init__(self, core: Core, checked: CheckedTrajectory) -> None:

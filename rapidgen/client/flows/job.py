@@ -15,7 +15,7 @@ from rapidgen.client.core.stream import PointStream
 from rapidgen.client.errors import InvalidTrajectory
 from rapidgen.client.flows.download import download
 from rapidgen.client.flows.effects import Flow
-from rapidgen.client.flows.motion import armed, patience, ready, until, wait_for_result
+from rapidgen.client.flows.motion import armed, ready, stall_timeout, until, wait_for_result
 from rapidgen.client.flows.stop import ended, stop
 from rapidgen.client.trajectory import Trajectory
 
@@ -159,7 +159,7 @@ def _until(core: Core, stream: PointStream, condition: Callable[[], bool]) -> Fl
     if not (yield from until(core, stream, condition)):
         stream.failed(
             core.state_port.late(
-                f"the controller has not taken points for {patience(core, stream):.1f} s",
+                f"the controller has not taken points for {stall_timeout(core, stream):.1f} s",
                 "a STOP was sent; look at the robot",
             )
         )

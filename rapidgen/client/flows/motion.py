@@ -43,7 +43,7 @@ def armed(core: Core) -> Flow[None]:
     core.ready()
 
 
-def patience(core: Core, motion: CommandedMotion) -> float:
+def stall_timeout(core: Core, motion: CommandedMotion) -> float:
     """Seconds without a sign of getting on after which nobody waits any longer."""
     return 4 * motion.longest / core.override + 30
 
@@ -71,7 +71,7 @@ def until(
         while True:
             mark = motion.mark
             # The mark may be the same again before this goes on: what the wait has seen counts.
-            stirred = yield Wait(partial(stirs, mark), patience(core, motion))
+            stirred = yield Wait(partial(stirs, mark), stall_timeout(core, motion))
             if holds():
                 return True
             if not stirred and motion.progress.state is not TrajectoryState.PAUSED:
@@ -87,7 +87,7 @@ def wait_for_result(core: Core, motion: CommandedMotion, timeout: float | None) 
     if motion.error is not None:
         raise (yield from ended(core, motion))
     if motion.result is None:
-        waited = patience(core, motion) if timeout is None else timeout
+        waited = stall_timeout(core, motion) if timeout is None else timeout
         raise core.state_port.late(
             f"the motion did not end within {waited:.1f} s; it goes on",
             "wait longer with result(timeout), or stop()",

@@ -24,7 +24,7 @@ from rapidgen.client.flows.job import result, taken
 from rapidgen.client.flows.motion import armed, ready, until
 from rapidgen.client.flows.stop import ended, stop
 from rapidgen.client.program import SLOW, Argument, Left, Program, SpeedLike, Target
-from rapidgen.config.model import OwnRoutine
+from rapidgen.config.model import UserRoutine
 from rapidgen.diagnostics import suggest
 from rapidgen.wire.simple_message import encode, messages
 from rapidgen.wire.simple_message.declaration import Content
@@ -225,7 +225,7 @@ def _why_it_stopped(core: Core, routine: str, before: int, failed: MotionFailed)
         ) from failed
 
 
-def _results(core: Core, own: OwnRoutine, told: messages.ResultReply) -> Flow[tuple[Left, ...]]:
+def _results(core: Core, own: UserRoutine, told: messages.ResultReply) -> Flow[tuple[Left, ...]]:
     """What a routine left, by the types of its parameters; each text is asked for by itself, and
     each target."""
     left = [(n, p.type) for n, p in enumerate(own.parameters, 1) if p.inout]

@@ -16,18 +16,18 @@ from websockets.exceptions import ConnectionClosed, WebSocketException
 from rapidgen._compat import Self
 from rapidgen.client import deadline
 from rapidgen.client.errors import ConnectionLost, RobotTimeout
-from rapidgen.client.rws.api import PATIENCE, ControllerSurface
-from rapidgen.client.rws.core import Pace, RwsCore
+from rapidgen.client.rws.api import PATIENCE, ControllerApi
+from rapidgen.client.rws.core import RateLimiter, RwsCore
 from rapidgen.client.rws.effects import (
+    DropConnections,
     Effect,
     Exchange,
+    FetchCertificate,
     Flow,
-    Forget,
     LogIn,
-    LookAtCertificate,
     Pause,
     Response,
-    Settle,
+    UseEndpoint,
     resume,
 )
 from rapidgen.client.rws.errors import Busy
@@ -40,7 +40,7 @@ from rapidgen.client.rws.transport import (
     auth_of,
     no_verification,
     not_reached,
-    pinned,
+    pinned_tls,
     response_of,
     socket_options,
 )
@@ -48,14 +48,14 @@ from rapidgen.client.rws.transport import (
 T = TypeVar("T")
 
 
-class Awaiting:
+class RwsAsyncRunner:
     """Carries out flows on the caller's loop, one after the other."""
 
     def __init__(self, core: RwsCore, timeout: float) -> None:
         self._core = core
         self._timeout = timeout
         self._lock = asyncio.Lock()
-        self._pace = Pace()
+        self._pace = RateLimiter()
         self._client: httpx2.AsyncClient | None = None
         self._base = ""
         self._auth: httpx2.Auth | None = None
@@ -90,20 +90,20 @@ class Awaiting:
                 return await self._exchange(effect)
             case Pause():
                 await asyncio.sleep(effect.seconds)
-            case LookAtCertificate():
+            case FetchCertificate():
                 return await self._look(effect.port)
-            case Settle():
+            case UseEndpoint():
                 await self.close()
                 scheme = "https" if effect.certificate else "http"
                 self._base = f"{scheme}://{self._core.address.netloc}:{effect.port}"
-                verify = pinned(effect.certificate) if effect.certificate else True
+                verify = pinned_tls(effect.certificate) if effect.certificate else True
                 self._auth = None
                 self._client = httpx2.AsyncClient(
                     verify=verify, trust_env=False, timeout=self._timeout, follow_redirects=False
                 )
             case LogIn():
                 self._auth = auth_of(effect, self._core)
-            case Forget():
+            case DropConnections():
                 if self._client is not None:
                     self._client.cookies.clear()
         return Response(0)
@@ -170,7 +170,7 @@ class AsyncSubscription:
     `async with controller.subscribe(topics.execution()) as events: async for event in events: ...`
     """
 
-    def __init__(self, carrier: Awaiting, core: RwsCore, chosen: tuple[Topic, ...]) -> None:
+    def __init__(self, carrier: RwsAsyncRunner, core: RwsCore, chosen: tuple[Topic, ...]) -> None:
         self._carrier = carrier
         self._core = core
         self._topics = chosen
@@ -179,7 +179,7 @@ class AsyncSubscription:
         self._group = ""
         self._stack = AsyncExitStack()
 
-    async def _open(self, flow: Flow[subscriptions.Opened]) -> None:
+    async def _open(self, flow: Flow[subscriptions.SubscriptionGroup]) -> None:
         opened = await self._carrier.run(flow)
         self._group = opened.group
         self._waiting.extend(opened.events)
@@ -238,11 +238,11 @@ class AsyncSubscription:
         await self.close()
 
 
-class AsyncController(ControllerSurface[Awaiting]):
+class AsyncController(ControllerApi[RwsAsyncRunner]):
     """A controller over Robot Web Services, on asyncio: as `Controller`, and every method is
     awaited."""
 
-    _carrier_type = Awaiting
+    _carrier_type = RwsAsyncRunner
 
     async def connect(self) -> Self:
         """Connect and log in."""

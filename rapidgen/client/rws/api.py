@@ -18,7 +18,7 @@ PATIENCE = 180.0
 """s that a subscription waits for a controller that restarts."""
 
 
-class RwsCarrier(Protocol):
+class RwsFlowRunner(Protocol):
     """Carries out flows for a core."""
 
     def __init__(self, core: RwsCore, timeout: float) -> None: ...
@@ -34,10 +34,10 @@ def _of_core(flow: Callable[Concatenate[RwsCore, P], Flow[T]]) -> Method[P, T]:
     return method(opened, attrgetter("_core"))
 
 
-C_co = TypeVar("C_co", bound=RwsCarrier, covariant=True)
+C_co = TypeVar("C_co", bound=RwsFlowRunner, covariant=True)
 
 
-class ControllerSurface(Generic[C_co]):
+class ControllerApi(Generic[C_co]):
     """What both clients have in common."""
 
     _carrier_type: type[C_co]

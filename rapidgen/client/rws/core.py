@@ -21,7 +21,7 @@ RATE = 18
 APPLICATION = "rapidgen"
 
 
-class Pace:
+class RateLimiter:
     """When the next request may go out, so that no second has more than RATE."""
 
     def __init__(self, rate: int = RATE) -> None:

@@ -30,7 +30,7 @@ class Exchange:
 
 
 @dataclass(frozen=True, slots=True)
-class LookAtCertificate:
+class FetchCertificate:
     """Shake hands over TLS and nothing else; its Response has the certificate (DER) as body.
 
     A status of 0 means that nobody speaks TLS there.
@@ -40,7 +40,7 @@ class LookAtCertificate:
 
 
 @dataclass(frozen=True, slots=True)
-class Settle:
+class UseEndpoint:
     """From now on talk to this port; `certificate` (DER) is the only one that is accepted."""
 
     port: int
@@ -55,7 +55,7 @@ class LogIn:
 
 
 @dataclass(frozen=True, slots=True)
-class Forget:
+class DropConnections:
     """Drop cookies and connections: the controller has restarted, or this is the end."""
 
 
@@ -66,7 +66,7 @@ class Pause:
     seconds: float
 
 
-Effect = Exchange | LookAtCertificate | Settle | LogIn | Forget | Pause
+Effect = Exchange | FetchCertificate | UseEndpoint | LogIn | DropConnections | Pause
 Flow = Generator[Effect, Response, T]
 """A flow is resumed with a Response; of effects that have none with an empty one."""
 

@@ -76,11 +76,11 @@ class LoginFailed(ConnectionFailed):
     """No password, a wrong one, or nobody that a password may be sent to."""
 
 
-class NotObeyed(RobotError):
+class NotConfirmed(RobotError):
     """The controller said yes, and what it said is not so."""
 
 
-class Held(RobotError):
+class MastershipHeld(RobotError):
     """Somebody else has mastership or write access."""
 
 

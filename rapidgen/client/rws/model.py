@@ -149,7 +149,7 @@ class FileInfo:
 
 
 @dataclass(frozen=True, slots=True)
-class Holder:
+class MastershipHolder:
     """Who has mastership."""
 
     domain: str

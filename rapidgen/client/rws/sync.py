@@ -16,18 +16,18 @@ from websockets.sync.client import connect as connect_socket
 
 from rapidgen._compat import Self
 from rapidgen.client.errors import ConnectionLost, RobotTimeout
-from rapidgen.client.rws.api import PATIENCE, ControllerSurface
-from rapidgen.client.rws.core import Pace, RwsCore
+from rapidgen.client.rws.api import PATIENCE, ControllerApi
+from rapidgen.client.rws.core import RateLimiter, RwsCore
 from rapidgen.client.rws.effects import (
+    DropConnections,
     Effect,
     Exchange,
+    FetchCertificate,
     Flow,
-    Forget,
     LogIn,
-    LookAtCertificate,
     Pause,
     Response,
-    Settle,
+    UseEndpoint,
     resume,
 )
 from rapidgen.client.rws.errors import Busy
@@ -40,7 +40,7 @@ from rapidgen.client.rws.transport import (
     auth_of,
     no_verification,
     not_reached,
-    pinned,
+    pinned_tls,
     response_of,
     socket_options,
 )
@@ -48,14 +48,14 @@ from rapidgen.client.rws.transport import (
 T = TypeVar("T")
 
 
-class Blocking:
+class RwsSyncRunner:
     """Carries out flows by the caller's thread; requests of several threads go one by one."""
 
     def __init__(self, core: RwsCore, timeout: float) -> None:
         self._core = core
         self._timeout = timeout
         self._lock = threading.RLock()
-        self._pace = Pace()
+        self._pace = RateLimiter()
         self._client: httpx2.Client | None = None
         self._base = ""
         self._auth: httpx2.Auth | None = None
@@ -90,21 +90,21 @@ class Blocking:
                 return self._exchange(effect)
             case Pause():
                 time.sleep(effect.seconds)
-            case LookAtCertificate():
+            case FetchCertificate():
                 return self._look(effect.port)
-            case Settle():
+            case UseEndpoint():
                 self._settle(effect)
             case LogIn():
                 self._auth = auth_of(effect, self._core)
-            case Forget():
+            case DropConnections():
                 self._forget()
         return Response(0)
 
-    def _settle(self, effect: Settle) -> None:
+    def _settle(self, effect: UseEndpoint) -> None:
         self.close()
         scheme = "https" if effect.certificate else "http"
         self._base = f"{scheme}://{self._core.address.netloc}:{effect.port}"
-        verify = pinned(effect.certificate) if effect.certificate else True
+        verify = pinned_tls(effect.certificate) if effect.certificate else True
         self._auth = None
         self._client = httpx2.Client(
             verify=verify, trust_env=False, timeout=self._timeout, follow_redirects=False
@@ -172,7 +172,7 @@ class Subscription:
     `with controller.subscribe(topics.execution()) as events: for event in events: ...`
     """
 
-    def __init__(self, carrier: Blocking, core: RwsCore, chosen: tuple[Topic, ...]) -> None:
+    def __init__(self, carrier: RwsSyncRunner, core: RwsCore, chosen: tuple[Topic, ...]) -> None:
         self._carrier = carrier
         self._core = core
         self._topics = chosen
@@ -182,7 +182,7 @@ class Subscription:
         self._stack = ExitStack()
         self._open(subscriptions.subscribe(core, chosen))
 
-    def _open(self, flow: Flow[subscriptions.Opened]) -> None:
+    def _open(self, flow: Flow[subscriptions.SubscriptionGroup]) -> None:
         opened = self._carrier.run(flow)
         self._group = opened.group
         self._waiting.extend(opened.events)
@@ -237,7 +237,7 @@ class Subscription:
         self.close()
 
 
-class Controller(ControllerSurface[Blocking]):
+class Controller(ControllerApi[RwsSyncRunner]):
     """A controller over Robot Web Services.
 
     `address` is `rws://HOST[:PORT]`, `rwss://HOST[:PORT]` or a bare host; which generation is
@@ -247,7 +247,7 @@ class Controller(ControllerSurface[Blocking]):
     from any thread.
     """
 
-    _carrier_type = Blocking
+    _carrier_type = RwsSyncRunner
 
     def connect(self) -> Self:
         """Connect and log in.

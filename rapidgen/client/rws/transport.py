@@ -20,7 +20,7 @@ _NO_CHECK_TIME = 0x200000
 """X509_V_FLAG_NO_CHECK_TIME: who agreed to a certificate did not agree to its calendar."""
 
 
-def pinned(certificate: bytes) -> ssl.SSLContext:
+def pinned_tls(certificate: bytes) -> ssl.SSLContext:
     """TLS that accepts this certificate (DER) and no other."""
     context = ssl.SSLContext(ssl.PROTOCOL_TLS_CLIENT)
     context.check_hostname = False
@@ -65,7 +65,7 @@ def socket_options(
     handshake take a read in the middle of which a write is lost, and then everything waits for
     ever, once in a thousand: TLS 1.2 has none.
     """
-    context = pinned(core.certificate) if core.certificate else None
+    context = pinned_tls(core.certificate) if core.certificate else None
     if context is not None and threads:
         context.maximum_version = ssl.TLSVersion.TLSv1_2
     return SocketOptions(

@@ -57,7 +57,7 @@ class Cell:
     """Something says that it is a robot of ABB: a name in it, a folder, or a person."""
 
 
-def says_abb(*texts: str) -> bool:
+def mentions_abb(*texts: str) -> bool:
     """Whether a name or a text speaks of ABB or of one of its robots."""
     return any(map(_ABB.search, texts))
 
@@ -213,10 +213,10 @@ def _other_maker(cell: Cell) -> str:
 
     Not where that says ABB, or where an arm lies as one of ABB does.
     """
-    if any(arm.alignment for arm in cell.arms) or says_abb(*cell.names):
+    if any(arm.alignment for arm in cell.arms) or mentions_abb(*cell.names):
         return ""
     hit = _MAKERS.search(_words(cell.names))
-    if not hit and not says_abb(*cell.around):
+    if not hit and not mentions_abb(*cell.around):
         hit = _MAKERS.search(_words(cell.around))
     return hit[0] if hit else ""
 

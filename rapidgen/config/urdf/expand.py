@@ -18,9 +18,9 @@ from rapidgen.config.urdf.source import (
     Macro,
     declared_arguments,
     is_xacro,
-    leftovers,
     macros,
     read_xml,
+    unexpanded,
 )
 from rapidgen.diagnostics import (
     Diagnostic,
@@ -99,7 +99,7 @@ def expand(request: Request) -> Description:
             )
     else:
         made = _expand_xacro(request, text)
-    found = leftovers(made.text, str(request.path) if not made.expanded else "(expanded)")
+    found = unexpanded(made.text, str(request.path) if not made.expanded else "(expanded)")
     if found:
         if made.expanded:
             found = [

@@ -127,7 +127,7 @@ def _loops(robot: UrdfRobot, above: dict[str, UrdfJoint]) -> Iterator[Diagnostic
             link = above[link].parent
 
 
-def aimless(joint: UrdfJoint, place: Span | None) -> Diagnostic:
+def check_axis(joint: UrdfJoint, place: Span | None) -> Diagnostic:
     """RG053 for a joint that is to drive an axis, with an axis of length 0."""
     return error(
         "RG053",

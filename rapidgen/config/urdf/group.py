@@ -11,7 +11,7 @@ from rapidgen.config.model import ChainLink
 from rapidgen.config.urdf import crosscheck, limits
 from rapidgen.config.urdf.arms import MOST_MOVING
 from rapidgen.config.urdf.expand import Request, expand
-from rapidgen.config.urdf.graph import Graph, aimless, build_graph
+from rapidgen.config.urdf.graph import Graph, build_graph, check_axis
 from rapidgen.config.urdf.mapping import infer, paste, unmapped
 from rapidgen.config.urdf.packages import Packages
 from rapidgen.config.urdf.robot import UrdfJoint, read_robot
@@ -130,7 +130,7 @@ def _candidates(
                 )
             )
         elif joint.is_aimless:
-            found.append(aimless(joint, place))
+            found.append(check_axis(joint, place))
     return joints, found
 
 

@@ -12,7 +12,7 @@ from io import BytesIO
 from types import ModuleType
 from typing import TYPE_CHECKING
 
-from rapidgen.config.truncation import few
+from rapidgen.config.truncation import limit_findings
 from rapidgen.config.urdf.expand import Description
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, Span, error, refusal
 
@@ -134,7 +134,7 @@ def read_robot(description: Description, place: Span | None) -> UrdfRobot:
         )
     faults = list(_structure(root, span_of, description.path.name))
     if faults:
-        raise DiagnosticError(few(faults))
+        raise DiagnosticError(limit_findings(faults))
     root.set("name", root.get("name") or description.path.stem)
     lines = {e.get("name"): span_of(e) for e in root.iterchildren("joint")}
     return _read(etree.tostring(_skeleton(root)), lines)

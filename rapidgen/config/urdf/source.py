@@ -152,7 +152,7 @@ def _without_comments(text: str) -> str:
     return "".join([*parts, text[at:]])
 
 
-def leftovers(text: str, shown: str) -> list[Diagnostic]:
+def unexpanded(text: str, shown: str) -> list[Diagnostic]:
     """What expansion should have replaced (pitfall 3 of the field: RG033)."""
     found = []
     for hit in re.finditer(

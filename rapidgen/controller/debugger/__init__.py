@@ -1,8 +1,16 @@
 """Debugging the RAPID of a controller: breakpoints, steps, stacks and values, the clock at rest."""
 
-from rapidgen.controller.debugger.breakpoints import Breakpoint, Placed
-from rapidgen.controller.debugger.debugger import Debugger, Halt
+from rapidgen.controller.debugger.breakpoints import Breakpoint, PlacedBreakpoint
+from rapidgen.controller.debugger.debugger import Debugger, PauseReason
 from rapidgen.controller.debugger.stack import StackFrame
-from rapidgen.controller.debugger.values import NotNow, Shown
+from rapidgen.controller.debugger.values import DisplayedValue, NotPaused
 
-__all__ = ["Breakpoint", "Debugger", "Halt", "NotNow", "Placed", "Shown", "StackFrame"]
+__all__ = [
+    "Breakpoint",
+    "Debugger",
+    "DisplayedValue",
+    "NotPaused",
+    "PauseReason",
+    "PlacedBreakpoint",
+    "StackFrame",
+]

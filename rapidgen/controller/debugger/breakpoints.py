@@ -30,7 +30,7 @@ class Breakpoint:
 
 
 @dataclass(slots=True, eq=False)
-class Placed:
+class PlacedBreakpoint:
     """A breakpoint in a controller."""
 
     number: int
@@ -64,7 +64,7 @@ def pieces(log: str) -> tuple[tuple[str, ...], tuple[str, ...]]:
     return tuple(parts[::2]), tuple(parts[1::2])
 
 
-def place(placed: Placed, modules: Iterable[LoadedModule]) -> None:
+def place(placed: PlacedBreakpoint, modules: Iterable[LoadedModule]) -> None:
     """Find the first statement of a routine that begins in the line asked for, or below."""
     placed.line, placed.points = 0, set()
     for module in modules:

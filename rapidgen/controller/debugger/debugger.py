@@ -13,9 +13,9 @@ from typing import Literal, TypeAlias
 from rapidgen.controller.controller import VirtualController
 from rapidgen.controller.debugger import breakpoints as places
 from rapidgen.controller.debugger import pointers, values
-from rapidgen.controller.debugger.breakpoints import Breakpoint, Placed
+from rapidgen.controller.debugger.breakpoints import Breakpoint, PlacedBreakpoint
 from rapidgen.controller.debugger.stack import Level, StackFrame, depth_here, frames_of, innermost
-from rapidgen.controller.debugger.values import NotNow, Shown
+from rapidgen.controller.debugger.values import DisplayedValue, NotPaused
 from rapidgen.machine.scheduler import S, Timer, WaitSet
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.compiler.symbols import LoadedModule, Routine
@@ -32,7 +32,7 @@ LARGEST_OUTPUT = 1000
 
 
 @dataclass(frozen=True, slots=True)
-class Halt:
+class PauseReason:
     """Why everything is paused."""
 
     reason: Reason
@@ -44,7 +44,7 @@ class Halt:
 
 
 @dataclass(frozen=True, slots=True)
-class Told:
+class LogPointOutput:
     """A line of a log point. `time` is the controller's, s."""
 
     time: float
@@ -77,20 +77,20 @@ class Debugger:
         self._scheduler = controller.scheduler
         self._tasks = controller.rapid_tasks
         self._numbers = 0
-        self.placed: dict[int, Placed] = {}
+        self.placed: dict[int, PlacedBreakpoint] = {}
         """Breakpoints by number."""
         self.errors: ErrorStop = "never"
-        self.halt: Halt | None = None
+        self.halt: PauseReason | None = None
         """Why it is paused; None: it is not."""
-        self.output: list[Told] = []
+        self.output: list[LogPointOutput] = []
         """What log points told, the latest last."""
         self.changed = WaitSet()
         """Paused, going on, told something, or breakpoints changed."""
-        self._armed: dict[tuple[int, int], list[Placed]] = {}
+        self._armed: dict[tuple[int, int], list[PlacedBreakpoint]] = {}
         self._trees: dict[int, n.Module] = {}
         self._watched: dict[tuple[str, Routine, str], WatchedExpression] = {}
         self._step: _Step | None = None
-        self._cursor: Placed | None = None
+        self._cursor: PlacedBreakpoint | None = None
         self._timer: Timer | None = None
         controller.statements.errors.append(self._error)
         controller.statements.failures.append(self._failure)
@@ -99,17 +99,17 @@ class Debugger:
 
     # -- breakpoints -----------------------------------------------------------------------------
 
-    def add(self, asked: Breakpoint) -> Placed:
+    def add(self, asked: Breakpoint) -> PlacedBreakpoint:
         """Set a breakpoint; where it lies, and what is in doubt. ValueError: `hits` is no text."""
         places.due(asked.hits, 0)
         self._numbers += 1
-        placed = self.placed[self._numbers] = Placed(self._numbers, asked)
+        placed = self.placed[self._numbers] = PlacedBreakpoint(self._numbers, asked)
         self._place()
         self._listen()
         self.changed.notify()
         return placed
 
-    def change(self, number: int, asked: Breakpoint) -> Placed:
+    def change(self, number: int, asked: Breakpoint) -> PlacedBreakpoint:
         """Ask for something else of a breakpoint; its passes are counted anew.
 
         KeyError: there is none of that number. ValueError: `hits` is no text; it stays as it was.
@@ -156,7 +156,7 @@ class Debugger:
                 if doubt and placed.line and self._is_in(name, placed):
                     placed.doubt = f"{name} notices it when its routines are called again: {doubt}"
 
-    def _is_in(self, task: str, placed: Placed) -> bool:
+    def _is_in(self, task: str, placed: PlacedBreakpoint) -> bool:
         modules = {id(module.tree) for module in self._tasks[task].program.modules.values()}
         return any(tree in modules for tree, _ in placed.points)
 
@@ -175,7 +175,7 @@ class Debugger:
     def _pause(self, reason: Reason) -> None:
         self._end_timer()
         if self.halt is None:
-            self.halt = Halt(reason)
+            self.halt = PauseReason(reason)
             self._scheduler.pause()
             self.changed.notify()
 
@@ -197,18 +197,18 @@ class Debugger:
         """
         frames = self._frames(task)
         if not frames:
-            raise NotNow(f"{task} is not executing anything")
+            raise NotPaused(f"{task} is not executing anything")
         depth = depth_here(self._tasks[task], self._tasks[task].frame)
         if kind == "out" and len(frames) < 2:
-            raise NotNow("this is the outermost routine")
+            raise NotPaused("this is the outermost routine")
         self._go_on(_Step(task, kind, depth, frames[-1].level, _hidden(frames[-1].module)))
 
     def run_to(self, task: str, module: str, line: int) -> None:
         """Go on to a line, as if there were a breakpoint for once. NotNow: there is none."""
-        cursor = Placed(0, Breakpoint(module, line, task))
+        cursor = PlacedBreakpoint(0, Breakpoint(module, line, task))
         places.place(cursor, self._tasks[task].program.modules.values())
         if not cursor.line:
-            raise NotNow(f"no statement begins in line {line} of {module}")
+            raise NotPaused(f"no statement begins in line {line} of {module}")
         self._require_halt()
         self._cursor = cursor
         self._go_on(None)
@@ -225,7 +225,7 @@ class Debugger:
 
     def _require_halt(self) -> None:
         if self.halt is None:
-            raise NotNow("nothing is paused")
+            raise NotPaused("nothing is paused")
 
     def close(self) -> None:
         """Take everything away and let the controller go on."""
@@ -258,9 +258,11 @@ class Debugger:
         step = self._step
         if step is not None and step.task == name and self._ends(step, module):
             frame = innermost(self._tasks[name], sys._getframe(1))
-            self._hold(Halt("step", name, frame.place))
+            self._hold(PauseReason("step", name, frame.place))
 
-    def _reached(self, name: str, placed: Placed, frame: StackFrame) -> Halt | None:
+    def _reached(
+        self, name: str, placed: PlacedBreakpoint, frame: StackFrame
+    ) -> PauseReason | None:
         """What a breakpoint brings whose statement is about to be executed."""
         asked, task = placed.asked, self._tasks[name]
         try:
@@ -272,11 +274,11 @@ class Debugger:
             if asked.log:
                 self._tell(task, frame, asked.log)
                 return None
-        except NotNow as reason:
-            return Halt("breakpoint", name, frame.place, str(reason), placed.number)
+        except NotPaused as reason:
+            return PauseReason("breakpoint", name, frame.place, str(reason), placed.number)
         if placed is self._cursor:
-            return Halt("cursor", name, frame.place)
-        return Halt("breakpoint", name, frame.place, "", placed.number)
+            return PauseReason("cursor", name, frame.place)
+        return PauseReason("breakpoint", name, frame.place, "", placed.number)
 
     def _value(self, task: Task, frame: StackFrame, text: str) -> object:
         return values.read(self._compiled(task, frame, text), frame)
@@ -295,7 +297,7 @@ class Debugger:
             watched = self._compiled(task, frame, expression)
             value = values.read(watched, frame)
             line += values.shown("", watched.type, watched.dims, value).text + text
-        self.output.append(Told(self._controller.now, task.name, frame.place, line))
+        self.output.append(LogPointOutput(self._controller.now, task.name, frame.place, line))
         del self.output[:-LARGEST_OUTPUT]
         self.changed.notify()
 
@@ -310,15 +312,17 @@ class Debugger:
     def _error(self, name: str, error: RapidError) -> None:
         if self.errors == "all":
             frame = innermost(self._tasks[name], sys._getframe(1))
-            self._hold(Halt("error", name, frame.place, f"{error.name} {error.text}".strip()))
+            self._hold(
+                PauseReason("error", name, frame.place, f"{error.name} {error.text}".strip())
+            )
 
     def _failure(self, name: str, fatal: FatalError) -> None:
         if self.errors != "never":
             place = fatal.stack[-1] if fatal.stack else None
             text = ": ".join([f"{fatal.event} {fatal.title}", *(a for a in fatal.arguments if a)])
-            self._hold(Halt("error", name, place, text))
+            self._hold(PauseReason("error", name, place, text))
 
-    def _hold(self, halt: Halt) -> None:
+    def _hold(self, halt: PauseReason) -> None:
         """Pause in the task that tells: it goes on from here."""
         self._end_timer()
         self._step = self._cursor = None
@@ -344,23 +348,23 @@ class Debugger:
         try:
             return frames[level]
         except IndexError:
-            raise NotNow(f"{task} is not executing anything there") from None
+            raise NotPaused(f"{task} is not executing anything there") from None
 
-    def evaluate(self, task: str, text: str, level: int = -1) -> Shown:
+    def evaluate(self, task: str, text: str, level: int = -1) -> DisplayedValue:
         """The value of an expression, where a routine stands. NotNow says why there is none."""
         return values.evaluate(self._tasks[task].program, self.frame(task, level), text)
 
-    def assign(self, task: str, target: str, value: str, level: int = -1) -> Shown:
+    def assign(self, task: str, target: str, value: str, level: int = -1) -> DisplayedValue:
         """Set a datum, an element or a component; the value it has then. NotNow says why not."""
         done = values.assign(self._tasks[task].program, self.frame(task, level), target, value)
         self.changed.notify()
         return done
 
-    def variables(self, task: str, level: int = -1) -> tuple[Shown, ...]:
+    def variables(self, task: str, level: int = -1) -> tuple[DisplayedValue, ...]:
         """Parameters, data and loop variables of a routine."""
         return values.variables(self._tasks[task].program, self.frame(task, level))
 
-    def module_data(self, task: str, level: int = -1) -> tuple[Shown, ...]:
+    def module_data(self, task: str, level: int = -1) -> tuple[DisplayedValue, ...]:
         """Data of the module of a routine."""
         return values.module_data(self._tasks[task].program, self.frame(task, level))
 

@@ -28,12 +28,12 @@ LONGEST = 400
 """Characters of a value that are shown; parts of it can be asked for."""
 
 
-class NotNow(Exception):
+class NotPaused(Exception):
     """What was asked for is not possible where the program stands; the text says why."""
 
 
 @dataclass(frozen=True, slots=True)
-class Shown:
+class DisplayedValue:
     """A value for people: RAPID's own text, and whether there are parts to be asked for."""
 
     name: str
@@ -44,7 +44,7 @@ class Shown:
     settable: bool = True
 
 
-def evaluate(program: Program, frame: StackFrame, text: str) -> Shown:
+def evaluate(program: Program, frame: StackFrame, text: str) -> DisplayedValue:
     """The value of an expression in a frame. NotNow: it has none, or would call something."""
     watched = compiled(program, frame, text)
     return shown(text, watched.type, watched.dims, read(watched, frame))
@@ -55,7 +55,7 @@ def compiled(program: Program, frame: StackFrame, text: str) -> WatchedExpressio
     try:
         return watch(*_where(program, frame), parse_expression(text))
     except (CannotCompile, SyntaxError, FatalError) as error:
-        raise NotNow(str(error)) from error
+        raise NotPaused(str(error)) from error
 
 
 def read(watched: WatchedExpression, frame: StackFrame) -> Value:
@@ -64,24 +64,24 @@ def read(watched: WatchedExpression, frame: StackFrame) -> Value:
         return watched.read(frame.values)
     except RECOVERABLE as error:
         known = as_rapid_error(error)
-        raise NotNow(f"{known.name}{f': {known.text}' if known.text else ''}") from error
+        raise NotPaused(f"{known.name}{f': {known.text}' if known.text else ''}") from error
     except FatalError as error:
-        raise NotNow(f"{error.event} {error.title}") from error
+        raise NotPaused(f"{error.event} {error.title}") from error
     except NameError as error:
-        raise NotNow("a variable of a routine that is not being executed") from error
+        raise NotPaused("a variable of a routine that is not being executed") from error
 
 
-def assign(program: Program, frame: StackFrame, target: str, value: str) -> Shown:
+def assign(program: Program, frame: StackFrame, target: str, value: str) -> DisplayedValue:
     """Set a datum, an element or a component, as an assignment there would. NotNow."""
     try:
         node = parse_assignment(f"{target}:={value}")
         name, change = store(*_where(program, frame), node)
     except (CannotCompile, SyntaxError, FatalError) as error:
-        raise NotNow(str(error)) from error
+        raise NotPaused(str(error)) from error
     try:
         changed = change(frame.values)
     except RECOVERABLE as error:
-        raise NotNow(as_rapid_error(error).name) from error
+        raise NotPaused(as_rapid_error(error).name) from error
     if name:
         _set_local(program, frame, name, changed)
     return evaluate(program, frame, target)
@@ -91,7 +91,7 @@ def _set_local(program: Program, frame: StackFrame, name: str, value: Value) -> 
     code = program.codes[frame.python.f_code.co_filename] if frame.python is not None else None
     whole = type(frame.values[name]) is int and type(value) is not int
     if whole and code is not None and not code.traced:
-        raise NotNow("the code that is being executed counts on a whole number there")
+        raise NotPaused("the code that is being executed counts on a whole number there")
     frame.values[name] = value
     if frame.python is not None:
         _write_local(frame.python, name, value)
@@ -109,7 +109,7 @@ def _where(
     return program.linker, frame.routine, frame.loops, program.options, tuple(frame.values)
 
 
-def variables(program: Program, frame: StackFrame) -> tuple[Shown, ...]:
+def variables(program: Program, frame: StackFrame) -> tuple[DisplayedValue, ...]:
     """Parameters, data and loop variables of a frame, in the order of their declarations."""
     node = frame.routine.node
     assert node is not None
@@ -118,7 +118,7 @@ def variables(program: Program, frame: StackFrame) -> tuple[Shown, ...]:
     return tuple(_each(program, frame, [*dict.fromkeys([*loops, *names])]))
 
 
-def module_data(program: Program, frame: StackFrame) -> tuple[Shown, ...]:
+def module_data(program: Program, frame: StackFrame) -> tuple[DisplayedValue, ...]:
     """Data of the frame's module, as the frame sees them."""
     return tuple(_each(program, frame, [d.name for d in _declared(frame.module)]))
 
@@ -127,25 +127,27 @@ def _declared(module: LoadedModule) -> Iterator[n.DataDeclaration]:
     yield from module.declarations.values()
 
 
-def _each(program: Program, frame: StackFrame, names: list[str]) -> Iterator[Shown]:
+def _each(program: Program, frame: StackFrame, names: list[str]) -> Iterator[DisplayedValue]:
     for name in names:
         try:
             yield evaluate(program, frame, name)
-        except NotNow as reason:
-            yield Shown(name, "", f"({reason})", settable=False)
+        except NotPaused as reason:
+            yield DisplayedValue(name, "", f"({reason})", settable=False)
 
 
-def shown(name: str, kind: Type, dims: tuple[int, ...], value: Value) -> Shown:
+def shown(name: str, kind: Type, dims: tuple[int, ...], value: Value) -> DisplayedValue:
     """A value as people read it."""
     typed = kind.name + ("{" + ",".join(map(str, dims)) + "}" if any(dims) else "")
     if kind.kind == "semivalue":
-        return Shown(name, kind.name, value_text(value.value), settable=False)
+        return DisplayedValue(name, kind.name, value_text(value.value), settable=False)
     if value is None:
-        return Shown(name, typed, "(not present)", settable=False)
+        return DisplayedValue(name, typed, "(not present)", settable=False)
     parts = len(value) if isinstance(value, dict) else 0
     if isinstance(value, Record):
         parts = len(kind.components)
     elif kind.kind not in ATOMIC and not parts:
-        return Shown(name, typed, f"({kind.name})", settable=False)
+        return DisplayedValue(name, typed, f"({kind.name})", settable=False)
     text = value_text(value, kind)
-    return Shown(name, typed, text if len(text) <= LONGEST else text[:LONGEST] + "…", parts)
+    return DisplayedValue(
+        name, typed, text if len(text) <= LONGEST else text[:LONGEST] + "…", parts
+    )

@@ -21,7 +21,7 @@ _LONGEST: Final = 1024
 
 
 @dataclass(frozen=True, slots=True)
-class Packed:
+class BinaryField:
     """A number in a message: where it begins (from 0), its format, and what it is tested for."""
 
     place: int
@@ -40,12 +40,12 @@ class Packed:
 
 
 @dataclass(frozen=True, slots=True)
-class Framed:
+class MessageFraming:
     """How messages are made up; `prefix` is the length before them, None: there is none."""
 
-    prefix: Packed | None = None
+    prefix: BinaryField | None = None
     length: int = 0
-    parts: tuple[Packed, ...] = ()
+    parts: tuple[BinaryField, ...] = ()
     """Those that the program tests."""
 
     def messages(self) -> list[bytes]:
@@ -74,7 +74,9 @@ class Framed:
         return (struct.pack(self.prefix.format, self.length) if self.prefix else b"") + body
 
 
-def framed(nodes: Iterable[tuple[n.Node, Scope]], tested: Mapping[str, Iterable[float]]) -> Framed:
+def framed(
+    nodes: Iterable[tuple[n.Node, Scope]], tested: Mapping[str, Iterable[float]]
+) -> MessageFraming:
     """What programs unpack; `tested` are numbers that data are compared with, by name."""
     unpacked: list[tuple[str, str, int, str]] = []
     copies: list[tuple[str, str, int]] = []
@@ -102,17 +104,19 @@ def framed(nodes: Iterable[tuple[n.Node, Scope]], tested: Mapping[str, Iterable[
                         lengths.add(last(count) if count is not None else "")
         sizes += _sizes(node, scope)
     copied = {to: by for of, to, by in copies if of in received and to not in received}
-    prefixes = [Packed(at, form) for _, whose, at, form in unpacked if whose and whose in lengths]
-    parts: dict[str, Packed] = {}
+    prefixes = [
+        BinaryField(at, form) for _, whose, at, form in unpacked if whose and whose in lengths
+    ]
+    parts: dict[str, BinaryField] = {}
     for raw, whose, at, form in unpacked:
         if whose not in lengths:
             values = tuple(dict.fromkeys(tested.get(whose, ())))
-            parts.setdefault(whose, Packed(at + copied.get(raw, 0), form, values))
+            parts.setdefault(whose, BinaryField(at + copied.get(raw, 0), form, values))
     ends = [part.end for part in parts.values()]
     ends += [size + copied.get(raw, 0) for raw, size in sizes]
     ordered = sorted((part for part in parts.values() if part.values), key=lambda p: p.place)
     length = max(0, *ends) if ends else 0
-    return Framed(prefixes[0] if prefixes else None, length, tuple(ordered))
+    return MessageFraming(prefixes[0] if prefixes else None, length, tuple(ordered))
 
 
 def last(node: n.Node) -> str:

@@ -18,13 +18,16 @@ from typing import Literal, cast
 
 from rapidgen.config.cell import CameraKeys, CellDescription, CellSignalKeys, ForceKeys, SeenKeys
 from rapidgen.config.model import Load, Placement, Tool, WorkObject
-from rapidgen.controller.inference.default_tools import Blank, blanks
+from rapidgen.controller.inference.default_tools import (
+    DefaultedPersistent,
+    find_defaulted_persistents,
+)
 from rapidgen.controller.inference.missing_routines import absent
 from rapidgen.controller.inference.name_usage import passed, read, scoped
-from rapidgen.controller.inference.polled_data import Flag, flags
-from rapidgen.controller.inference.polled_signals import Polled, handed_on, polled
-from rapidgen.controller.inference.socket_peers import Heard, heard
-from rapidgen.controller.inference.wait_conditions import looked_at
+from rapidgen.controller.inference.polled_data import PolledData, flags
+from rapidgen.controller.inference.polled_signals import PolledSignals, passed_arguments, polled
+from rapidgen.controller.inference.socket_peers import ExpectedMessages, expected_messages
+from rapidgen.controller.inference.wait_conditions import wait_conditions
 from rapidgen.diagnostics import Span
 from rapidgen.rapid import Dialect, parse
 from rapidgen.rapid.binding import (
@@ -64,7 +67,7 @@ _Use = tuple[n.Name, str, int]
 
 
 @dataclass(frozen=True, slots=True)
-class Named:
+class UndeclaredName:
     """A name that nobody declares: its type (empty: not to be told), and where it is used first."""
 
     name: str
@@ -75,13 +78,13 @@ class Named:
 
 
 @dataclass(frozen=True, slots=True)
-class Guess:
+class InferredCell:
     """A made-up cell, what is in it, and what could not be made up."""
 
     cell: CellDescription
-    named: tuple[Named, ...]
-    unknown: tuple[Named, ...]
-    polled: tuple[Polled, ...] = ()
+    named: tuple[UndeclaredName, ...]
+    unknown: tuple[UndeclaredName, ...]
+    polled: tuple[PolledSignals, ...] = ()
     """Comparisons of guessed inputs in loops."""
     data: tuple[tuple[str, str, str], ...] = ()
     """Kind and type (`VAR num`), name and initial value (empty: none is given) of data that no
@@ -90,11 +93,11 @@ class Guess:
     """Mechanical units."""
     routines: str = ""
     """Declarations of routines that are in no file and do nothing."""
-    flags: tuple[Flag, ...] = ()
+    flags: tuple[PolledData, ...] = ()
     """Data that programs look at and do not set."""
-    heard: Heard = field(default_factory=Heard)
+    heard: ExpectedMessages = field(default_factory=ExpectedMessages)
     """What programs listen for at their sockets."""
-    blank: tuple[Blank, ...] = ()
+    blank: tuple[DefaultedPersistent, ...] = ()
     """Tools and work objects whose values another task would have."""
     driven: frozenset[str] = frozenset()
     """Signals that nobody else sets, lower case: inputs, and outputs that are only read."""
@@ -107,13 +110,13 @@ def guess(
     units: Iterable[str] = (),
     table: tuple[float, float, float] = (0.0, 0.0, 0.0),
     stands: Mapping[str, str] = MappingProxyType({}),
-) -> Guess:
+) -> InferredCell:
     """The cell that the programs of `system` seem to stand in.
 
     `units` are its mechanical units, `table` is where work objects are, m, `stands` the robtarget
     and the jointtarget of the robot at first, as RAPID has them.
     """
-    found: dict[str, Named] = {}
+    found: dict[str, UndeclaredName] = {}
     assigned: set[str] = set()
     tasks: list[list[ModuleScope]] = []
     known = [(signal.name, f"signal{signal.type.lower()}") for signal in system.signals]
@@ -164,7 +167,7 @@ def guess(
     )
     named = [one for one in found.values() if _can_be_made(one.type)]
     unknown = [one for one in found.values() if not _can_be_made(one.type)]
-    handed = {name for scopes in tasks for scope in scopes for name in handed_on(scope)}
+    handed = {name for scopes in tasks for scope in scopes for name in passed_arguments(scope)}
     given = {
         name.casefold()
         for name, keys in cell.signals.items()
@@ -174,7 +177,7 @@ def guess(
     made_here = {connection.result.casefold() for connection in system.cross}
     given |= {s.name.casefold() for s in system.signals if s.type[1] == "I"} - made_here
     looks = {
-        spec.name: tuple(looked_at(scopes, spec.entry))
+        spec.name: tuple(wait_conditions(scopes, spec.entry))
         for spec, scopes in zip(system.tasks, tasks, strict=True)
     }
     rows = dict.fromkeys(row for spec in system.tasks for row in polled(looks[spec.name], given))
@@ -190,17 +193,19 @@ def guess(
     made |= {signal.name.casefold(): f"signal{signal.type.lower()}" for signal in system.signals}
     kinds = {name.casefold(): kind for name, kind in made.items()}
     stubs = {one.name.casefold(): one for scopes in tasks for one in absent(scopes, kinds)}
-    named += [Named(s.name, s.kind, s.span) for s in stubs.values()]
+    named += [UndeclaredName(s.name, s.kind, s.span) for s in stubs.values()]
     looked = dict.fromkeys(
         flag
         for spec, scopes in zip(system.tasks, tasks, strict=True)
         for flag in flags(spec.name, scopes, looks[spec.name], kinds)
     )
-    blank = blanks((spec.name, s) for spec, s in zip(system.tasks, tasks, strict=True))
-    named += [Named(row.name, kind, span) for row, (kind, span) in blank.items()]
-    listens = heard((scope for scopes in tasks for scope in scopes), stands)
+    blank = find_defaulted_persistents(
+        (spec.name, s) for spec, s in zip(system.tasks, tasks, strict=True)
+    )
+    named += [UndeclaredName(row.name, kind, span) for row, (kind, span) in blank.items()]
+    listens = expected_messages((scope for scopes in tasks for scope in scopes), stands)
     routines = "".join(s.stub(stands.get(s.type, "")) for s in stubs.values())
-    return Guess(
+    return InferredCell(
         cell,
         tuple(named),
         tuple(unknown),
@@ -227,7 +232,7 @@ def _is_plain(kind: str) -> bool:
 
 
 def _declaration(
-    one: Named,
+    one: UndeclaredName,
     stands: Mapping[str, str],
     initial: Collection[str],
     kept: Collection[str],
@@ -281,7 +286,7 @@ def _sizes(module: ModuleScope) -> Iterator[tuple[str, int]]:
                 yield size.name.casefold(), known
 
 
-def _value(one: Named, stands: Mapping[str, str]) -> str:
+def _value(one: UndeclaredName, stands: Mapping[str, str]) -> str:
     numbered = _NUMBERED.fullmatch(one.name)
     figure = float(numbered[1]) if numbered is not None else 0.0
     match one.type:
@@ -303,7 +308,7 @@ def _assigned(module: ModuleScope) -> set[str]:
     }
 
 
-def _undeclared(module: ModuleScope) -> Iterator[Named]:
+def _undeclared(module: ModuleScope) -> Iterator[UndeclaredName]:
     """Every use of a datum that nobody declares, in a module."""
     if not module.tree.name:
         return
@@ -312,7 +317,7 @@ def _undeclared(module: ModuleScope) -> Iterator[Named]:
             # A signal may have the name of a type: SENSOR.
             if isinstance(scope.find(name.name), TypeSymbol | None):
                 at = module.tree.source.span(name.first, name.first)
-                yield Named(name.name, kind, at, sure)
+                yield UndeclaredName(name.name, kind, at, sure)
 
 
 def _uses(node: n.Node, scope: Scope) -> Iterator[_Use]:

@@ -16,7 +16,7 @@ _STANDS: Final[Mapping[str, str]] = {"tooldata": "tool0", "wobjdata": "wobj0"}
 
 
 @dataclass(frozen=True, slots=True)
-class Blank:
+class DefaultedPersistent:
     """A persistent of a module, and the predefined datum that stands in for it."""
 
     task: str
@@ -25,11 +25,11 @@ class Blank:
     stands: str
 
 
-def blanks(
+def find_defaulted_persistents(
     tasks: Iterable[tuple[str, Iterable[ModuleScope]]],
-) -> dict[Blank, tuple[str, Span]]:
+) -> dict[DefaultedPersistent, tuple[str, Span]]:
     """All in the modules of tasks, each with its type and where it is declared."""
-    found: dict[Blank, tuple[str, Span]] = {}
+    found: dict[DefaultedPersistent, tuple[str, Span]] = {}
     filled: set[str] = set()
     for task, modules in tasks:
         for module in modules:
@@ -37,7 +37,7 @@ def blanks(
             for one in module.tree.data:
                 kind = one.type.lower()
                 if one.kind == "PERS" and kind in _STANDS and not (one.initial or one.dimensions):
-                    row = Blank(task, module.tree.name, one.name, _STANDS[kind])
+                    row = DefaultedPersistent(task, module.tree.name, one.name, _STANDS[kind])
                     found[row] = kind, module.tree.source.span(one.name_token, one.name_token)
     return {row: at for row, at in found.items() if row.name.casefold() not in filled}
 

@@ -20,7 +20,7 @@ _THOUGHT: Final = 0.5
 _NUMBERS: Final = (*(str(n) for n in range(1, 11)), "0", "100")
 
 
-class Chooser:
+class DialogResponder:
     """Answers the dialogs of one controller; `said` grows by (dialog and text, answer)."""
 
     def __init__(self, operator: Operator, scheduler: Scheduler, said: list[Said]) -> None:

@@ -44,7 +44,7 @@ class _Parameter:
 
 
 @dataclass(frozen=True, slots=True)
-class Absent:
+class MissingRoutine:
     """A routine that is called and in no file; `type` is what it gives, empty for the others."""
 
     name: str
@@ -75,10 +75,10 @@ class Absent:
         )
 
 
-def absent(modules: Sequence[ModuleScope], types: Mapping[str, str]) -> tuple[Absent, ...]:
+def absent(modules: Sequence[ModuleScope], types: Mapping[str, str]) -> tuple[MissingRoutine, ...]:
     """What the modules of a task call and none of them declares, each once, where a stub can be
     made. `types` are those of names that nobody declares, by lower-case name."""
-    found: dict[str, Absent] = {}
+    found: dict[str, MissingRoutine] = {}
     for module in modules:
         if not module.tree.name:
             continue
@@ -92,7 +92,7 @@ def absent(modules: Sequence[ModuleScope], types: Mapping[str, str]) -> tuple[Ab
             before = found.get(name.casefold())
             at = module.tree.source.span(node.first, node.first)
             if isinstance(node, n.Connect):
-                found.setdefault(name.casefold(), Absent(name, "", (), at, is_trap=True))
+                found.setdefault(name.casefold(), MissingRoutine(name, "", (), at, is_trap=True))
                 continue
             assert isinstance(node, _Call)
             parameters = _parameters(node.arguments, scope, types)
@@ -106,7 +106,7 @@ def absent(modules: Sequence[ModuleScope], types: Mapping[str, str]) -> tuple[Ab
             is_function = isinstance(node, n.FunctionCall)
             if not is_function or type_class(given) is not None:
                 kind = given if is_function else ""
-                found[name.casefold()] = Absent(name, kind, parameters, at)
+                found[name.casefold()] = MissingRoutine(name, kind, parameters, at)
     return tuple(found.values())
 
 

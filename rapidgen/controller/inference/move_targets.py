@@ -24,7 +24,7 @@ from rapidgen.rapid.syntax.walk import walk
 
 
 @dataclass(frozen=True, slots=True)
-class Meant:
+class MoveTarget:
     """What one move goes to: the TCP in the world (m), or axes as RAPID's robax and extax (deg,
     mm)."""
 
@@ -39,7 +39,7 @@ class Meant:
     axes: tuple[float, ...] = ()
 
 
-def meant(module: ModuleScope, *, roughly: bool = False) -> Iterator[Meant]:
+def move_targets(module: ModuleScope, *, roughly: bool = False) -> Iterator[MoveTarget]:
     """What the moves of a module go to, in the order of its lines.
 
     `roughly`: what Offs and RelTool shift by something that cannot be told is where it was.
@@ -57,7 +57,7 @@ def meant(module: ModuleScope, *, roughly: bool = False) -> Iterator[Meant]:
 
 def _meant(
     node: n.ProcedureCall, symbol: RoutineSymbol, scope: Scope, line: int, roughly: bool
-) -> Meant | None:
+) -> MoveTarget | None:
     """What one call goes to; None where it is no move, or its target is not known before."""
     parameters = symbol.parameters or ()
     names = [p.name.lower() for p in parameters]
@@ -77,7 +77,7 @@ def _meant(
         axes = _declared(given.get("tojointpos"), scope, "jointtarget")
         if not axes:
             return None
-        return Meant(name, line, carried, external=_numbers(axes[1]), axes=_numbers(axes[0]))
+        return MoveTarget(name, line, carried, external=_numbers(axes[1]), axes=_numbers(axes[0]))
     wobj = _declared(given.get("wobj"), scope, "wobjdata")
     held = (tool and not tool[0]) or (wobj and wobj[0])
     if held or not any(_numbers(target[1])):
@@ -86,7 +86,7 @@ def _meant(
     if wobj:
         pose = frames.compose(frames.compose(_frame(wobj[3]), _frame(wobj[4])), pose)
     cf1, cf4, cf6, cfx = map(int, _numbers(target[2]))
-    return Meant(name, line, carried, pose, (cf1, cf4, cf6, cfx), _numbers(target[3]))
+    return MoveTarget(name, line, carried, pose, (cf1, cf4, cf6, cfx), _numbers(target[3]))
 
 
 def _numbers(value: Value) -> tuple[float, ...]:

@@ -14,7 +14,13 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Final, Protocol
 
 from rapidgen.controller.inference.name_usage import passed, scoped
-from rapidgen.controller.inference.wait_conditions import NEGATED, RELATIONS, SWAPPED, Look, Term
+from rapidgen.controller.inference.wait_conditions import (
+    NEGATED,
+    RELATIONS,
+    SWAPPED,
+    Term,
+    WaitCondition,
+)
 from rapidgen.machine.scheduler import S, Scheduler
 from rapidgen.rapid.binding import DataSymbol, ModuleScope, RoutineSymbol, Scope, constant
 from rapidgen.rapid.binding.names import called
@@ -53,7 +59,7 @@ class Adjusted:
 
 
 @dataclass(frozen=True, slots=True)
-class Flag:
+class PolledData:
     """Data that are looked at together in lines of a module, and what for."""
 
     task: str
@@ -64,8 +70,11 @@ class Flag:
 
 
 def flags(
-    task: str, scopes: Iterable[ModuleScope], looks: Iterable[Look], made: Mapping[str, str]
-) -> Iterator[Flag]:
+    task: str,
+    scopes: Iterable[ModuleScope],
+    looks: Iterable[WaitCondition],
+    made: Mapping[str, str],
+) -> Iterator[PolledData]:
     """All that the modules of a task look at. `made` are the types of data that are guessed, by
     lower-case name."""
     written: dict[str, set[object]] = {}
@@ -76,7 +85,7 @@ def flags(
         wanted = [one for term in look.terms for one in _wanted(term, made)]
         known = {one.name.casefold(): one for one in (_given(s, written) for s in wanted) if one}
         if known:
-            yield Flag(task, look.module, look.first, look.last, tuple(known.values()))
+            yield PolledData(task, look.module, look.first, look.last, tuple(known.values()))
 
 
 def _given(one: Adjusted, written: Mapping[str, set[object]]) -> Adjusted | None:
@@ -154,7 +163,7 @@ def _written(module: ModuleScope, made: Mapping[str, str]) -> Iterator[tuple[str
                             yield one.name.casefold(), None
 
 
-class Looking(Protocol):
+class HasPolledData(Protocol):
     """A controller whose tasks look at data."""
 
     scheduler: Scheduler
@@ -164,10 +173,12 @@ class Looking(Protocol):
         """One task."""
 
 
-class Flags:
+class DataSetter:
     """Sets the data that tasks look for, one after the other."""
 
-    def __init__(self, controller: Looking, rows: tuple[Flag, ...], said: "list[Said]") -> None:
+    def __init__(
+        self, controller: HasPolledData, rows: tuple[PolledData, ...], said: "list[Said]"
+    ) -> None:
         self._controller = controller
         self._rows = rows
         self._said = said
@@ -196,7 +207,7 @@ class Flags:
         if tasks:
             self._next()
 
-    def _set(self, row: Flag) -> bool:
+    def _set(self, row: PolledData) -> bool:
         """Whether anything was not so yet."""
         changed, task = False, self._controller.task(row.task)
         for one in row.sets:
@@ -212,7 +223,7 @@ class Flags:
                 self._said.append((one.name, value))
         return changed
 
-    def _around(self, task: Task) -> list[Flag]:
+    def _around(self, task: Task) -> list[PolledData]:
         """What a task looks for where it is, the innermost first."""
         waits = task.waits_for is not None
         stack = (

@@ -13,8 +13,14 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol, cast
 
 from rapidgen.controller.inference.name_usage import scoped
-from rapidgen.controller.inference.wait_conditions import NEGATED, RELATIONS, SWAPPED, Look, Term
-from rapidgen.machine.io import Awaited, IOSystem, Relation
+from rapidgen.controller.inference.wait_conditions import (
+    NEGATED,
+    RELATIONS,
+    SWAPPED,
+    Term,
+    WaitCondition,
+)
+from rapidgen.machine.io import IOSystem, Relation, SignalCondition
 from rapidgen.machine.scheduler import S, Scheduler
 from rapidgen.rapid.binding import ModuleScope, constant
 from rapidgen.rapid.syntax import nodes as n
@@ -32,7 +38,7 @@ Wanted = tuple[str, Relation, float]
 
 
 @dataclass(frozen=True, slots=True)
-class Polled:
+class PolledSignals:
     """Comparisons of signals in a loop (lines of its module) that hold together."""
 
     module: str
@@ -41,13 +47,13 @@ class Polled:
     wanted: tuple[Wanted, ...]
 
 
-def polled(looks: Iterable[Look], given: Collection[str]) -> Iterator[Polled]:
+def polled(looks: Iterable[WaitCondition], given: Collection[str]) -> Iterator[PolledSignals]:
     """All that are of `given` signals, by lower-case name."""
     for look in looks:
         found = (one for term in look.terms for one in _compared(term))
         wanted = tuple(dict.fromkeys(one for one in found if one[0] in given))
         if wanted:
-            yield Polled(look.module, look.first, look.last, wanted)
+            yield PolledSignals(look.module, look.first, look.last, wanted)
 
 
 def _compared(term: Term) -> Iterator[Wanted]:
@@ -70,7 +76,7 @@ def _signal(node: n.Node) -> str:
     return node.name.casefold() if isinstance(node, n.Name) else ""
 
 
-def handed_on(module: ModuleScope) -> Iterator[str]:
+def passed_arguments(module: ModuleScope) -> Iterator[str]:
     """Lower-case names that a module gives to instructions: of outputs, those that it sets."""
     for node, _ in scoped(module):
         if isinstance(node, n.LateCall) or (
@@ -89,10 +95,12 @@ class Polling(Protocol):
     rapid_tasks: dict[str, Task]
 
 
-class Buttons:
+class InputSetter:
     """Presses the inputs that tasks look for, one after the other."""
 
-    def __init__(self, controller: Polling, rows: tuple[Polled, ...], said: "list[Said]") -> None:
+    def __init__(
+        self, controller: Polling, rows: tuple[PolledSignals, ...], said: "list[Said]"
+    ) -> None:
         self._controller = controller
         self._rows = rows
         self._said = said
@@ -113,7 +121,7 @@ class Buttons:
             row = rows[self._turn % len(rows)]
             self._turn += 1
             for name, relation, wanted in row.wanted:
-                awaited = Awaited(io[name], relation, wanted)
+                awaited = SignalCondition(io[name], relation, wanted)
                 value = awaited.fulfilling()
                 if value is not None and not awaited.holds():
                     self._pressed.append((awaited.signal.name, awaited.signal.value))
@@ -129,7 +137,7 @@ class Buttons:
     def _running(self) -> Iterator[Task]:
         return (t for t in self._controller.rapid_tasks.values() if t.state == "running")
 
-    def _of(self, task: Task) -> list[Polled]:
+    def _of(self, task: Task) -> list[PolledSignals]:
         """What a task looks for in the loop that it is in, the innermost first."""
         if task.waits_for is not None:
             return []

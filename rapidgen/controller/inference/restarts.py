@@ -12,7 +12,7 @@ _MOST: Final = 50
 Ended = Literal["finished", "time", "statements", "deadlock", "paused"]
 
 
-def run_through(
+def run_past_stops(
     controller: VirtualController, *, max_time: float, max_statements: int | None = None
 ) -> Ended:
     """`controller.run`, again and again while a task stops with an error and something was answered

@@ -16,7 +16,7 @@ from rapidgen.config.model import GroupConfig
 from rapidgen.config.model_cache import shipped_groups
 from rapidgen.config.variant_group import group_of
 from rapidgen.config.variant_library import variants
-from rapidgen.controller.inference.move_targets import Meant, meant
+from rapidgen.controller.inference.move_targets import MoveTarget, move_targets
 from rapidgen.rapid import Dialect, parse
 from rapidgen.rapid.binding import TaskScope
 from rapidgen.system.model import System
@@ -31,7 +31,7 @@ _ORIGIN: Final = (0.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True, slots=True)
-class Aim:
+class FlangeTarget:
     """Where a program wants the flange (m), in what configuration; or its axes, as RAPID's
     robax (deg, mm)."""
 
@@ -43,7 +43,7 @@ class Aim:
 
 
 @dataclass(frozen=True, slots=True)
-class Likely:
+class RobotCandidate:
     """A model, and how many of the targets it reaches."""
 
     model: str
@@ -51,7 +51,7 @@ class Likely:
     targets: int
 
 
-def likely(system: System, default: str) -> Likely | None:
+def infer_robot_model(system: System, default: str) -> RobotCandidate | None:
     """The first model that reaches most of what the programs of `system` aim at: `default`, the
     shipped ones, known variants. None: they aim at nothing that can be told."""
     found = list(dict.fromkeys(aims(system)))
@@ -60,12 +60,12 @@ def likely(system: System, default: str) -> Likely | None:
         return None
     # Programs written by other tools give 0 to axes that a robot does not have.
     if all(aim.arm_angle is not None for aim in tried) and any(aim.arm_angle for aim in tried):
-        return Likely(_SEVEN_AXES, len(tried), len(tried))
-    best: Likely | None = None
+        return RobotCandidate(_SEVEN_AXES, len(tried), len(tried))
+    best: RobotCandidate | None = None
     for name, group in _candidates(default):
         reached = _reached(group, tried)
         if best is None or reached > best.reached:
-            best = Likely(name, reached, len(tried))
+            best = RobotCandidate(name, reached, len(tried))
         if reached == len(tried):
             break
     return best
@@ -81,7 +81,7 @@ def _candidates(default: str) -> Iterator[tuple[str, GroupConfig]]:
             yield variant.name, group
 
 
-def _reached(group: GroupConfig, tried: Sequence[Aim]) -> int:
+def _reached(group: GroupConfig, tried: Sequence[FlangeTarget]) -> int:
     kinematics = Kinematics.of(group)
     if kinematics is None or not kinematics.is_closed_form:
         return 0
@@ -89,7 +89,9 @@ def _reached(group: GroupConfig, tried: Sequence[Aim]) -> int:
     return sum(1 for aim in tried if _reaches(group, kinematics, aim, near))
 
 
-def _reaches(group: GroupConfig, kinematics: Kinematics, aim: Aim, near: tuple[float, ...]) -> bool:
+def _reaches(
+    group: GroupConfig, kinematics: Kinematics, aim: FlangeTarget, near: tuple[float, ...]
+) -> bool:
     if aim.flange is not None:
         found = kinematics.solutions(aim.flange, near, aim.configuration)
         return kinematics.fitting(found, aim.configuration, "turn") is not None
@@ -102,20 +104,20 @@ def _reaches(group: GroupConfig, kinematics: Kinematics, aim: Aim, near: tuple[f
     )
 
 
-def aims(system: System) -> Iterator[Aim]:
+def aims(system: System) -> Iterator[FlangeTarget]:
     """What the moves of all tasks aim at, where that can be told without running them."""
     for spec in system.tasks:
         task = TaskScope()
         dialect = Dialect(system.robotware, some=not system.robotware_told)
         scopes = [task.add(parse(f.data, path=f.path, dialect=dialect)) for f in spec.modules]
         for scope in scopes:
-            yield from map(_aim, meant(scope, roughly=True))
+            yield from map(_aim, move_targets(scope, roughly=True))
 
 
-def _aim(found: Meant) -> Aim:
+def _aim(found: MoveTarget) -> FlangeTarget:
     if found.place is None:
-        return Aim(None, axes=found.axes)
+        return FlangeTarget(None, axes=found.axes)
     flange = frames.compose(found.place, frames.invert(found.tool))
     eax_a = found.external[0]
     near = abs(eax_a) < _UNUSED and frames.distance(found.place[0], _ORIGIN) < _ARM
-    return Aim(flange, found.configuration, eax_a if near else None)
+    return FlangeTarget(flange, found.configuration, eax_a if near else None)

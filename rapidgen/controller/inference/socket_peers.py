@@ -13,9 +13,9 @@ from dataclasses import dataclass, field
 from functools import partial
 from typing import TYPE_CHECKING, Final, Protocol
 
-from rapidgen.controller.inference.binary_messages import Framed, framed, last
+from rapidgen.controller.inference.binary_messages import MessageFraming, framed, last
 from rapidgen.controller.inference.name_usage import scoped
-from rapidgen.controller.inference.text_fields import CutOut, layouts, texts
+from rapidgen.controller.inference.text_fields import TextField, layouts, texts
 from rapidgen.machine.network.interface import Endpoint, Network, NetworkFault
 from rapidgen.machine.network.sockets import SocketTable
 from rapidgen.machine.scheduler import S, Scheduler
@@ -52,7 +52,7 @@ _LONGEST: Final = 20
 
 
 @dataclass(frozen=True, slots=True)
-class Heard:
+class ExpectedMessages:
     """What a program listens for."""
 
     words: tuple[str, ...] = ()
@@ -66,9 +66,9 @@ class Heard:
     sized: tuple[tuple[int, int], ...] = ()
     """Numbers, and how many values behind each: what else its own branch compares with a number."""
     stands: Mapping[str, str] = field(default_factory=dict)
-    framed: Framed = field(default_factory=Framed)
+    framed: MessageFraming = field(default_factory=MessageFraming)
     """Binary messages."""
-    layouts: tuple[tuple[CutOut, ...], ...] = ()
+    layouts: tuple[tuple[TextField, ...], ...] = ()
     """Texts that are cut into fields."""
 
     def messages(self) -> list[bytes]:
@@ -107,7 +107,9 @@ class Heard:
             yield (*told, *numbers, *"0" * count)[:count]
 
 
-def heard(modules: Iterable[ModuleScope], stands: Mapping[str, str]) -> Heard:
+def expected_messages(
+    modules: Iterable[ModuleScope], stands: Mapping[str, str]
+) -> ExpectedMessages:
     """What the modules of all tasks listen for; `stands` are values of targets."""
     known = {**_VALUES, **stands}
     nodes = [found for module in modules for found in scoped(module)]
@@ -142,7 +144,7 @@ def heard(modules: Iterable[ModuleScope], stands: Mapping[str, str]) -> Heard:
                     values[known[kind]] = None
     heard_of = tuple(words), tuple(parts), tuple(numbers), tuple(marks), tuple(values)
     binary = framed(nodes, tested)
-    return Heard(*heard_of, tuple(sized), stands, binary, tuple(layouts(nodes)))
+    return ExpectedMessages(*heard_of, tuple(sized), stands, binary, tuple(layouts(nodes)))
 
 
 def _received(node: n.Node) -> Iterator[str]:
@@ -196,7 +198,7 @@ def _sized(node: n.Node, scope: Scope) -> Iterator[tuple[int, int]]:
                 )
 
 
-class Conversing(Protocol):
+class HasSockets(Protocol):
     """A controller whose programs use sockets."""
 
     network: Network
@@ -204,10 +206,10 @@ class Conversing(Protocol):
     scheduler: Scheduler
 
 
-class Partner:
+class SocketPeer:
     """Connects where a program listens, listens where one connects, and speaks where one waits."""
 
-    def __init__(self, controller: Conversing, what: Heard, said: "list[Said]") -> None:
+    def __init__(self, controller: HasSockets, what: ExpectedMessages, said: "list[Said]") -> None:
         self._network = controller.network
         self._scheduler = controller.scheduler
         self._said = said

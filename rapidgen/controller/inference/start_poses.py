@@ -14,7 +14,7 @@ from rapidgen.config.model import GroupConfig
 from rapidgen.diagnostics import refusal
 
 
-def in_front(group: GroupConfig) -> tuple[float, float, float]:
+def table_pose(group: GroupConfig) -> tuple[float, float, float]:
     """Where a table may stand that the robot reaches: below its flange at the usual start, at a
     third of the height. The origin for a model without geometry."""
     kinematics = Kinematics.of(group)

@@ -20,7 +20,7 @@ _LONGEST: Final = 80
 
 
 @dataclass(frozen=True, slots=True)
-class CutOut:
+class TextField:
     """A piece of a text: what it may be, and where it stands (from 0; -1: behind the last one) with
     how many characters (0: as many as it has)."""
 
@@ -29,7 +29,7 @@ class CutOut:
     length: int = 0
 
 
-def texts(layout: Sequence[CutOut], mark: str) -> Iterator[str]:
+def texts(layout: Sequence[TextField], mark: str) -> Iterator[str]:
     """With the first value of each field, then with the others of one field after the other."""
     first = [field.values[0] for field in layout]
     rows = [first]
@@ -47,7 +47,7 @@ def texts(layout: Sequence[CutOut], mark: str) -> Iterator[str]:
         yield text + mark
 
 
-def layouts(nodes: Iterable[tuple[n.Node, Scope]]) -> Iterator[tuple[CutOut, ...]]:
+def layouts(nodes: Iterable[tuple[n.Node, Scope]]) -> Iterator[tuple[TextField, ...]]:
     """What each routine cuts out, where that is more than one field."""
     found: dict[int, dict[str, tuple[int, int, bool]]] = {}
     compared: dict[str, dict[str, None]] = {}
@@ -72,7 +72,7 @@ def layouts(nodes: Iterable[tuple[n.Node, Scope]]) -> Iterator[tuple[CutOut, ...
     for fields in found.values():
         if len(fields) > 1:
             yield tuple(
-                CutOut(_values(name, became, compared, bounds, is_text=is_text), place, length)
+                TextField(_values(name, became, compared, bounds, is_text=is_text), place, length)
                 for name, (place, length, is_text) in fields.items()
             )
 

@@ -22,7 +22,7 @@ Terms = tuple[Term, ...]
 
 
 @dataclass(frozen=True, slots=True)
-class Look:
+class WaitCondition:
     """What has to hold together in a loop, by the lines of its module."""
 
     module: str
@@ -42,13 +42,13 @@ _WAYS = 8
 """Of one condition."""
 
 
-def looked_at(task: Sequence[ModuleScope], entry: str) -> Iterator[Look]:
+def wait_conditions(task: Sequence[ModuleScope], entry: str) -> Iterator[WaitCondition]:
     """What each loop in the modules of a task looks at; what leaves it comes last. The routine that
     a task starts in is a loop: it is executed in cycles, and interrupts wait in it. So is a
     WaitUntil."""
     for module in task:
         for first, last, terms in _loops(module, entry, task):
-            yield Look(module.tree.name.lower(), first, last, terms)
+            yield WaitCondition(module.tree.name.lower(), first, last, terms)
 
 
 def _loops(

@@ -15,12 +15,12 @@ from typing import TYPE_CHECKING
 from rapidgen.client.errors import NotReady, NotSupported, RobotError
 from rapidgen.client.rws import RwsError
 from rapidgen.client.rws.core import APPLICATION
-from rapidgen.client.rws.model import Holder
-from rapidgen.deploy.file_operations import Work, go_on
-from rapidgen.deploy.online.plan import LivePlan
+from rapidgen.client.rws.model import MastershipHolder
+from rapidgen.deploy.file_operations import FileOperations, check_not_interrupted
+from rapidgen.deploy.online.plan import OnlinePlan
 from rapidgen.deploy.online.program_memory import forget_saved, rearrange
 from rapidgen.deploy.online.snapshot import Row
-from rapidgen.deploy.online.verify import ReadBack, prove, way_back
+from rapidgen.deploy.online.verify import PostRestartCheck, verify, way_back
 from rapidgen.deploy.plan import Plan
 from rapidgen.deploy.transports.transport import TransportFault, refused
 from rapidgen.diagnostics import DiagnosticError, error
@@ -41,25 +41,25 @@ _SCRATCH = "TEMP/rapidgen_{}.cfg"
 
 
 @dataclass(frozen=True, slots=True)
-class LiveOptions:
+class OnlineOptions:
     """What may be done over web services, and how long is waited for people."""
 
     restart: bool = False
     """Whether the controller may be restarted, warm."""
     wait: float = 0.0
     """s for automatic mode, for a program to be stopped, for somebody else's mastership."""
-    proof: ReadBack = field(default_factory=ReadBack)
+    proof: PostRestartCheck = field(default_factory=PostRestartCheck)
     pause: Callable[[float], None] = time.sleep
 
 
 @dataclass(frozen=True, slots=True)
-class Live:
+class OnlineRun:
     """One run over web services."""
 
     services: "Controller"
-    work: Work
-    live: LivePlan
-    options: LiveOptions
+    work: FileOperations
+    live: OnlinePlan
+    options: OnlineOptions
 
     @property
     def plan(self) -> Plan:
@@ -74,7 +74,7 @@ class Live:
         return live.touches_memory and (self.options.restart or not stops)
 
 
-def check(run: Live) -> None:
+def check(run: OnlineRun) -> None:
     """Raises DiagnosticError RG540 (another controller), RG542 (not in this state)."""
     target, live = run.plan.target, run.live
     if run.services.identity().id != live.id:
@@ -99,7 +99,7 @@ def check(run: Live) -> None:
         )
 
 
-def _await_earlier_run(run: Live) -> None:
+def _await_earlier_run(run: OnlineRun) -> None:
     """Wait while another run of rapidgen has mastership, also one that was killed.
 
     Nothing has been stopped or written yet. `_await` refuses what is still held then.
@@ -113,12 +113,12 @@ def _await_earlier_run(run: Live) -> None:
                 "minutes; nothing has been changed yet"
             )
             told = True
-        go_on(run.work)
+        check_not_interrupted(run.work)
         run.options.pause(_LOOK)
         left -= _LOOK
 
 
-def _holder(run: Live) -> Holder | None:
+def _holder(run: OnlineRun) -> MastershipHolder | None:
     """Another session that has mastership of what is written."""
     for domain in ("cfg", "rapid"):
         who = run.services.holder(domain)
@@ -127,7 +127,7 @@ def _holder(run: Live) -> Holder | None:
     return None
 
 
-def _await(run: Live) -> None:
+def _await(run: OnlineRun) -> None:
     """Wait for what only people do. Raises DiagnosticError RG542 when the time is over."""
     left, told, refusal = run.options.wait, "", ""
     granted = False
@@ -143,12 +143,12 @@ def _await(run: Live) -> None:
         if what != told:
             run.work.say(f"waiting for a person: {what}; {mend}")
             told = what
-        go_on(run.work)
+        check_not_interrupted(run.work)
         run.options.pause(_LOOK)
         left -= _LOOK
 
 
-def _ask_pendant(run: Live) -> tuple[bool, str]:
+def _ask_pendant(run: OnlineRun) -> tuple[bool, str]:
     """Ask by RMMP; whether it was granted, or why not."""
     wait = max(run.options.wait, _PROMPT)
     if run.services.generation is not Generation.EIGHT:
@@ -163,7 +163,7 @@ def _ask_pendant(run: Live) -> tuple[bool, str]:
     return True, ""
 
 
-def _missing(run: Live, *, granted: bool) -> tuple[str, str] | None:
+def _missing(run: OnlineRun, *, granted: bool) -> tuple[str, str] | None:
     """What is in the way, and what a person does about it."""
     target = run.plan.target
     mode = run.services.panel().mode
@@ -189,7 +189,7 @@ def another(plan: Plan, id: str) -> DiagnosticError:
     )
 
 
-def before_files(run: Live) -> None:
+def before_files(run: OnlineRun) -> None:
     """A backup by the controller; what is in the way of files that go. Raises DiagnosticError."""
     if run.live.is_empty:
         return
@@ -207,7 +207,7 @@ def before_files(run: Live) -> None:
 
 
 @contextmanager
-def writing(run: Live) -> Iterator[None]:
+def writing(run: OnlineRun) -> Iterator[None]:
     """What files are written under: write access on RobotWare 8 [real 8.1.0], else nothing."""
     if run.services.generation is not Generation.EIGHT:
         yield
@@ -216,7 +216,7 @@ def writing(run: Live) -> Iterator[None]:
         yield
 
 
-def after_files(run: Live) -> None:
+def after_files(run: OnlineRun) -> None:
     """cfg, program memory, restart, read back. Raises DiagnosticError RG543, RG544."""
     if run.live.is_empty:
         return
@@ -232,7 +232,7 @@ def after_files(run: Live) -> None:
     if not run.live.restart:
         if run.plan.wanted is not None and run.rearranges:
             # NORMAL tasks that stood: their program is there, and waits to be started.
-            prove(run.services, run.plan, run.live, None, ReadBack(), run.work.say)
+            verify(run.services, run.plan, run.live, None, PostRestartCheck(), run.work.say)
             with _steps(run):
                 _point(run)
         return
@@ -243,12 +243,12 @@ def after_files(run: Live) -> None:
         last = max((event.number for event in run.services.log(count=1)), default=0)
         run.work.say("restarting (a warm start)")
         run.services.restart()
-    prove(run.services, run.plan, run.live, last, run.options.proof, run.work.say)
+    verify(run.services, run.plan, run.live, last, run.options.proof, run.work.say)
     with _steps(run):
         _point(run)
 
 
-def _point(run: Live) -> None:
+def _point(run: OnlineRun) -> None:
     """Program pointers to main in the driver's own motion tasks, and in no other."""
     for task, module in run.live.mains:
         try:
@@ -261,7 +261,7 @@ def _point(run: Live) -> None:
             )
 
 
-def _back_up(run: Live) -> None:
+def _back_up(run: OnlineRun) -> None:
     name = f"rapidgen_{datetime.now(timezone.utc):%Y%m%d_%H%M%S}"
     try:
         run.work.say(f"the controller's own backup: {run.services.backup(name)}")
@@ -270,19 +270,19 @@ def _back_up(run: Live) -> None:
             raise
 
 
-def _delete(run: Live, rows: Sequence[Row]) -> None:
+def _delete(run: OnlineRun, rows: Sequence[Row]) -> None:
     for row in rows:
         run.work.say(f"deleting {row.section} {row.title}")
         run.services.cfg_delete(row.domain, row.section, row.title)
 
 
-def _set(run: Live) -> None:
+def _set(run: OnlineRun) -> None:
     for change in run.live.change:
         run.work.say(f"setting {change.section} {change.title}")
         run.services.cfg_set(change.domain, change.section, change.title, change.new)
 
 
-def _load(run: Live) -> None:
+def _load(run: OnlineRun) -> None:
     optional = run.live.optional if run.live.touches_cfg else ()
     for text in run.live.load:
         run.work.say(f"loading {_count(text)} instances of {text.domain}")
@@ -294,7 +294,7 @@ def _load(run: Live) -> None:
             run.work.say(f"left out, as the controller refuses it: {text.path} ({cause.symbol})")
 
 
-def _load_one(run: Live, text: CfgText) -> None:
+def _load_one(run: OnlineRun, text: CfgText) -> None:
     path = _SCRATCH.format(text.domain.lower())
     run.services.write_file(path, write_cfg(text).encode("latin-1", "replace"))
     run.services.cfg_load(path, mode="add")
@@ -306,7 +306,7 @@ def _count(text: CfgText) -> int:
 
 
 @contextmanager
-def _steps(run: Live) -> Iterator[None]:
+def _steps(run: OnlineRun) -> Iterator[None]:
     """Turns what a step says into a refusal that tells the way on."""
     try:
         yield

@@ -11,11 +11,11 @@ from rapidgen.deploy.cfg import (
     CfgChange,
     instance_from,
     is_delivered,
-    may_be_refused,
+    is_unconfirmed,
 )
 from rapidgen.deploy.driver_set import DriverSet
 from rapidgen.deploy.manual_steps import ManualStep
-from rapidgen.deploy.online.snapshot import SECTIONS, LiveView, Row
+from rapidgen.deploy.online.snapshot import SECTIONS, ControllerSnapshot, Row
 from rapidgen.deploy.other_driver import MODULE
 from rapidgen.deploy.tasks import MAIN
 from rapidgen.system import CfgText, Instance, Section, write_cfg
@@ -44,7 +44,7 @@ class AttributeChange:
 
 
 @dataclass(frozen=True, slots=True)
-class InMemory:
+class MemoryModule:
     """A module in a task; `path` is the file below HOME that is loaded, where one is."""
 
     task: str
@@ -58,7 +58,7 @@ class InMemory:
 
 
 @dataclass(frozen=True, slots=True)
-class LivePlan:
+class OnlinePlan:
     """All of it, for the controller with this `id`."""
 
     id: str
@@ -72,12 +72,12 @@ class LivePlan:
     """What is loaded, by `add`: signals before what names them."""
     optional: tuple[CfgText, ...] = ()
     """What a controller may refuse; it goes along with the rest only."""
-    clash: tuple[InMemory, ...] = ()
+    clash: tuple[MemoryModule, ...] = ()
     """Somebody else's modules that ours cannot stand beside: unloaded only with `--overwrite`."""
-    unload: tuple[InMemory, ...] = ()
-    replace: tuple[InMemory, ...] = ()
+    unload: tuple[MemoryModule, ...] = ()
+    replace: tuple[MemoryModule, ...] = ()
     """Modules of NORMAL tasks, which a restart would leave as they are."""
-    restore: tuple[InMemory, ...] = ()
+    restore: tuple[MemoryModule, ...] = ()
     """Saved modules that come back."""
     restart: bool = False
     """Whether something counts only after a restart."""
@@ -143,16 +143,16 @@ class LivePlan:
 
 
 def make_live_plan(
-    view: LiveView,
+    view: ControllerSnapshot,
     cfg: Sequence[CfgChange],
     wanted: DriverSet | None,
     old: Mapping[str, tuple[str, ...]],
     ours: frozenset[str],
     before: Mapping[str, Json],
     symbols: Mapping[str, tuple[str, ...]],
-    clash: tuple[InMemory, ...],
-    restore: tuple[InMemory, ...],
-) -> LivePlan:
+    clash: tuple[MemoryModule, ...],
+    restore: tuple[MemoryModule, ...],
+) -> OnlinePlan:
     """`old` are the modules of earlier sets with their tasks, `ours` and `before` as in a plan."""
     rows = {row.name: row for row in view.rows}
     delete, again, change = [], [], []
@@ -188,15 +188,15 @@ def make_live_plan(
         for t in view.tasks
         if t.kind != "normal" and t.execution != "started" and t.name.casefold() in needed
     )
-    needful = [t for t in load if not may_be_refused(t)]
-    return LivePlan(
+    needful = [t for t in load if not is_unconfirmed(t)]
+    return OnlinePlan(
         view.id,
         view.shown,
         _dependents_first(delete),
         _dependents_first(again),
         tuple(change),
         tuple(needful),
-        tuple(t for t in load if may_be_refused(t)),
+        tuple(t for t in load if is_unconfirmed(t)),
         clash,
         unload,
         replace,
@@ -217,10 +217,10 @@ def make_live_plan(
 
 def find_clashes(
     services: "Controller",
-    view: LiveView,
+    view: ControllerSnapshot,
     wanted: DriverSet | None,
     old: Mapping[str, tuple[str, ...]],
-) -> tuple[InMemory, ...]:
+) -> tuple[MemoryModule, ...]:
     """Modules in the driver's tasks with a name of ours that we did not load, or another `main`.
 
     Raises RobotError.
@@ -238,14 +238,14 @@ def find_clashes(
             if low in earlier:
                 continue
             if low in mine:
-                found.append(InMemory(task.upper(), name, why="has a name of ours"))
+                found.append(MemoryModule(task.upper(), name, why="has a name of ours"))
             elif main and has_main(services, task, name):
-                found.append(InMemory(task.upper(), name, why="has a main, too"))
+                found.append(MemoryModule(task.upper(), name, why="has a main, too"))
     real = {t.name.casefold(): t.name for t in view.tasks}
-    return tuple(InMemory(real[m.task.casefold()], m.module, why=m.why) for m in found)
+    return tuple(MemoryModule(real[m.task.casefold()], m.module, why=m.why) for m in found)
 
 
-def _by_task(modules: Sequence[InMemory]) -> list[tuple[str, str, bool]]:
+def _by_task(modules: Sequence[MemoryModule]) -> list[tuple[str, str, bool]]:
     """Modules of one task and one reason as one text, their reason, whether they are several."""
     found: dict[tuple[str, str], list[str]] = {}
     for module in modules:
@@ -254,7 +254,7 @@ def _by_task(modules: Sequence[InMemory]) -> list[tuple[str, str, bool]]:
 
 
 def live_steps(
-    live: LivePlan, verb: str, host: str, generation: Generation
+    live: OnlinePlan, verb: str, host: str, generation: Generation
 ) -> tuple[ManualStep, ...]:
     """What the plan says of it: by web services, and by people."""
     by = BY_SERVICES
@@ -350,7 +350,7 @@ def _loads(
 ) -> list[CfgText]:
     new = {f"{c.domain} {c.key}".casefold() for c in cfg if c.action == "add"} | gone
     found = []
-    for text in sorted(wanted.cfg if wanted else (), key=lambda t: (may_be_refused(t), t.path)):
+    for text in sorted(wanted.cfg if wanted else (), key=lambda t: (is_unconfirmed(t), t.path)):
         sections = [
             Section(
                 s.name,
@@ -365,8 +365,8 @@ def _loads(
 
 
 def _memory(
-    view: LiveView, wanted: DriverSet | None, old: Mapping[str, tuple[str, ...]]
-) -> tuple[tuple[InMemory, ...], tuple[InMemory, ...]]:
+    view: ControllerSnapshot, wanted: DriverSet | None, old: Mapping[str, tuple[str, ...]]
+) -> tuple[tuple[MemoryModule, ...], tuple[MemoryModule, ...]]:
     """Modules of NORMAL tasks that are loaded anew, and those that go."""
     replace, unload = [], []
     for task, names in view.modules.items():
@@ -382,15 +382,15 @@ def _memory(
             mine.add(module.casefold())
             stale = wanted is not None and view.builds.get(task) != wanted.build_id
             if stale and module.casefold() in lying:
-                replace.append(InMemory(real, module, file.path))
+                replace.append(MemoryModule(real, module, file.path))
         for module, tasks in old.items():
             low = module.casefold()
             if real in tasks and low in lying and low not in mine:
-                unload.append(InMemory(real, module))
+                unload.append(MemoryModule(real, module))
     return tuple(replace), tuple(unload)
 
 
-def _loaded_whole(wanted: DriverSet, replace: Sequence[InMemory]) -> set[str]:
+def _loaded_whole(wanted: DriverSet, replace: Sequence[MemoryModule]) -> set[str]:
     """Tasks, in lower case, each of whose modules is loaded anew."""
     coming = {m.shown.casefold() for m in replace}
     missing = {
@@ -402,7 +402,7 @@ def _loaded_whole(wanted: DriverSet, replace: Sequence[InMemory]) -> set[str]:
     return {m.task.casefold() for m in replace} - missing
 
 
-def _mains(view: LiveView, wanted: DriverSet | None) -> tuple[tuple[str, str], ...]:
+def _mains(view: ControllerSnapshot, wanted: DriverSet | None) -> tuple[tuple[str, str], ...]:
     found: dict[str, str] = {}
     for file in wanted.files if wanted else ():
         if file.kind == "module" and MAIN.search(file.data):

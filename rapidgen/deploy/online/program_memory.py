@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 
 from rapidgen.client.rws import RwsError
 from rapidgen.deploy.driver_set import STATE
-from rapidgen.deploy.file_operations import Work, delete, delete_folder, write
-from rapidgen.deploy.online.plan import InMemory, LivePlan, has_main
-from rapidgen.deploy.online.snapshot import LiveView
+from rapidgen.deploy.file_operations import FileOperations, delete, delete_folder, write
+from rapidgen.deploy.online.plan import MemoryModule, OnlinePlan, has_main
+from rapidgen.deploy.online.snapshot import ControllerSnapshot
 from rapidgen.deploy.transports.transport import Transport, TransportFault
 
 if TYPE_CHECKING:
@@ -22,19 +22,19 @@ UNLOADED = "unloaded"
 _SCRATCH = "rapidgen_saved"
 
 
-def saved(transport: Transport, home: str, view: LiveView) -> tuple[InMemory, ...]:
+def saved(transport: Transport, home: str, view: ControllerSnapshot) -> tuple[MemoryModule, ...]:
     """Modules that an earlier deployment saved, of tasks that are there. Raises TransportFault."""
     folder, found = f"{home}{STATE}/{UNLOADED}", []
     for task in _names(transport, folder):
         if any(t.name == task for t in view.tasks):
             found += [
-                InMemory(task, PurePosixPath(name).stem, f"{folder}/{task}/{name}")
+                MemoryModule(task, PurePosixPath(name).stem, f"{folder}/{task}/{name}")
                 for name in _names(transport, f"{folder}/{task}")
             ]
     return tuple(found)
 
 
-def save(services: "Controller", work: Work, module: InMemory) -> None:
+def save(services: "Controller", work: FileOperations, module: MemoryModule) -> None:
     """Its text with the present values of its persistents, into the state folder; read back.
 
     Raises RobotError, TransportFault.
@@ -47,7 +47,7 @@ def save(services: "Controller", work: Work, module: InMemory) -> None:
     write(work, path, data)
 
 
-def rearrange(services: "Controller", work: Work, live: LivePlan, wait: float) -> None:
+def rearrange(services: "Controller", work: FileOperations, live: OnlinePlan, wait: float) -> None:
     """Take out what goes, bring in what comes; every background task stands afterwards.
 
     `wait`: s for somebody else's mastership.
@@ -73,7 +73,7 @@ def rearrange(services: "Controller", work: Work, live: LivePlan, wait: float) -
             services.load_module(module.task, f"HOME/{module.path}", replace=True)
 
 
-def _leave(services: "Controller", live: LivePlan) -> None:
+def _leave(services: "Controller", live: OnlinePlan) -> None:
     """Program pointers of tasks whose modules go to their main: what a stopped program stands in
     cannot be unloaded [code: a RobotWare 6 client]. Other tasks keep theirs."""
     # What is to be loaded again may lie there: the driver's own module of that name.
@@ -87,7 +87,7 @@ def _leave(services: "Controller", live: LivePlan) -> None:
                 services.set_pointer(module.task, module.module, "main")
 
 
-def forget_saved(work: Work, live: LivePlan) -> None:
+def forget_saved(work: FileOperations, live: OnlinePlan) -> None:
     """Delete the saved modules that lie in their tasks again. Raises TransportFault."""
     for module in live.restore:
         delete(work, module.path)

@@ -47,7 +47,7 @@ class Row:
 
 
 @dataclass(frozen=True, slots=True)
-class LiveView:
+class ControllerSnapshot:
     """One look at a controller."""
 
     id: str
@@ -96,7 +96,7 @@ def look(
     references: Keyed,
     tasks: Iterable[str],
     symbols: Mapping[str, tuple[str, ...]],
-) -> LiveView:
+) -> ControllerSnapshot:
     """Read all of it. `references` are the instances that we write or have written, `tasks` those
     whose memory matters, `symbols` where BUILD_ID is in each (`MODULE/NAME`). Raises RobotError."""
     who, panel = services.identity(), services.panel()
@@ -105,7 +105,7 @@ def look(
     mine = [known[t.casefold()] for t in dict.fromkeys(tasks) if t.casefold() in known]
     normal = {t.name for t in there if t.kind == "normal"}
     kind = "virtual, " if who.is_virtual else ""
-    return LiveView(
+    return ControllerSnapshot(
         who.id,
         f"{who.name} ({kind}RobotWare {who.robotware})",
         who.robotware,

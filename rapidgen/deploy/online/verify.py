@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from rapidgen._json import members, whole
 from rapidgen.client.rws.model import LogEvent
-from rapidgen.deploy.online.plan import LivePlan
+from rapidgen.deploy.online.plan import OnlinePlan
 from rapidgen.deploy.online.snapshot import build_in
 from rapidgen.deploy.plan import Plan
 from rapidgen.diagnostics import DiagnosticError, error
@@ -23,7 +23,7 @@ _LOOK = 0.5
 
 
 @dataclass(frozen=True, slots=True)
-class ReadBack:
+class PostRestartCheck:
     """How it is looked whether the driver serves. `host` is where its ports are."""
 
     hello: Hello | None = None
@@ -32,12 +32,12 @@ class ReadBack:
     """s until a port has to answer."""
 
 
-def prove(
+def verify(
     services: "Controller",
     plan: Plan,
-    live: LivePlan,
+    live: OnlinePlan,
     last: int | None,
-    proof: ReadBack,
+    proof: PostRestartCheck,
     say: Callable[[str], None],
 ) -> None:
     """Look at everything, and tell all that is wrong at once. `last` is the number of the last
@@ -80,7 +80,9 @@ def way_back(plan: Plan) -> str:
     return "`rapidgen rollback`" if plan.had is not None else "`rapidgen uninstall`"
 
 
-def _driver(services: "Controller", plan: Plan, live: LivePlan, there: dict[str, str]) -> list[str]:
+def _driver(
+    services: "Controller", plan: Plan, live: OnlinePlan, there: dict[str, str]
+) -> list[str]:
     """What is wrong with the tasks."""
     if plan.wanted is None:
         gone = [c.key.partition(" ")[2] for c in plan.cfg if c.action == "remove"]
@@ -107,7 +109,7 @@ def _events(services: "Controller", last: int) -> tuple[LogEvent, ...]:
     return tuple(event for event in events if event.type == "error")
 
 
-def _ports(plan: Plan, proof: ReadBack) -> list[str]:
+def _ports(plan: Plan, proof: PostRestartCheck) -> list[str]:
     """State ports that do not tell our BUILD_ID."""
     if proof.hello is None or plan.wanted is None:
         return []
@@ -127,7 +129,7 @@ def _ports(plan: Plan, proof: ReadBack) -> list[str]:
     return faults
 
 
-def _told(proof: ReadBack, port: int, end: float) -> str | None:
+def _told(proof: PostRestartCheck, port: int, end: float) -> str | None:
     """BUILD_ID of what answers, '' for another program; None: nobody does."""
     assert proof.hello is not None
     while True:

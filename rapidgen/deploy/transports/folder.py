@@ -16,7 +16,7 @@ from rapidgen.deploy.transports.transport import (
     FILE_LIMIT,
     LISTING_LIMIT,
     Entry,
-    Reach,
+    TransportCapabilities,
     TransportFault,
     safe,
 )
@@ -26,7 +26,7 @@ class FolderTransport:
     """Files below `root`. A link that leads out of it is refused."""
 
     services = None
-    reach = Reach(
+    reach = TransportCapabilities(
         rename="rename over the old file (atomic), with fsync",
         writes_cfg=True,
         unseen=("a folder shows files only: whether a controller has read them is not seen",),

@@ -19,7 +19,7 @@ from rapidgen.deploy.transports.transport import (
     LISTING_LIMIT,
     Entry,
     Kind,
-    Reach,
+    TransportCapabilities,
     TransportFault,
     parent,
     safe,
@@ -41,7 +41,7 @@ class FtpTransport:
     """One FTP session. `home` is absolute on the server; '' is where the login ends."""
 
     services = None
-    reach = Reach(
+    reach = TransportCapabilities(
         rename="found out at deploy: rename over, delete and rename, or overwriting in place",
         writes_cfg=False,
         unseen=(

@@ -9,7 +9,7 @@ from pathlib import PurePosixPath
 
 from rapidgen.client.errors import ConnectionFailed, RobotError
 from rapidgen.client.rws import Controller, RwsError
-from rapidgen.client.rws.errors import LoginFailed, NotObeyed, NotRws
+from rapidgen.client.rws.errors import LoginFailed, NotConfirmed, NotRws
 from rapidgen.deploy.secrets import Credentials
 from rapidgen.deploy.transports.registry import SCHEMES, Target
 from rapidgen.deploy.transports.transport import (
@@ -17,7 +17,7 @@ from rapidgen.deploy.transports.transport import (
     LISTING_LIMIT,
     Entry,
     Kind,
-    Reach,
+    TransportCapabilities,
     TransportFault,
     parent,
     safe,
@@ -31,7 +31,7 @@ _FULL = ("E_NOT_ENOUGH_SPACE", "E_DEVICE_FULL")
 class RwsTransport:
     """Files below `folder` (`HOME`) of a controller, and its other services."""
 
-    reach = Reach(
+    reach = TransportCapabilities(
         rename="delete, then rename (Robot Web Services give a file a free name only)",
         writes_cfg=False,
         unseen=(),
@@ -158,6 +158,6 @@ def _kind(error: RobotError) -> Kind:
             return "denied"
         case LoginFailed():
             return "login"
-        case NotRws() | NotObeyed():
+        case NotRws() | NotConfirmed():
             return "garbled"
     return "lost"

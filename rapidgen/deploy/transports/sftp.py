@@ -18,7 +18,7 @@ from rapidgen.deploy.transports.transport import (
     LISTING_LIMIT,
     Entry,
     Kind,
-    Reach,
+    TransportCapabilities,
     TransportFault,
     safe,
 )
@@ -49,7 +49,7 @@ class SftpTransport:
     """One SFTP session. `home` is absolute on the server; '' is where the login ends."""
 
     services = None
-    reach = Reach(
+    reach = TransportCapabilities(
         rename="posix-rename over the old file (atomic) where the server has it",
         writes_cfg=False,
         unseen=("loaded configuration, tasks, operating mode and running programs are not seen",),

@@ -54,7 +54,7 @@ class Entry:
 
 
 @dataclass(frozen=True, slots=True)
-class Reach:
+class TransportCapabilities:
     """What a transport can and cannot do. Lines of `unseen` stand in every plan."""
 
     rename: str
@@ -70,7 +70,7 @@ class Transport(Protocol):
     Every method raises TransportFault.
     """
 
-    reach: Reach
+    reach: TransportCapabilities
     shown: str
     """The URL as it may be shown: without secrets."""
 

@@ -13,8 +13,8 @@ nothing itself. `names` has the rules; a task's modules are bound by
 """
 
 from rapidgen.rapid.binding.arguments import (
+    ArgumentFault,
     Matching,
-    Misfit,
     Pairing,
     first_fit,
     held_as,
@@ -23,7 +23,7 @@ from rapidgen.rapid.binding.arguments import (
 )
 from rapidgen.rapid.binding.constants import NotConstant, constant, evaluate, sizes_of, value_of
 from rapidgen.rapid.binding.expressions import declared_type, root, type_of
-from rapidgen.rapid.binding.lookup import Bound
+from rapidgen.rapid.binding.lookup import BoundModule
 from rapidgen.rapid.binding.names import (
     ModuleScope,
     RoutineScope,
@@ -48,11 +48,11 @@ __all__ = [
     "DATA",
     "ROUTINES",
     "TYPES",
-    "Bound",
+    "ArgumentFault",
+    "BoundModule",
     "DataSymbol",
     "LabelSymbol",
     "Matching",
-    "Misfit",
     "ModuleScope",
     "ModuleSymbol",
     "NotConstant",

@@ -56,7 +56,7 @@ class Actual(Protocol):
 A = TypeVar("A", bound=Actual)
 
 
-class Misfit(Enum):
+class ArgumentFault(Enum):
     """How an argument can break the rules."""
 
     SURPLUS = "no required parameter is left for it"
@@ -72,7 +72,7 @@ class Pairing(Generic[A]):
 
     argument: A
     parameter: int
-    misfits: tuple[Misfit, ...] = ()
+    misfits: tuple[ArgumentFault, ...] = ()
     rival: A | None = None
     """With EXCLUSIVE: the argument of the alternative."""
 
@@ -93,7 +93,7 @@ class Matching(Generic[A]):
         return found
 
 
-_NO_MISFIT: Final[tuple[Misfit, ...]] = ()
+_NO_MISFIT: Final[tuple[ArgumentFault, ...]] = ()
 
 
 def match(
@@ -112,7 +112,7 @@ def match(
         if argument.name is None and argument.kind == "required":
             k = _next_required(parameters, at, taken)
             if k < 0:
-                pairs.append(Pairing(argument, -1, (Misfit.SURPLUS,)))
+                pairs.append(Pairing(argument, -1, (ArgumentFault.SURPLUS,)))
                 continue
             group = parameters[k].group
             if group >= 0:
@@ -120,18 +120,18 @@ def match(
         else:
             k = _named(parameters, argument)
             if k < 0:
-                pairs.append(Pairing(argument, -1, (Misfit.UNKNOWN,)))
+                pairs.append(Pairing(argument, -1, (ArgumentFault.UNKNOWN,)))
                 continue
         pair = Pairing(argument, k)
         pairs.append(pair)
         if k < at:
-            pair.misfits = (Misfit.TWICE if k in given else Misfit.ORDER,)
+            pair.misfits = (ArgumentFault.TWICE if k in given else ArgumentFault.ORDER,)
         group = parameters[k].group
         if group >= 0:
             rival = taken.get(group)
             taken[group] = argument
             if rival is not None and "conditional" not in (rival.kind, argument.kind):
-                pair.misfits += (Misfit.EXCLUSIVE,)
+                pair.misfits += (ArgumentFault.EXCLUSIVE,)
                 pair.rival = rival
         given.add(k)
         at = max(at, k + 1)

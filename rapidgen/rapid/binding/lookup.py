@@ -35,7 +35,7 @@ _Mention = tuple[int, Symbol]
 
 
 @dataclass(slots=True, eq=False)
-class Bound:
+class BoundModule:
     """A module whose names have been looked up. They are, when something is first asked."""
 
     scope: ModuleScope

@@ -16,7 +16,7 @@ from rapidgen.rapid.binding import (
     TaskScope,
     installed_objects,
 )
-from rapidgen.rapid.checks.context import Given, Payload
+from rapidgen.rapid.checks.context import CheckContext, Payload
 from rapidgen.rapid.checks.declarations import check_module
 from rapidgen.rapid.checks.findings import Findings
 from rapidgen.rapid.dialect import Dialect
@@ -67,11 +67,11 @@ def check(
         given = parse(given, path=path, dialect=dialect)
     if isinstance(given, Module):
         given = [given]
-    extent = Given(dialect, elsewhere=elsewhere, payload=payloads.get(""))
+    extent = CheckContext(dialect, elsewhere=elsewhere, payload=payloads.get(""))
     return _check_modules(list(given), extent)
 
 
-def _check_modules(modules: Sequence[Module], given: Given) -> list[Diagnostic]:
+def _check_modules(modules: Sequence[Module], given: CheckContext) -> list[Diagnostic]:
     """Modules of one folder: they may belong to several tasks, so equal names do not clash."""
     task = TaskScope()
     scopes = [task.add(module) for module in modules]
@@ -82,7 +82,7 @@ def _check_modules(modules: Sequence[Module], given: Given) -> list[Diagnostic]:
 
 def _check_module(
     scope: ModuleScope,
-    given: Given,
+    given: CheckContext,
     clashes: Sequence[tuple[Symbol, Symbol]] = (),
     entry: str = "",
 ) -> list[Diagnostic]:
@@ -134,7 +134,7 @@ def _check_system(
                 module = parsed[key] = parse(file.data, path=file.path, dialect=dialect)
             scopes.append(task.add(module, installed=file.installed or file.shared))
         modules = [scope.tree for scope in scopes]
-        given = Given(
+        given = CheckContext(
             dialect,
             True,
             gaps or _loads(modules) or _any_unreadable(modules),
@@ -146,7 +146,7 @@ def _check_system(
     return _sorted(dict.fromkeys(found))  # a module may be in several tasks
 
 
-def _entry(spec: TaskSpec, task: TaskScope, given: Given) -> list[Diagnostic]:
+def _entry(spec: TaskSpec, task: TaskScope, given: CheckContext) -> list[Diagnostic]:
     """A task starts in a procedure without parameters [K §9]; without modules it never does."""
     symbol = task.find(spec.entry.lower())
     if not isinstance(symbol, RoutineSymbol) or symbol.module is None or symbol.node is None:

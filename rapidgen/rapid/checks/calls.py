@@ -5,8 +5,8 @@ from typing import TYPE_CHECKING, Final
 
 from rapidgen.diagnostics import Severity
 from rapidgen.rapid.binding import (
+    ArgumentFault,
     DataSymbol,
-    Misfit,
     Pairing,
     RoutineSymbol,
     constant,
@@ -105,8 +105,8 @@ class CallChecker:
         hidden = self._may_be_hidden(symbol, node, found.pairs)
         surplus = False
         for pair in found.pairs:
-            again = surplus and Misfit.SURPLUS in pair.misfits
-            surplus = surplus or Misfit.SURPLUS in pair.misfits
+            again = surplus and ArgumentFault.SURPLUS in pair.misfits
+            surplus = surplus or ArgumentFault.SURPLUS in pair.misfits
             if pair.misfits and not again:  # one argument too many says it all
                 self._misfits(symbol, parameters, pair, hidden)
             if pair.parameter < 0 or hidden:
@@ -137,7 +137,7 @@ class CallChecker:
             return False
         if isinstance(node, ProcedureCall) and not node.arguments:
             return True
-        surplus = any(Misfit.SURPLUS in pair.misfits for pair in pairs)
+        surplus = any(ArgumentFault.SURPLUS in pair.misfits for pair in pairs)
         return surplus and not symbol.signature.everywhere
 
     def _version(self, symbol: RoutineSymbol, node: _Call) -> None:
@@ -201,7 +201,7 @@ class CallChecker:
         another one."""
         argument = pair.argument
         for misfit in pair.misfits:
-            if misfit is Misfit.SURPLUS:
+            if misfit is ArgumentFault.SURPLUS:
                 self.report(
                     "RG311",
                     f"{symbol.name} has no parameter for this argument",
@@ -211,9 +211,9 @@ class CallChecker:
                     related=self.declared(symbol),
                     severity=Severity.WARNING if hidden else Severity.ERROR,
                 )
-            elif misfit is Misfit.UNKNOWN:
+            elif misfit is ArgumentFault.UNKNOWN:
                 self._no_parameter(symbol, parameters, argument)
-            elif misfit is Misfit.EXCLUSIVE:
+            elif misfit is ArgumentFault.EXCLUSIVE:
                 other = pair.rival.name if pair.rival else ""
                 self.report(
                     "RG313",
@@ -223,7 +223,7 @@ class CallChecker:
                 )
             else:
                 name = parameters[pair.parameter].name
-                twice = misfit is Misfit.TWICE
+                twice = misfit is ArgumentFault.TWICE
                 self.report(
                     "RG314",
                     f"'{name}' is given twice" if twice else f"'{name}' stands too far behind",

@@ -19,7 +19,7 @@ class Payload:
 
 
 @dataclass(frozen=True, slots=True)
-class Given:
+class CheckContext:
     """Dialect and extent."""
 
     dialect: Dialect

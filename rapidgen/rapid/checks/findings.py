@@ -18,7 +18,7 @@ from rapidgen.rapid.binding import (
 )
 from rapidgen.rapid.binding.types import AGGREGATE, element, equal
 from rapidgen.rapid.builtins import signatures
-from rapidgen.rapid.checks.context import Given, closest
+from rapidgen.rapid.checks.context import CheckContext, closest
 from rapidgen.rapid.syntax.nodes import Node
 
 _Options = Literal["procedures", "functions", "types", "values", ""]
@@ -48,7 +48,7 @@ _LISTED: Final = 8
 class Findings:
     """What is found in one module, and what its names are known to be used for."""
 
-    def __init__(self, module: ModuleScope, given: Given) -> None:
+    def __init__(self, module: ModuleScope, given: CheckContext) -> None:
         self.module = module
         self.given = given
         self.here: Scope = module

@@ -12,7 +12,7 @@ from rapidgen.rapid.binding.types import AGGREGATE, degree
 from rapidgen.rapid.builtins import signatures
 from rapidgen.rapid.checks.findings import Findings
 from rapidgen.rapid.checks.typing import TypeChecker
-from rapidgen.rapid.syntax.foreign_syntax import UNEQUAL, unequal_behind
+from rapidgen.rapid.syntax.foreign_syntax import UNEQUAL, followed_by_unequal
 from rapidgen.rapid.syntax.nodes import (
     Aggregate,
     Assignment,
@@ -289,7 +289,7 @@ class FlowChecker:
 
     def _condition(self, node: Expression) -> None:
         self.types.expect(node, "bool", "the condition")
-        if unequal_behind(self.findings.module.tree.source, node.last):
+        if followed_by_unequal(self.findings.module.tree.source, node.last):
             self.warn("RG332", "the condition ends before `!=`", node, help=UNEQUAL)
 
     def _compact_if(self, node: CompactIf) -> bool:

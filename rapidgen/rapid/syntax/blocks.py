@@ -9,7 +9,7 @@ from typing import Final
 
 from rapidgen.diagnostics import error
 from rapidgen.rapid.syntax import errors
-from rapidgen.rapid.syntax.errors import CLOSER, GivenUp, SyntaxFault
+from rapidgen.rapid.syntax.errors import CLOSER, ParseAborted, SyntaxFault
 from rapidgen.rapid.syntax.expressions import MAX_BLOCK_DEPTH, ExpressionParser
 from rapidgen.rapid.syntax.lexer import EOF, NAME, UNTERMINATED
 
@@ -132,7 +132,7 @@ class Blocks:
         if suspect < 0 or wrong_word or not self.expressions.starts_line(statement):
             suspect = -1
         self.expressions.report(
-            errors.stray(self.expressions.source, self.kinds, i, expected, self.open, suspect)
+            errors.unmatched(self.expressions.source, self.kinds, i, expected, self.open, suspect)
         )
 
     def _behind(self, i: int) -> int:
@@ -172,7 +172,7 @@ class Blocks:
     def enter(self, keyword: str, i: int) -> None:
         """Open a block."""
         if len(self.open) >= MAX_BLOCK_DEPTH + 2:  # module and routine come on top
-            raise GivenUp(
+            raise ParseAborted(
                 error(
                     "RG210",
                     errors.place(self.expressions.source, i),

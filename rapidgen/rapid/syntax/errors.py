@@ -5,7 +5,7 @@ from typing import Final
 
 from rapidgen.diagnostics import Diagnostic, Label, Span, error
 from rapidgen.rapid.syntax import lexer
-from rapidgen.rapid.syntax.foreign_syntax import habit, second_if
+from rapidgen.rapid.syntax.foreign_syntax import foreign_syntax_help, second_if
 from rapidgen.rapid.syntax.source import Source
 
 _LOOKED_BACK: Final = 2_000
@@ -66,7 +66,7 @@ class SyntaxFault(Exception):
         self.reported = False
 
 
-class GivenUp(Exception):
+class ParseAborted(Exception):
     """Ends the parse of a text that is beyond the limits, or too wrong to go on."""
 
     def __init__(self, diagnostic: Diagnostic) -> None:
@@ -82,7 +82,7 @@ def place(source: Source, at: int) -> Span:
     return Span(source.path, line, column)
 
 
-def met(source: Source, kinds: Sequence[str], at: int) -> str:
+def describe_token(source: Source, kinds: Sequence[str], at: int) -> str:
     """How a token is called in a message."""
     if at >= len(source.tokens):
         return lexer.EOF
@@ -115,13 +115,13 @@ def unexpected(
     lexical = _LEXICAL.get(kinds[at])
     if lexical:
         code, message, mend = lexical
-        mend = mend or habit(source, at)
-        return error(code, span, f"{message}: {met(source, kinds, at)}", mend)
+        mend = mend or foreign_syntax_help(source, at)
+        return error(code, span, f"{message}: {describe_token(source, kinds, at)}", mend)
     related, note = still_open(source, blocks)
     return error(
         "RG201",
         span,
-        f"met {met(source, kinds, at)}, expected {expected}",
+        f"met {describe_token(source, kinds, at)}, expected {expected}",
         help or _mend(source, kinds, at, expected),
         label=f"expected {expected}",
         notes=(note,) if note else (),
@@ -132,12 +132,13 @@ def unexpected(
 def _mend(source: Source, kinds: Sequence[str], at: int, expected: str) -> str:
     if kinds[at] == "=" and "':='" in expected:
         return "write `:=` where a value is given; `=` compares"
-    meant = habit(source, at)
+    meant = foreign_syntax_help(source, at)
     if meant:
         return meant
     begins = kinds[at] in (lexer.NAME, lexer.NUMBER, lexer.STRING, "[")
     if begins and "','" in expected and source.line(at) == source.line(at - 1):
-        return f"a ',' stands between two arguments: perhaps before {met(source, kinds, at)}"
+        met = describe_token(source, kinds, at)
+        return f"a ',' stands between two arguments: perhaps before {met}"
     if "';'" in expected:
         return "a statement or declaration ends with ';': perhaps the one before has none"
     if kinds[at] == lexer.EOF:
@@ -156,7 +157,7 @@ def unclosed(
     return error(
         "RG202",
         place(source, at),
-        f"met {met(source, kinds, at)}, but {closers} is missing before it",
+        f"met {describe_token(source, kinds, at)}, but {closers} is missing before it",
         f"add {closers} before this place"
         + ("; ELSE IF begins a second IF, ELSEIF is one word" if split else ""),
         label=f"expected {CLOSER[inner[-1][0]]}",
@@ -175,7 +176,7 @@ def too_many(last: Diagnostic, limit: int) -> Diagnostic:
     )
 
 
-def stray(
+def unmatched(
     source: Source,
     kinds: Sequence[str],
     at: int,
@@ -193,7 +194,7 @@ def stray(
     return error(
         "RG203",
         place(source, at),
-        f"met {met(source, kinds, at)}, but no block that it belongs to is open here",
+        f"met {describe_token(source, kinds, at)}, but no block that it belongs to is open here",
         "remove it, or add the statement that opens its block",
         label=f"expected {expected}",
         notes=(note,) if note else (),

@@ -12,7 +12,7 @@ from typing import Final
 
 from rapidgen.diagnostics import Diagnostic, Severity, error
 from rapidgen.rapid.syntax import errors, lexer
-from rapidgen.rapid.syntax.errors import Block, GivenUp, SyntaxFault
+from rapidgen.rapid.syntax.errors import Block, ParseAborted, SyntaxFault
 from rapidgen.rapid.syntax.lexer import HOLDER, NAME, NUMBER, STRING, Tokens
 from rapidgen.rapid.syntax.nodes import (
     Aggregate,
@@ -93,7 +93,7 @@ class ExpressionParser:
         """Keep a finding; a text with too many is given up."""
         self.diagnostics.append(diagnostic)
         if len(self.diagnostics) >= MAX_ERRORS:
-            raise GivenUp(errors.too_many(diagnostic, MAX_ERRORS))
+            raise ParseAborted(errors.too_many(diagnostic, MAX_ERRORS))
 
     def fault(self, found: SyntaxFault) -> None:
         """Report what a statement or declaration raised, once. No expression goes on behind it."""
@@ -118,9 +118,9 @@ class ExpressionParser:
             self.end_reported = True
         self.report(errors.unclosed(self.source, self.kinds, i, self.open, missing))
 
-    def too_deep(self, at: int) -> GivenUp:
+    def too_deep(self, at: int) -> ParseAborted:
         """The one diagnostic of an expression beyond the limit."""
-        return GivenUp(
+        return ParseAborted(
             error(
                 "RG211",
                 errors.place(self.source, at),

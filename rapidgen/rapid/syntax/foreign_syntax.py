@@ -16,7 +16,7 @@ UNEQUAL: Final = "`!` begins a comment: RAPID's unequal is `<>`"
 _STEPS: Final = {"+": "Incr a;", "-": "Decr a;"}
 
 
-def habit(source: Source, at: int) -> str:
+def foreign_syntax_help(source: Source, at: int) -> str:
     """The mend for what was meant at token `at`; "" where nothing of that kind is seen."""
     tokens = source.tokens
     here, before = _token(source, at), _token(source, at - 1)
@@ -31,12 +31,12 @@ def habit(source: Source, at: int) -> str:
             return f"RAPID has no `{before}=`: write a := a {before} ...;"
     if before in _STEPS and _token(source, at - 2) == before and _touches(source, at - 2):
         return f"RAPID writes {_STEPS[before]}"
-    if at > 0 and unequal_behind(source, at - 1):
+    if at > 0 and followed_by_unequal(source, at - 1):
         return UNEQUAL
     return ""
 
 
-def unequal_behind(source: Source, at: int) -> bool:
+def followed_by_unequal(source: Source, at: int) -> bool:
     """Whether `!=` stands behind token `at`, and is no line of a drawing."""
     gap = source.gaps[at].lstrip()
     return gap.startswith("!=") and not gap.startswith("!==")

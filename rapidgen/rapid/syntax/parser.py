@@ -10,7 +10,7 @@ from rapidgen.rapid.dialect import Dialect
 from rapidgen.rapid.syntax import errors, lexer, text
 from rapidgen.rapid.syntax.blocks import Blocks
 from rapidgen.rapid.syntax.data import DATA, MODULE_STOPS, DataParser
-from rapidgen.rapid.syntax.errors import GivenUp, SyntaxFault
+from rapidgen.rapid.syntax.errors import ParseAborted, SyntaxFault
 from rapidgen.rapid.syntax.expressions import ExpressionParser
 from rapidgen.rapid.syntax.lexer import EOF, HOLDER, NAME, Tokens
 from rapidgen.rapid.syntax.nodes import (
@@ -342,7 +342,7 @@ def _run(parser: ModuleParser, tokens: Tokens) -> Module:
         for finding in text.spellings(tokens):
             parser.report(finding)
         module_name, attributes, declarations, last = parser.module()
-    except GivenUp as reason:
+    except ParseAborted as reason:
         if reason.diagnostic.code == "RG214":
             parser.expressions.diagnostics.append(reason.diagnostic)
         else:

@@ -82,7 +82,7 @@ def no_module(source: Source, kinds: Sequence[str]) -> Diagnostic:
     return error(
         "RG208",
         errors.place(source, 0),
-        f"met {errors.met(source, kinds, 0)}, expected MODULE",
+        f"met {errors.describe_token(source, kinds, 0)}, expected MODULE",
         "a module is MODULE name ... ENDMODULE",
         label="expected MODULE",
     )
@@ -139,7 +139,7 @@ def spellings(tokens: Tokens) -> list[Diagnostic]:
                 error(
                     "RG205",
                     tokens.source.span(at, at),
-                    f"no type holds {errors.met(tokens.source, tokens.kinds, at)}",
+                    f"no type holds {errors.describe_token(tokens.source, tokens.kinds, at)}",
                     "num ends at 3.4E38, dnum at 1.79E308",
                     notes=("an exponent out of range is an error of the text [K §1.4, 2.5]",),
                 )
@@ -163,8 +163,8 @@ def spellings(tokens: Tokens) -> list[Diagnostic]:
                 error(
                     "RG220",
                     tokens.source.span(at, at),
-                    f"the name {errors.met(tokens.source, tokens.kinds, at)} has {len(text)} "
-                    f"characters; {MAX_NAME} is the limit",
+                    f"the name {errors.describe_token(tokens.source, tokens.kinds, at)} "
+                    f"has {len(text)} characters; {MAX_NAME} is the limit",
                     "shorten it",
                     notes=("all characters of a name count [K §2.3]",),
                 )

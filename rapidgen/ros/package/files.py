@@ -172,7 +172,7 @@ def _rendered(kind: str, name: str, context: Mapping[str, object]) -> dict[str, 
     return files
 
 
-def _solved(group: GroupConfig, prefix: str, drawn: urdf.Drawn) -> str:
+def _solved(group: GroupConfig, prefix: str, drawn: urdf.UrdfDrawing) -> str:
     joints = [prefix + joint.name for joint in group.joints]
     return srdf.chain_group(prefix + group.name, joints, drawn)
 

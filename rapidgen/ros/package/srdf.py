@@ -12,13 +12,13 @@ from rapidgen.axes.default_postures import usual_start
 from rapidgen.axes.mapping import JointMap
 from rapidgen.config.model import GroupConfig
 from rapidgen.ros.package.shapes import overlapping
-from rapidgen.ros.package.urdf import Drawn, PlacedRobot, urdf_range
+from rapidgen.ros.package.urdf import PlacedRobot, UrdfDrawing, urdf_range
 
 TOGETHER = "robots"
 """The planning group of all others, where there are several: a plan for all arms at once."""
 
 
-def draw(robots: Sequence[PlacedRobot], drawn: Drawn, name: str) -> str:
+def draw(robots: Sequence[PlacedRobot], drawn: UrdfDrawing, name: str) -> str:
     """The text for the URDF that `drawn` is; planning groups are named as motion groups."""
     root = ET.Element("robot", name=name)
     for robot in robots:
@@ -46,13 +46,13 @@ def draw(robots: Sequence[PlacedRobot], drawn: Drawn, name: str) -> str:
     return ET.tostring(root, encoding="unicode", xml_declaration=True) + "\n"
 
 
-def chain_group(name: str, joints: Sequence[str], drawn: Drawn) -> str:
+def chain_group(name: str, joints: Sequence[str], drawn: UrdfDrawing) -> str:
     """The planning group of the arm's chain, whose kinematics can be solved: the motion group's
     own, or one beside it where the motion group has more joints (those of positioners)."""
     return name if set(joints) <= set(drawn.arms[name].joints) else f"{name}_arm"
 
 
-def _group(root: ET.Element, group: GroupConfig, prefix: str, drawn: Drawn) -> None:
+def _group(root: ET.Element, group: GroupConfig, prefix: str, drawn: UrdfDrawing) -> None:
     name = prefix + group.name
     joints = [prefix + joint.name for joint in group.joints]
     arm, solved = drawn.arms[name], chain_group(name, joints, drawn)

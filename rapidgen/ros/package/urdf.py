@@ -44,7 +44,7 @@ class LinkChain:
 
 
 @dataclass(frozen=True, slots=True)
-class Drawn:
+class UrdfDrawing:
     """A URDF and what of it others need to name."""
 
     root: ET.Element
@@ -68,12 +68,12 @@ class Drawn:
             yield parent.attrib["link"], child.attrib["link"]
 
 
-def draw(config: RobotConfig, name: str) -> Drawn:
+def draw(config: RobotConfig, name: str) -> UrdfDrawing:
     """The URDF of all groups of a configuration, in m and rad."""
     return draw_cell([PlacedRobot(config)], name)
 
 
-def draw_cell(robots: Sequence[PlacedRobot], name: str) -> Drawn:
+def draw_cell(robots: Sequence[PlacedRobot], name: str) -> UrdfDrawing:
     """The same of several robots in one world."""
     root = ET.Element("robot", name=name)
     ET.SubElement(root, "link", name=ROOT)
@@ -91,7 +91,7 @@ def draw_cell(robots: Sequence[PlacedRobot], name: str) -> Drawn:
                 drawer.branch(f"{prefix}{unit.unit}_base", unit.chain, f"{prefix}{unit.unit}_table")
                 for unit in group.positioners
             )
-    return Drawn(root, arms, positioners)
+    return UrdfDrawing(root, arms, positioners)
 
 
 def urdf_range(joint: Joint) -> tuple[float, float]:

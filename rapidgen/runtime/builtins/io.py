@@ -6,7 +6,7 @@ Sources: [manual] S4 reference (dionum is 0 or 1, pulses invert, time-outs and \
 
 from collections.abc import Callable
 
-from rapidgen.machine.io import Awaited, Relation, Signal
+from rapidgen.machine.io import Relation, Signal, SignalCondition
 from rapidgen.rapid.numbers import single
 from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.registry import builtin, builtins
@@ -173,7 +173,7 @@ def alias_io_reset(_task: Task, target: SignalAlias) -> None:
 
 def _wait(
     task: Task,
-    awaited: Awaited,
+    awaited: SignalCondition,
     max_time: float | None,
     time_flag: Ref | None = None,
     at_timeout: Ref | None = None,
@@ -203,7 +203,7 @@ def _wait_digital(name: str) -> None:
         time_flag: Ref | None,
         *_visual: object,
     ) -> None:
-        _wait(task, Awaited(target.signal, "=", dionum(task, value)), max_time, time_flag)
+        _wait(task, SignalCondition(target.signal, "=", dionum(task, value)), max_time, time_flag)
 
 
 _wait_digital("WaitDI")
@@ -222,7 +222,7 @@ def _wait_analogue(name: str) -> None:
         at_timeout: Ref | None,
         *_visual: object,
     ) -> None:
-        awaited = Awaited(target.signal, _relation(less=less, greater=greater), value)
+        awaited = SignalCondition(target.signal, _relation(less=less, greater=greater), value)
         _wait(task, awaited, max_time, at_timeout=at_timeout)
 
 
@@ -249,7 +249,7 @@ def _wait_group(name: str) -> None:
         assert wanted is not None
         relation = _relation(different=different, less=less, greater=greater)
         place = at_timeout if at_timeout is not None else dnum_at_timeout
-        _wait(task, Awaited(target.signal, relation, wanted), max_time, at_timeout=place)
+        _wait(task, SignalCondition(target.signal, relation, wanted), max_time, at_timeout=place)
 
 
 _wait_group("WaitGI")

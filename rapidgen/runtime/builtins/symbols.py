@@ -20,7 +20,7 @@ from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.host import RapidTask
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.task.task import Task
-from rapidgen.runtime.values import Box, PersistentCell, Ref, copy_value, register_type
+from rapidgen.runtime.values import PersistentCell, Ref, ValueRef, copy_value, register_type
 
 _ELEMENT = re.compile(r"(\w+)\{([\d,\s]+)\}")
 
@@ -49,7 +49,7 @@ def _data_ref(
     if data is None:
         raise RapidError("ERR_SYM_ACCESS", name)
     if data.storage == "inline":
-        return data, Box(data.value, data.type, (), data.name)
+        return data, ValueRef(data.value, data.type, (), data.name)
     if data.storage == "cell":
         cell: PersistentCell = program.space[data.code]
         return data, cell

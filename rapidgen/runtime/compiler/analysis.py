@@ -9,7 +9,7 @@ from rapidgen.rapid.syntax.walk import walk
 from rapidgen.runtime.compiler.symbols import Routine
 
 
-class Facts:
+class RoutineFacts:
     """What a routine's text says about its own variables."""
 
     def __init__(
@@ -73,7 +73,7 @@ class Facts:
             self.by_reference.add(node.name.lower())
 
 
-class Whole:
+class IntegerLocals:
     """Which locals and loop variables hold whole numbers only, and which none below zero.
 
     Both are the largest sets that agree with every store; `initial` are the candidates with
@@ -81,7 +81,7 @@ class Whole:
     """
 
     def __init__(
-        self, initial: dict[str, int], facts: Facts, constant: Callable[[str], object]
+        self, initial: dict[str, int], facts: RoutineFacts, constant: Callable[[str], object]
     ) -> None:
         self._constant = constant
         loops: dict[str, list[n.For]] = {}

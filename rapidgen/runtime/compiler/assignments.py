@@ -1,15 +1,23 @@
 """Stores: assignment, Incr and its kin, CONNECT; waking who watches a persistent."""
 
 from rapidgen.rapid.syntax import nodes as n
-from rapidgen.runtime.compiler.context import CALLS, SHARED, SILENT, E, Unit, calling, failing
+from rapidgen.runtime.compiler.context import (
+    CALLS,
+    SHARED,
+    SILENT,
+    CompiledExpression,
+    Unit,
+    calling,
+    failing,
+)
 from rapidgen.runtime.compiler.emitter import Emitter
-from rapidgen.runtime.compiler.references import DataPlace, place_of
+from rapidgen.runtime.compiler.references import DataReference, place_of
 from rapidgen.runtime.compiler.symbols import CannotCompile, Data
 from rapidgen.runtime.compiler.value_copies import by_value, store_lines
 from rapidgen.runtime.values import NUM, Type
 
 
-def _target(unit: Unit, node: n.Expression) -> DataPlace:
+def _target(unit: Unit, node: n.Expression) -> DataReference:
     """A datum that may be assigned."""
     if isinstance(node, n.Placeholder):
         raise CannotCompile("a placeholder is no datum", node)
@@ -33,10 +41,10 @@ def assignment(emitter: Emitter, node: n.Assignment) -> None:
     _store(emitter, place, value)
 
 
-def _store(emitter: Emitter, place: DataPlace, value: E) -> None:
+def _store(emitter: Emitter, place: DataReference, value: CompiledExpression) -> None:
     """Assign a compiled value to a place and wake who watches it."""
     kind, data = place.e.type, place.data
-    total = E("", kind).take(place.e, value)
+    total = CompiledExpression("", kind).take(place.e, value)
     if place.holder or data.storage not in ("local", "global"):
         total.effect = max(total.effect, SHARED if data.storage != "box" else SILENT)
     if not place.holder and not place.e.dims and not place.cell:
@@ -54,7 +62,7 @@ def _store(emitter: Emitter, place: DataPlace, value: E) -> None:
         emitter.w.close()
 
 
-def _wake(emitter: Emitter, place: DataPlace) -> None:
+def _wake(emitter: Emitter, place: DataReference) -> None:
     if not place.cell:
         return
     w = emitter.w
@@ -71,7 +79,7 @@ def _wake(emitter: Emitter, place: DataPlace) -> None:
     w.depth -= 1
 
 
-def _store_lines(emitter: Emitter, place: DataPlace, value: E) -> list[str]:
+def _store_lines(emitter: Emitter, place: DataReference, value: CompiledExpression) -> list[str]:
     data, kind = place.data, place.e.type
     if data.storage == "global":
         emitter.unit.globals_written.add(data.code)
@@ -103,7 +111,7 @@ def _kept(data: Data) -> str:
     return f"PRESENT({data.code})" if data.optional else data.code
 
 
-def _through(temporary: str, target: str, value: E, kind: Type) -> list[str]:
+def _through(temporary: str, target: str, value: CompiledExpression, kind: Type) -> list[str]:
     """Store by way of a temporary when the value has to be tested."""
     lines = store_lines(temporary, value, kind)
     if len(lines) == 1:
@@ -111,14 +119,14 @@ def _through(temporary: str, target: str, value: E, kind: Type) -> list[str]:
     return [*lines, f"{target} = {temporary}"]
 
 
-def _inside(place: DataPlace) -> bool:
+def _inside(place: DataReference) -> bool:
     """Whether the last index is known to lie in the array."""
     limits = place.index_range
     dims = place.data.dims
     return limits is not None and bool(dims) and limits[0] >= 1 and limits[1] <= dims[-1]
 
 
-def _array_lines(emitter: Emitter, place: DataPlace, value: E) -> list[str]:
+def _array_lines(emitter: Emitter, place: DataReference, value: CompiledExpression) -> list[str]:
     data = place.data
     known = 0 not in place.e.dims and place.e.dims == value.dims
     if data.storage == "local" and known:
@@ -137,16 +145,16 @@ def step(emitter: Emitter, key: str, node: n.ProcedureCall) -> None:
     if kind.kind not in ("num", "dnum") or place.e.dims:
         raise CannotCompile(f"{node.name} takes num or dnum, not {kind.name}", node)
     if key == "clear":
-        value = E("0", kind, whole=True, exact=True, range=(0, 0))
+        value = CompiledExpression("0", kind, whole=True, exact=True, range=(0, 0))
     else:
         by = (
             emitter.unit.value_of(arguments[1], kind)
             if key == "add" and len(arguments) > 1
-            else E("1", kind, whole=True, exact=True, range=(1, 1), literal=True)
+            else CompiledExpression("1", kind, whole=True, exact=True, range=(1, 1), literal=True)
         )
         sign = "-" if key == "decr" else "+"
         current = place.e
-        value = E(
+        value = CompiledExpression(
             f"({current.code} {sign} {by.code})",
             kind,
             whole=current.whole and by.whole,

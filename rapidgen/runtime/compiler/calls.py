@@ -3,10 +3,10 @@
 from collections.abc import Iterator, Sequence
 
 from rapidgen.machine.io import Relation
-from rapidgen.rapid.binding.arguments import Misfit, match
+from rapidgen.rapid.binding.arguments import ArgumentFault, match
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.rapid.syntax.walk import walk
-from rapidgen.runtime.compiler.context import CALLS, E, Unit, calling, same_type
+from rapidgen.runtime.compiler.context import CALLS, CompiledExpression, Unit, calling, same_type
 from rapidgen.runtime.compiler.references import place_of, reference
 from rapidgen.runtime.compiler.symbols import CannotCompile, FormalParameter, Routine
 from rapidgen.runtime.compiler.value_copies import by_value
@@ -14,9 +14,9 @@ from rapidgen.runtime.registry import COSTS
 from rapidgen.runtime.values import BOOL, NUM, STRING
 
 _FAULTS = {
-    Misfit.SURPLUS: "too many arguments for {0}",
-    Misfit.UNKNOWN: "{0} has no parameter {1}",
-    Misfit.TWICE: "{1} is given twice",
+    ArgumentFault.SURPLUS: "too many arguments for {0}",
+    ArgumentFault.UNKNOWN: "{0} has no parameter {1}",
+    ArgumentFault.TWICE: "{1} is given twice",
 }
 
 
@@ -33,7 +33,9 @@ def _matched(
         argument = pair.argument
         for misfit in pair.misfits:
             # Of two conditional arguments for one parameter one may be absent: run time tells.
-            if misfit not in _FAULTS or (misfit is Misfit.TWICE and argument.kind == "conditional"):
+            if misfit not in _FAULTS or (
+                misfit is ArgumentFault.TWICE and argument.kind == "conditional"
+            ):
                 continue
             name = argument.name if pair.parameter < 0 else parameters[pair.parameter].name
             raise CannotCompile(_FAULTS[misfit].format(routine.name, name), node)
@@ -58,12 +60,12 @@ def _meant(
 
 def pass_argument(
     unit: Unit, parameter: FormalParameter, argument: n.Argument, *, builtin: bool
-) -> E:
+) -> CompiledExpression:
     """Compile one argument."""
     if argument.kind == "conditional":
         return _conditional(unit, parameter, argument, builtin=builtin)
     if parameter.switch:
-        return E("True", NUM)
+        return CompiledExpression("True", NUM)
     node = argument.value
     if node is None:
         raise CannotCompile(f"{parameter.name} needs a value", argument)
@@ -73,12 +75,12 @@ def pass_argument(
     code = e.code if builtin and not e.type.is_value else by_value(e, parameter.type)
     if builtin and (e.dims or e.type.kind == "record"):
         code = e.code
-    return E(code, e.type, e.dims).take(e)
+    return CompiledExpression(code, e.type, e.dims).take(e)
 
 
 def _conditional(
     unit: Unit, parameter: FormalParameter, argument: n.Argument, *, builtin: bool
-) -> E:
+) -> CompiledExpression:
     """`\\Opt?par`: passes the caller's optional parameter on, or its absence."""
     node = argument.value
     data = unit.data(node.name) if isinstance(node, n.Name) else None
@@ -88,17 +90,21 @@ def _conditional(
         if builtin and parameter.mode and data.storage not in ("ref", "box"):
             t = unit.linker.keep(data.type)
             code = f"(None if {data.code} is None else BOX({data.code}, {t}, {data.dims!r}))"
-            return E(code, data.type, data.dims)
+            return CompiledExpression(code, data.type, data.dims)
         if data.storage == "ref" and not parameter.mode:
-            return E(f"(None if {data.code} is None else {data.code}.v)", data.type)
-        return E(data.code, data.type, data.dims)
+            return CompiledExpression(
+                f"(None if {data.code} is None else {data.code}.v)", data.type
+            )
+        return CompiledExpression(data.code, data.type, data.dims)
     if data.storage == "box":
-        return E(f"{data.code}.v", data.type, data.dims)
+        return CompiledExpression(f"{data.code}.v", data.type, data.dims)
     copied = bool(data.dims) or data.type.kind == "record"
-    return E(f"COPY({data.code})" if copied else data.code, data.type, data.dims)
+    return CompiledExpression(f"COPY({data.code})" if copied else data.code, data.type, data.dims)
 
 
-def call(unit: Unit, routine: Routine, node: n.FunctionCall | n.ProcedureCall) -> E:
+def call(
+    unit: Unit, routine: Routine, node: n.FunctionCall | n.ProcedureCall
+) -> CompiledExpression:
     """Compile a call as a Python call."""
     if routine.missing:
         return calling(f"R.missing({routine.name!r})", routine.type or NUM)
@@ -128,7 +134,7 @@ def call(unit: Unit, routine: Routine, node: n.FunctionCall | n.ProcedureCall) -
     return result
 
 
-def _condition_code(unit: Unit, node: n.Expression | None, e: E) -> str:
+def _condition_code(unit: Unit, node: n.Expression | None, e: CompiledExpression) -> str:
     """WaitUntil looks at its condition again: it gets a function, and what it reads."""
     watched, reads = [], []
     for part in walk(node) if node is not None else ():
@@ -191,7 +197,9 @@ def _signal(unit: Unit, node: n.Expression) -> str:
     return f"{data.code}.signal" if data is not None and data.type.kind == "semivalue" else ""
 
 
-def _builtin_call(unit: Unit, routine: Routine, found: list[n.Argument | None]) -> E:
+def _builtin_call(
+    unit: Unit, routine: Routine, found: list[n.Argument | None]
+) -> CompiledExpression:
     binding = routine.builtin
     assert binding is not None
     codes, parts = ["R"], []
@@ -210,7 +218,7 @@ def _builtin_call(unit: Unit, routine: Routine, found: list[n.Argument | None]) 
         cost = int(cost * unit.options.builtin_scale)
     kind = routine.type or NUM
     code = f"{routine.code}({', '.join(codes)})"
-    result = E(
+    result = CompiledExpression(
         f"WHOLE({code})" if kind.kind == "dnum" else code,
         kind,
         cost=cost if binding.cost != "call" else unit.options.call,

@@ -21,7 +21,7 @@ that may wait, so that the budget has to be written back around them."""
 
 
 @dataclass(slots=True)
-class E:
+class CompiledExpression:
     """A compiled expression."""
 
     code: str
@@ -44,7 +44,7 @@ class E:
     """May leave the range of IEEE single."""
     literal: bool = False
 
-    def take(self, *parts: "E") -> "E":
+    def take(self, *parts: "CompiledExpression") -> "CompiledExpression":
         """Add what the operands cost and touch."""
         for part in parts:
             self.ops += part.ops
@@ -54,15 +54,17 @@ class E:
         return self
 
 
-def failing(error: str, name: str = "", kind: Type = NUM, dims: tuple[int, ...] = ()) -> E:
+def failing(
+    error: str, name: str = "", kind: Type = NUM, dims: tuple[int, ...] = ()
+) -> CompiledExpression:
     """An expression that fails when it is reached; `name` is what is not there."""
     inside = f"{error!r}, {name!r}" if name else repr(error)
-    return E(f"FAIL({inside})", kind, dims, fails=True, effect=SHARED, exact=True)
+    return CompiledExpression(f"FAIL({inside})", kind, dims, fails=True, effect=SHARED, exact=True)
 
 
-def calling(code: str, kind: Type, *parts: E, cost: int = 0) -> E:
+def calling(code: str, kind: Type, *parts: CompiledExpression, cost: int = 0) -> CompiledExpression:
     """A call that may wait and fail."""
-    e = E(code, kind, cost=cost, exact=True).take(*parts)
+    e = CompiledExpression(code, kind, cost=cost, exact=True).take(*parts)
     e.effect, e.fails = CALLS, True
     return e
 
@@ -89,7 +91,9 @@ def same_type(a: Type, b: Type) -> bool:
     return a is b or a.name == b.name
 
 
-CompileExpression: TypeAlias = "Callable[[Unit, n.Expression, Type | None, tuple[int, ...]], E]"
+CompileExpression: TypeAlias = (
+    "Callable[[Unit, n.Expression, Type | None, tuple[int, ...]], CompiledExpression]"
+)
 
 
 @dataclass(slots=True, eq=False)
@@ -130,18 +134,20 @@ class Unit:
 
     def expression(
         self, node: n.Expression, want: Type | None = None, dims: tuple[int, ...] = ()
-    ) -> E:
+    ) -> CompiledExpression:
         """Compile an expression to a value (signals are read); `want` types aggregates and
         literals."""
         e = self.compile(self, node, want, dims)
         if e.type.kind == "semivalue":
-            value = E(f"{e.code}.value", NUM, exact=True, effect=SHARED, fails=e.fails)
+            value = CompiledExpression(
+                f"{e.code}.value", NUM, exact=True, effect=SHARED, fails=e.fails
+            )
             return value.take(e)
         return e
 
     def value_of(
         self, node: n.Expression, kind: Type, dims: tuple[int, ...] = (), what: str = "value"
-    ) -> E:
+    ) -> CompiledExpression:
         """Compile an expression that has to have a given type."""
         e = self.expression(node, kind, dims)
         if not same_type(e.type, kind):
@@ -150,6 +156,6 @@ class Unit:
             raise CannotCompile(f"the {what} has {len(e.dims)} dimensions, not {len(dims)}", node)
         return e
 
-    def condition(self, node: n.Expression) -> E:
+    def condition(self, node: n.Expression) -> CompiledExpression:
         """Compile a bool."""
         return self.value_of(node, BOOL, (), "condition")

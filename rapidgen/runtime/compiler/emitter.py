@@ -7,9 +7,16 @@ from typing import TypeAlias
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.rapid.syntax.walk import walk
 from rapidgen.runtime.compiler.code_info import CodeRole
-from rapidgen.runtime.compiler.context import CALLS, SILENT, E, Unit, calling, failing
+from rapidgen.runtime.compiler.context import (
+    CALLS,
+    SILENT,
+    CompiledExpression,
+    Unit,
+    calling,
+    failing,
+)
 from rapidgen.runtime.compiler.references import undeclared, unknown_type
-from rapidgen.runtime.compiler.symbols import CannotCompile, NoWay
+from rapidgen.runtime.compiler.symbols import CannotCompile, LabelUnreachable
 from rapidgen.runtime.compiler.writer import CodeLine, Writer
 from rapidgen.runtime.values import NUM
 
@@ -88,7 +95,7 @@ class Emitter:
                 self._set_apart(node)
             else:
                 self._compile(self, node)
-        except NoWay:
+        except LabelUnreachable:
             raise
         except CannotCompile as fault:
             w.back_to(written)
@@ -108,19 +115,19 @@ class Emitter:
         span = self.unit.linker.keep(self.unit.module.span(fault.node))
         self.simple(calling(f"R.refuse({reason!r}, {span})", NUM))
 
-    def pay(self, e: E) -> None:
+    def pay(self, e: CompiledExpression) -> None:
         """Charge a statement whose expressions cost what `e` says."""
         options = self.options
         self.w.cost(options.statement + e.ops * options.operator + e.cost)
 
-    def simple(self, e: E, *lines: str) -> None:
+    def simple(self, e: CompiledExpression, *lines: str) -> None:
         """Pay, guard and emit the Python of a simple statement: by default `e` itself."""
         self.pay(e)
         self.guard(e, lines or [e.code])
         if e.effect != SILENT:
             self.w.close()
 
-    def guard(self, e: E, lines: Sequence[str], *, skip: str = "") -> None:
+    def guard(self, e: CompiledExpression, lines: Sequence[str], *, skip: str = "") -> None:
         """Emit lines; inside a routine with ERROR, in a try that calls its handler.
 
         `skip` is what TRYNEXT does instead.
@@ -202,7 +209,7 @@ class Emitter:
         self.w.depth -= 1
 
     def loop_body(
-        self, body: Sequence[n.Statement], finish: E | None = None, token: int = 0
+        self, body: Sequence[n.Statement], finish: CompiledExpression | None = None, token: int = 0
     ) -> None:
         """The statements of a loop (already indented), and the jumps that leave it.
 
@@ -289,8 +296,10 @@ class Emitter:
         loops = len(function.nesting)
         inside = next((i for i in reversed(range(loops)) if label in function.nesting[i]), None)
         if found is None or inside is None:
-            raise NoWay(f"there is no label {node.name} that can be reached from here", node)
-        self.pay(E("", NUM))
+            raise LabelUnreachable(
+                f"there is no label {node.name} that can be reached from here", node
+            )
+        self.pay(CompiledExpression("", NUM))
         w.close()
         state, number = found
         w.emit(f"{state} = {number}")

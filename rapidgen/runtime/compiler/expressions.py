@@ -2,7 +2,7 @@
 
 from rapidgen.rapid.numbers import dnum, single
 from rapidgen.rapid.syntax import nodes as n
-from rapidgen.runtime.compiler.context import E, Unit, failing
+from rapidgen.runtime.compiler.context import CompiledExpression, Unit, failing
 from rapidgen.runtime.compiler.inline import function_call
 from rapidgen.runtime.compiler.operators import binary, unary
 from rapidgen.runtime.compiler.references import read
@@ -13,15 +13,15 @@ from rapidgen.runtime.values import BOOL, DNUM, NUM, STRING, Type, attribute
 
 def compile_expression(
     unit: Unit, node: n.Expression, want: Type | None, dims: tuple[int, ...]
-) -> E:
+) -> CompiledExpression:
     """Compile any expression; a signal comes as the signal itself."""
     match node:
         case n.NumberLiteral():
             return _number(unit, node, want)
         case n.StringLiteral():
-            return E(repr(node.value), STRING, literal=True)
+            return CompiledExpression(repr(node.value), STRING, literal=True)
         case n.BoolLiteral():
-            return E(repr(node.value), BOOL, literal=True)
+            return CompiledExpression(repr(node.value), BOOL, literal=True)
         case n.Name():
             return _name(unit, node, want)
         case n.Index():
@@ -43,7 +43,7 @@ def compile_expression(
     raise CannotCompile("an inlined position stands only for a target", node)
 
 
-def _number(unit: Unit, node: n.NumberLiteral, want: Type | None) -> E:
+def _number(unit: Unit, node: n.NumberLiteral, want: Type | None) -> CompiledExpression:
     value = node.value
     if want is not None and want.kind == "dnum":
         return _double(unit, value)
@@ -52,32 +52,34 @@ def _number(unit: Unit, node: n.NumberLiteral, want: Type | None) -> E:
     except OverflowError:
         return _double(unit, node.value)
     if isinstance(value, int):
-        return E(repr(value), NUM, literal=True, whole=True, exact=True, range=(value, value))
-    return E(repr(value), NUM, literal=True, exact=True)
+        return CompiledExpression(
+            repr(value), NUM, literal=True, whole=True, exact=True, range=(value, value)
+        )
+    return CompiledExpression(repr(value), NUM, literal=True, exact=True)
 
 
-def _double(unit: Unit, value: float) -> E:
+def _double(unit: Unit, value: float) -> CompiledExpression:
     held = dnum(value, int(unit.options.dialect.dnum_whole))
-    return E(repr(held), DNUM, literal=True, whole=isinstance(held, int))
+    return CompiledExpression(repr(held), DNUM, literal=True, whole=isinstance(held, int))
 
 
-def _name(unit: Unit, node: n.Name, want: Type | None) -> E:
+def _name(unit: Unit, node: n.Name, want: Type | None) -> CompiledExpression:
     data = unit.data(node.name)
     if data is None:
         return failing("ERR_REFUNKDAT", node.name, want or NUM)
     return read(unit, data)
 
 
-def _is_undeclared(base: E) -> bool:
+def _is_undeclared(base: CompiledExpression) -> bool:
     return base.code.startswith("FAIL('ERR_REFUNKDAT'")
 
 
-def _undeclared(base: E, want: Type | None) -> E:
+def _undeclared(base: CompiledExpression, want: Type | None) -> CompiledExpression:
     """A part of what nothing declares: of the type that its place wants."""
-    return E(base.code, want or NUM, fails=True, effect=base.effect, exact=True)
+    return CompiledExpression(base.code, want or NUM, fails=True, effect=base.effect, exact=True)
 
 
-def _index(unit: Unit, node: n.Index, want: Type | None) -> E:
+def _index(unit: Unit, node: n.Index, want: Type | None) -> CompiledExpression:
     base = compile_expression(unit, node.base, None, ())
     if _is_undeclared(base):
         return _undeclared(base, want)
@@ -85,21 +87,25 @@ def _index(unit: Unit, node: n.Index, want: Type | None) -> E:
         raise CannotCompile("the number of indices is not the number of dimensions", node)
     indices = [unit.value_of(i, NUM, (), "index") for i in node.indices]
     code = base.code + "".join(f"[{i.code}]" for i in indices)
-    e = E(code, base.type, ops=len(indices), fails=True, exact=True)
+    e = CompiledExpression(code, base.type, ops=len(indices), fails=True, exact=True)
     return e.take(base, *indices)
 
 
-def _member(unit: Unit, node: n.Member, want: Type | None) -> E:
+def _member(unit: Unit, node: n.Member, want: Type | None) -> CompiledExpression:
     base = compile_expression(unit, node.base, None, ())
     if _is_undeclared(base):
         return _undeclared(base, want)
     kind = base.type.component(node.component.lower())
     if kind is None or base.dims:
         raise CannotCompile(f"{base.type.name} has no component {node.component}", node)
-    return E(f"{base.code}.{attribute(node.component)}", kind, ops=1, exact=True).take(base)
+    return CompiledExpression(
+        f"{base.code}.{attribute(node.component)}", kind, ops=1, exact=True
+    ).take(base)
 
 
-def _aggregate(unit: Unit, node: n.Aggregate, want: Type | None, dims: tuple[int, ...]) -> E:
+def _aggregate(
+    unit: Unit, node: n.Aggregate, want: Type | None, dims: tuple[int, ...]
+) -> CompiledExpression:
     if want is None:
         raise CannotCompile("an aggregate has no type here", node)
     if dims:
@@ -107,7 +113,9 @@ def _aggregate(unit: Unit, node: n.Aggregate, want: Type | None, dims: tuple[int
             raise CannotCompile(f"{len(node.members)} members for {dims[0]} elements", node)
         parts = [unit.value_of(m, want, dims[1:], "member") for m in node.members]
         inside = ", ".join(f"{i}: {by_value(p, want)}" for i, p in enumerate(parts, start=1))
-        return E(f"{{{inside}}}", want, (len(parts), *dims[1:]), fresh=True).take(*parts)
+        return CompiledExpression(f"{{{inside}}}", want, (len(parts), *dims[1:]), fresh=True).take(
+            *parts
+        )
     if want.kind != "record" or want.make is None:
         raise CannotCompile(f"an aggregate is no {want.name}", node)
     if not unit.module.scope.takes(want.name, len(node.members)):
@@ -117,4 +125,4 @@ def _aggregate(unit: Unit, node: n.Aggregate, want: Type | None, dims: tuple[int
     parts = [unit.value_of(m, kind, (), "component") for m, kind in members]
     inside = ", ".join(by_value(p, kind) for p, kind in zip(parts, kinds, strict=False))
     cls = unit.linker.keep(want.make)
-    return E(f"{cls}({inside})", want, fresh=True).take(*parts)
+    return CompiledExpression(f"{cls}({inside})", want, fresh=True).take(*parts)

@@ -6,12 +6,12 @@ from typing import TypeAlias
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime import unsupported
 from rapidgen.runtime.compiler.calls import call, pass_argument
-from rapidgen.runtime.compiler.context import E, Unit, calling, failing
+from rapidgen.runtime.compiler.context import CompiledExpression, Unit, calling, failing
 from rapidgen.runtime.compiler.references import place_of
 from rapidgen.runtime.compiler.symbols import CannotCompile, Routine
 from rapidgen.runtime.values import BOOL, NUM, STRING, Type
 
-Inline: TypeAlias = Callable[[Unit, n.FunctionCall], E | None]
+Inline: TypeAlias = Callable[[Unit, n.FunctionCall], CompiledExpression | None]
 
 
 def _only_argument(unit: Unit, node: n.FunctionCall) -> n.Expression:
@@ -20,16 +20,16 @@ def _only_argument(unit: Unit, node: n.FunctionCall) -> n.Expression:
     return node.arguments[0].value
 
 
-def _present(unit: Unit, node: n.FunctionCall) -> E:
+def _present(unit: Unit, node: n.FunctionCall) -> CompiledExpression:
     """Present: of a parameter; TRUE for anything that is always there [K §11]."""
     argument = _only_argument(unit, node)
     data = unit.data(argument.name) if isinstance(argument, n.Name) else None
     if data is None or not data.optional:
-        return E("True", BOOL, cost=unit.options.call)
-    return E(f"({data.code} is not None)", BOOL, cost=unit.options.call)
+        return CompiledExpression("True", BOOL, cost=unit.options.call)
+    return CompiledExpression(f"({data.code} is not None)", BOOL, cost=unit.options.call)
 
 
-def _dim(unit: Unit, node: n.FunctionCall) -> E | None:
+def _dim(unit: Unit, node: n.FunctionCall) -> CompiledExpression | None:
     """Dim: a constant when the sizes are known."""
     if len(node.arguments) != 2:
         return None
@@ -42,22 +42,24 @@ def _dim(unit: Unit, node: n.FunctionCall) -> E | None:
         index = which.range[0]
         if 1 <= index <= len(e.dims) and e.dims[index - 1]:
             size = e.dims[index - 1]
-            return E(
+            return CompiledExpression(
                 repr(size), NUM, cost=unit.options.call, whole=True, exact=True, range=(size, size)
             )
     code = f"DIM({e.code}, {which.code})"
-    result = E(code, NUM, cost=unit.options.call, whole=True, exact=True, range=(1, 1 << 20))
+    result = CompiledExpression(
+        code, NUM, cost=unit.options.call, whole=True, exact=True, range=(1, 1 << 20)
+    )
     result.take(e, which).fails = True
     return result
 
 
-def _abs(unit: Unit, node: n.FunctionCall) -> E:
+def _abs(unit: Unit, node: n.FunctionCall) -> CompiledExpression:
     """Abs."""
     e = unit.value_of(_only_argument(unit, node), NUM, (), "argument")
     limits = None
     if e.range is not None:
         limits = (0, max(abs(e.range[0]), abs(e.range[1])))
-    result = E(
+    result = CompiledExpression(
         f"abs({e.code})",
         NUM,
         cost=unit.options.call,
@@ -69,17 +71,19 @@ def _abs(unit: Unit, node: n.FunctionCall) -> E:
     return result.take(e)
 
 
-def _str_len(unit: Unit, node: n.FunctionCall) -> E:
+def _str_len(unit: Unit, node: n.FunctionCall) -> CompiledExpression:
     """StrLen."""
     e = unit.value_of(_only_argument(unit, node), STRING, (), "argument")
     cost = int(50_000 * unit.options.builtin_scale)
-    result = E(f"len({e.code})", NUM, cost=cost, whole=True, exact=True, range=(0, 80))
+    result = CompiledExpression(
+        f"len({e.code})", NUM, cost=cost, whole=True, exact=True, range=(0, 80)
+    )
     return result.take(e)
 
 
 def _string_function(
     unit: Unit, node: n.FunctionCall, code: str, kinds: tuple[Type, ...]
-) -> E | None:
+) -> CompiledExpression | None:
     """A string function of runtime.py with required arguments only; else the built-in."""
     if len(node.arguments) != len(kinds) or any(a.kind != "required" for a in node.arguments):
         return None
@@ -90,15 +94,17 @@ def _string_function(
     ]
     cost = int(50_000 * unit.options.builtin_scale)
     inside = ", ".join(p.code for p in parts)
-    return E(f"{code}({inside})", STRING, cost=cost, fails=True, exact=True).take(*parts)
+    return CompiledExpression(f"{code}({inside})", STRING, cost=cost, fails=True, exact=True).take(
+        *parts
+    )
 
 
-def _str_part(unit: Unit, node: n.FunctionCall) -> E | None:
+def _str_part(unit: Unit, node: n.FunctionCall) -> CompiledExpression | None:
     """StrPart."""
     return _string_function(unit, node, "PARTOF", (STRING, NUM, NUM))
 
 
-def _position(unit: Unit, node: n.FunctionCall, code: str) -> E | None:
+def _position(unit: Unit, node: n.FunctionCall, code: str) -> CompiledExpression | None:
     if unit.options.dialect.find_behind == "error":
         return None
     e = _string_function(unit, node, code, (STRING, NUM, STRING))
@@ -107,7 +113,7 @@ def _position(unit: Unit, node: n.FunctionCall, code: str) -> E | None:
     return e
 
 
-def _str_find(unit: Unit, node: n.FunctionCall) -> E | None:
+def _str_find(unit: Unit, node: n.FunctionCall) -> CompiledExpression | None:
     """StrFind without the switch; one character needs no set."""
     last = node.arguments[-1].value if node.arguments else None
     single = isinstance(last, n.StringLiteral) and len(last.value) == 1
@@ -118,32 +124,34 @@ def _str_find(unit: Unit, node: n.FunctionCall) -> E | None:
     return e
 
 
-def _str_match(unit: Unit, node: n.FunctionCall) -> E | None:
+def _str_match(unit: Unit, node: n.FunctionCall) -> CompiledExpression | None:
     """StrMatch."""
     return _position(unit, node, "FIND1")
 
 
-def _is_pers(unit: Unit, node: n.FunctionCall) -> E:
+def _is_pers(unit: Unit, node: n.FunctionCall) -> CompiledExpression:
     """IsPers: of an INOUT parameter only run time knows [K §11]."""
     place = place_of(unit, _only_argument(unit, node))
     if place is None:
-        return E("False", BOOL, cost=unit.options.call)
+        return CompiledExpression("False", BOOL, cost=unit.options.call)
     if place.data.storage == "ref" and place.data.mode == "INOUT":
-        return E(f"({place.data.code}.cell is not None)", BOOL, cost=unit.options.call)
+        return CompiledExpression(
+            f"({place.data.code}.cell is not None)", BOOL, cost=unit.options.call
+        )
     persistent = place.data.kind == "PERS" or place.data.mode == "PERS"
-    return E(repr(persistent), BOOL, cost=unit.options.call)
+    return CompiledExpression(repr(persistent), BOOL, cost=unit.options.call)
 
 
-def _is_var(unit: Unit, node: n.FunctionCall) -> E:
+def _is_var(unit: Unit, node: n.FunctionCall) -> CompiledExpression:
     """IsVar."""
     place = place_of(unit, _only_argument(unit, node))
     if place is None or place.data.kind == "CONST":
-        return E("False", BOOL, cost=unit.options.call)
+        return CompiledExpression("False", BOOL, cost=unit.options.call)
     pers = _is_pers(unit, node)
-    return E(f"(not {pers.code})", BOOL, cost=unit.options.call)
+    return CompiledExpression(f"(not {pers.code})", BOOL, cost=unit.options.call)
 
 
-def _arg_name(unit: Unit, node: n.FunctionCall) -> E:
+def _arg_name(unit: Unit, node: n.FunctionCall) -> CompiledExpression:
     """ArgName: of a parameter; its name is all that is passed on."""
     first = node.arguments[0].value if node.arguments else None
     if not isinstance(first, n.Name):
@@ -177,7 +185,7 @@ _INLINE: dict[str, Inline] = {
 }
 
 
-def function_call(unit: Unit, node: n.FunctionCall, want: Type | None) -> E:
+def function_call(unit: Unit, node: n.FunctionCall, want: Type | None) -> CompiledExpression:
     """Compile the call of a function; one that does not exist fails when it is reached."""
     routine = unit.routine_named(node.name)
     if routine is None or routine.kind != "FUNC":

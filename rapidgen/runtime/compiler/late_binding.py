@@ -1,9 +1,9 @@
 """`%name% arguments;` [K §4.5]: what is called is known when it is; arguments are thunks."""
 
 from rapidgen.rapid.syntax import nodes as n
-from rapidgen.runtime.compiler.context import E, Unit, calling
+from rapidgen.runtime.compiler.context import CompiledExpression, Unit, calling
 from rapidgen.runtime.compiler.emitter import Emitter
-from rapidgen.runtime.compiler.references import DataPlace, place_of
+from rapidgen.runtime.compiler.references import DataReference, place_of
 from rapidgen.runtime.compiler.symbols import CannotCompile
 from rapidgen.runtime.compiler.value_copies import by_value
 from rapidgen.runtime.values import NUM, STRING
@@ -24,7 +24,7 @@ def late_call(emitter: Emitter, node: n.LateCall) -> None:
     emitter.simple(calling(code, NUM, *parts, cost=emitter.options.call))
 
 
-def _argument(unit: Unit, argument: n.Argument) -> tuple[str, list[E]]:
+def _argument(unit: Unit, argument: n.Argument) -> tuple[str, list[CompiledExpression]]:
     name = repr(argument.name.lower() if argument.name else None)
     if argument.kind == "switch":
         return f"LATE({name}, None, None)", []
@@ -49,7 +49,7 @@ def _argument(unit: Unit, argument: n.Argument) -> tuple[str, list[E]]:
     return f"LATE({name}, lambda: {read}, {ref}, {t}, lambda: {place.e.code}{last})", [place.e]
 
 
-def _reference(unit: Unit, place: DataPlace) -> str:
+def _reference(unit: Unit, place: DataReference) -> str:
     """A lambda that makes a Ref to a place, or None for what cannot be one."""
     data, e = place.data, place.e
     if data.readonly or e.type.kind in ("nonvalue", "semivalue"):

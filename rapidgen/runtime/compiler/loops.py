@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 
 from rapidgen.rapid.syntax import nodes as n
-from rapidgen.runtime.compiler.context import CALLS, SILENT, E, Unit
+from rapidgen.runtime.compiler.context import CALLS, SILENT, CompiledExpression, Unit
 from rapidgen.runtime.compiler.emitter import Emitter
 from rapidgen.runtime.compiler.symbols import Data
 from rapidgen.runtime.compiler.value_copies import rounded
@@ -35,7 +35,7 @@ def test_statement(emitter: Emitter, node: n.Test) -> None:
             emitter.unit.value_of(v, subject.type, subject.dims, "CASE value") for v in case.values
         ]
         codes.append(" or ".join(f"{name} == {v.code}" for v in values))
-        part = E("", BOOL, ops=len(values)).take(*values)
+        part = CompiledExpression("", BOOL, ops=len(values)).take(*values)
         parts.append(part)
     if not node.cases:
         emitter.simple(subject, f"{name} = {subject.code}")
@@ -50,7 +50,7 @@ def test_statement(emitter: Emitter, node: n.Test) -> None:
 def _select(
     emitter: Emitter,
     codes: list[str],
-    conditions: list[E],
+    conditions: list[CompiledExpression],
     bodies: list[Sequence[n.Statement]],
     otherwise: Sequence[n.Statement] | None,
 ) -> None:
@@ -59,9 +59,9 @@ def _select(
     The statement pays for its first condition; each branch for those looked at after it.
     """
     w = emitter.w
-    everything = E("", BOOL).take(*conditions)
+    everything = CompiledExpression("", BOOL).take(*conditions)
     first = conditions[0]
-    emitter.pay(E("", BOOL, ops=first.ops, cost=first.cost))
+    emitter.pay(CompiledExpression("", BOOL, ops=first.ops, cost=first.cost))
     later = [c.ops * emitter.options.operator + c.cost for c in conditions]
     chosen = ""
     if everything.effect == CALLS or (emitter.function.guarded and everything.fails):
@@ -121,7 +121,7 @@ def while_loop(emitter: Emitter, node: n.While) -> None:
     emitter.loop_body(node.body, condition, node.first)
 
 
-def _silent_while(emitter: Emitter, node: n.While, condition: E) -> None:
+def _silent_while(emitter: Emitter, node: n.While, condition: CompiledExpression) -> None:
     """A condition that nothing outside can see is paid after it was looked at: together
     with what begins the pass, or with what follows the loop."""
     w = emitter.w
@@ -141,7 +141,7 @@ def for_loop(emitter: Emitter, node: n.For) -> None:
     end = emitter.unit.value_of(node.end, NUM, (), "end")
     step = emitter.unit.value_of(node.step, NUM, (), "step") if node.step is not None else None
     parts = [start, end] + ([step] if step else [])
-    total = E("", NUM).take(*parts)
+    total = CompiledExpression("", NUM).take(*parts)
     name = loop_variable(node)
     limits = _limits(start, end, step)
     rising = start.range and end.range and start.range[1] <= end.range[0]
@@ -201,7 +201,9 @@ def loop_variable(node: n.For) -> str:
     return f"l{node.first}_{node.variable.lower()}"
 
 
-def _limits(start: E, end: E, step: E | None) -> tuple[int, int] | None:
+def _limits(
+    start: CompiledExpression, end: CompiledExpression, step: CompiledExpression | None
+) -> tuple[int, int] | None:
     """Range of a loop variable."""
     if start.range is None or end.range is None or not (start.whole and end.whole):
         return None

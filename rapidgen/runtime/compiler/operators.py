@@ -2,7 +2,7 @@
 
 from rapidgen.rapid.numbers import EXACT
 from rapidgen.rapid.syntax import nodes as n
-from rapidgen.runtime.compiler.context import UNBOUNDED, E, Unit, same_type
+from rapidgen.runtime.compiler.context import UNBOUNDED, CompiledExpression, Unit, same_type
 from rapidgen.runtime.compiler.symbols import CannotCompile
 from rapidgen.runtime.values import BOOL, DNUM, STRING, TYPES, Type
 
@@ -12,17 +12,17 @@ _COUNTED = 1 << 52
 POS, ORIENT = TYPES["pos"], TYPES["orient"]
 
 
-def unary(unit: Unit, node: n.Unary, want: Type | None) -> E:
+def unary(unit: Unit, node: n.Unary, want: Type | None) -> CompiledExpression:
     """NOT, + and -."""
     if node.operator == "NOT":
         inner = unit.value_of(node.operand, BOOL, (), "operand of NOT")
-        return E(f"(not {inner.code})", BOOL, ops=1).take(inner)
+        return CompiledExpression(f"(not {inner.code})", BOOL, ops=1).take(inner)
     inner = unit.expression(node.operand, want)
     if inner.type.kind in ("num", "dnum"):
         if node.operator == "+":
             return inner
         limits = inner.range and (-inner.range[1], -inner.range[0])
-        e = E(
+        e = CompiledExpression(
             f"(-{inner.code})",
             inner.type,
             ops=0 if inner.literal else 1,
@@ -36,18 +36,20 @@ def unary(unit: Unit, node: n.Unary, want: Type | None) -> E:
     if same_type(inner.type, POS) and not inner.dims:
         if node.operator == "+":
             return inner
-        return E(f"PNEG({inner.code})", POS, ops=1, fresh=True).take(inner)
+        return CompiledExpression(f"PNEG({inner.code})", POS, ops=1, fresh=True).take(inner)
     raise CannotCompile(f"{node.operator} takes num, dnum or pos, not {inner.type.name}", node)
 
 
-def binary(unit: Unit, node: n.Binary, want: Type | None) -> E:
+def binary(unit: Unit, node: n.Binary, want: Type | None) -> CompiledExpression:
     """Compile an operator between two operands; `want` types literals."""
     operator = node.operator
     if operator in ("AND", "OR", "XOR"):
         left = unit.value_of(node.left, BOOL, (), f"left operand of {operator}")
         right = unit.value_of(node.right, BOOL, (), f"right operand of {operator}")
         word = {"AND": "and", "OR": "or", "XOR": "is not"}[operator]
-        return E(f"({left.code} {word} {right.code})", BOOL, ops=1).take(left, right)
+        return CompiledExpression(f"({left.code} {word} {right.code})", BOOL, ops=1).take(
+            left, right
+        )
     if operator in _COMPARE:
         return _comparison(unit, node)
     left, right = _operands(unit, node, want)
@@ -57,7 +59,9 @@ def binary(unit: Unit, node: n.Binary, want: Type | None) -> E:
     if a.kind == b.kind and a.kind in ("num", "dnum"):
         return _arithmetic(unit, node, left, right)
     if a.kind == b.kind == "string" and operator == "+":
-        return E(f"CAT({left.code}, {right.code})", STRING, ops=1, fails=True).take(left, right)
+        return CompiledExpression(
+            f"CAT({left.code}, {right.code})", STRING, ops=1, fails=True
+        ).take(left, right)
     function = {
         ("+", "pos", "pos"): "PADD",
         ("-", "pos", "pos"): "PSUB",
@@ -72,10 +76,12 @@ def binary(unit: Unit, node: n.Binary, want: Type | None) -> E:
     kind = ORIENT if function == "QMUL" else POS
     first, second = (right, left) if (a.kind, b.name) == ("num", "pos") else (left, right)
     code = f"{function}({first.code}, {second.code})"
-    return E(code, kind, ops=1, fails=True, fresh=True).take(left, right)
+    return CompiledExpression(code, kind, ops=1, fails=True, fresh=True).take(left, right)
 
 
-def _operands(unit: Unit, node: n.Binary, want: Type | None) -> tuple[E, E]:
+def _operands(
+    unit: Unit, node: n.Binary, want: Type | None
+) -> tuple[CompiledExpression, CompiledExpression]:
     """Both operands; a literal takes the type of the other one."""
     wanted = want if want is not None and want.kind in ("num", "dnum") else None
     if want is not None and want.name == "pos" and node.has_type_of_place:
@@ -97,7 +103,7 @@ def _operands(unit: Unit, node: n.Binary, want: Type | None) -> tuple[E, E]:
     return left, right
 
 
-def _comparison(unit: Unit, node: n.Binary) -> E:
+def _comparison(unit: Unit, node: n.Binary) -> CompiledExpression:
     word = _COMPARE[node.operator]
     if isinstance(node.left, n.Aggregate):
         right = unit.expression(node.right)
@@ -115,21 +121,25 @@ def _comparison(unit: Unit, node: n.Binary) -> E:
         raise CannotCompile(f"{left.type.name} cannot be compared", node)
     if node.operator not in ("=", "<>") and left.type.kind not in ("num", "dnum"):
         raise CannotCompile(f"{node.operator} takes num or dnum, not {left.type.name}", node)
-    return E(f"({left.code} {word} {right.code})", BOOL, ops=1).take(left, right)
+    return CompiledExpression(f"({left.code} {word} {right.code})", BOOL, ops=1).take(left, right)
 
 
-def _arithmetic(unit: Unit, node: n.Binary, left: E, right: E) -> E:
+def _arithmetic(
+    unit: Unit, node: n.Binary, left: CompiledExpression, right: CompiledExpression
+) -> CompiledExpression:
     operator, kind = node.operator, left.type
     dialect = unit.options.dialect
     if operator in ("DIV", "MOD"):
-        e = E(_integer(unit, operator, left, right), kind, ops=1, fails=True, whole=True)
+        e = CompiledExpression(
+            _integer(unit, operator, left, right), kind, ops=1, fails=True, whole=True
+        )
         if operator == "MOD" and right.range is not None:
             e.range = (-right.range[1], right.range[1])
         elif left.range is not None:
             limit = max(abs(left.range[0]), abs(left.range[1]))
             e.range = (-limit, limit)
         return e.take(left, right)
-    e = E(f"({left.code} {operator} {right.code})", kind, ops=1)
+    e = CompiledExpression(f"({left.code} {operator} {right.code})", kind, ops=1)
     if operator == "/":
         e.fails = e.risky = True
     else:
@@ -149,7 +159,7 @@ def _arithmetic(unit: Unit, node: n.Binary, left: E, right: E) -> E:
     return e
 
 
-def _integer(unit: Unit, operator: str, left: E, right: E) -> str:
+def _integer(unit: Unit, operator: str, left: CompiledExpression, right: CompiledExpression) -> str:
     """DIV or MOD; a whole left and a positive literal right side need no call."""
     dialect = unit.options.dialect
     plain = dialect.integer_division == "truncate" and dialect.negative_mod == "allow"
@@ -162,17 +172,19 @@ def _integer(unit: Unit, operator: str, left: E, right: E) -> str:
     return f"{operator}({left.code}, {right.code})"
 
 
-def _is_counted(e: E) -> bool:
+def _is_counted(e: CompiledExpression) -> bool:
     """Whether a dnum holds the result whatever it is."""
     return e.range is not None and e.range[0] >= -_COUNTED and e.range[1] <= _COUNTED
 
 
-def _is_exact(e: E) -> bool:
+def _is_exact(e: CompiledExpression) -> bool:
     """Whether no single would have to be rounded."""
     return e.whole and e.range is not None and e.range[0] >= -EXACT and e.range[1] <= EXACT
 
 
-def _grows(operator: str, left: E, right: E, e: E) -> bool:
+def _grows(
+    operator: str, left: CompiledExpression, right: CompiledExpression, e: CompiledExpression
+) -> bool:
     """Whether a whole result may leave the range of a single: not by adding something small."""
     if e.range is not None and max(abs(e.range[0]), abs(e.range[1])) < UNBOUNDED:
         return False

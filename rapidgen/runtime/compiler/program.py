@@ -14,7 +14,7 @@ from rapidgen.runtime.compiler.argname import arg_name
 from rapidgen.runtime.compiler.code_info import Compiled
 from rapidgen.runtime.compiler.context import Options
 from rapidgen.runtime.compiler.linking import Linker, Shared
-from rapidgen.runtime.compiler.resume import Standing, after, compile_backward, compile_rest
+from rapidgen.runtime.compiler.resume import StoppedFrame, after, compile_backward, compile_rest
 from rapidgen.runtime.compiler.routine import RoutineCompiler
 from rapidgen.runtime.compiler.symbols import CannotCompile, Data, LoadedModule, Routine
 from rapidgen.runtime.errors import RECOVERABLE, FatalError
@@ -182,7 +182,7 @@ class Program:
         return function
 
     def rest(
-        self, standing: Standing, *, calls: bool = False, alone: bool = False
+        self, standing: StoppedFrame, *, calls: bool = False, alone: bool = False
     ) -> Callable[[dict[str, Value]], Value]:
         """A function that goes on with a routine where it stands. CannotCompile: it cannot.
 

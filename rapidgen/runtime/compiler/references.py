@@ -5,18 +5,25 @@ from dataclasses import dataclass
 from rapidgen.rapid.binding.symbols import TypeSymbol
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.rapid.syntax.walk import walk_own
-from rapidgen.runtime.compiler.context import CALLS, SHARED, E, Unit, failing, same_type
+from rapidgen.runtime.compiler.context import (
+    CALLS,
+    SHARED,
+    CompiledExpression,
+    Unit,
+    failing,
+    same_type,
+)
 from rapidgen.runtime.compiler.symbols import CannotCompile, Data, FormalParameter
 from rapidgen.runtime.compiler.value_copies import by_value
 from rapidgen.runtime.values import NUM, attribute
 
 
 @dataclass(slots=True)
-class DataPlace:
+class DataReference:
     """A data reference: a whole datum, an element or a component."""
 
     data: Data
-    e: E
+    e: CompiledExpression
     """Reads it, without the test of an optional parameter's presence."""
     holder: str
     """Container of the last element or component; empty for a whole datum."""
@@ -34,14 +41,14 @@ class DataPlace:
         return not self.e.dims and self.e.type.kind in ("num", "dnum", "bool", "string")
 
 
-def read(unit: Unit, data: Data) -> E:
+def read(unit: Unit, data: Data) -> CompiledExpression:
     """Read a whole datum."""
     code, effect, fails = _kept(data)
     kind, dims = data.type, data.dims
     if data.storage == "inline":
         value = data.value
         whole = isinstance(value, int) and not isinstance(value, bool)
-        return E(
+        return CompiledExpression(
             repr(value), kind, whole=whole, exact=True, range=(value, value) if whole else None
         )
     if data.storage in ("box", "ref", "cell"):
@@ -49,7 +56,7 @@ def read(unit: Unit, data: Data) -> E:
     if data.storage == "cell" and unit.options.switching:
         code = f"R.touch({data.code}.v)"
         effect = CALLS
-    return E(
+    return CompiledExpression(
         code, kind, dims, effect=effect, fails=fails, exact=True, whole=data.whole, range=data.range
     )
 
@@ -87,7 +94,7 @@ def unknown_type(unit: Unit, node: n.Node) -> str:
     return ""
 
 
-def place_of(unit: Unit, node: n.Expression) -> DataPlace | None:
+def place_of(unit: Unit, node: n.Expression) -> DataReference | None:
     """The data reference that `node` is; None for any other expression."""
     match node:
         case n.Parenthesis():
@@ -96,7 +103,7 @@ def place_of(unit: Unit, node: n.Expression) -> DataPlace | None:
             data = unit.data(node.name)
             if data is None or data.storage == "inline":
                 return None
-            return DataPlace(data, read(unit, data), "", "", False, _cell(data))
+            return DataReference(data, read(unit, data), "", "", False, _cell(data))
         case n.Index():
             base = place_of(unit, node.base)
             if base is None or len(base.e.dims) != len(node.indices):
@@ -104,18 +111,20 @@ def place_of(unit: Unit, node: n.Expression) -> DataPlace | None:
             indices = [unit.value_of(i, NUM, (), "index") for i in node.indices]
             holder = base.e.code + "".join(f"[{i.code}]" for i in indices[:-1])
             key = indices[-1].code
-            e = E(f"{holder}[{key}]", base.e.type, ops=len(indices), fails=True, exact=True)
+            e = CompiledExpression(
+                f"{holder}[{key}]", base.e.type, ops=len(indices), fails=True, exact=True
+            )
             e.take(base.e, *indices)
             limits = indices[-1].range if indices[-1].whole else None
-            return DataPlace(base.data, e, holder, key, False, base.cell, limits)
+            return DataReference(base.data, e, holder, key, False, base.cell, limits)
         case n.Member():
             base = place_of(unit, node.base)
             kind = base.e.type.component(node.component.lower()) if base else None
             if base is None or kind is None or base.e.dims:
                 return None
             key = attribute(node.component)
-            e = E(f"{base.e.code}.{key}", kind, ops=1, exact=True).take(base.e)
-            return DataPlace(base.data, e, base.e.code, key, True, base.cell)
+            e = CompiledExpression(f"{base.e.code}.{key}", kind, ops=1, exact=True).take(base.e)
+            return DataReference(base.data, e, base.e.code, key, True, base.cell)
     return None
 
 
@@ -127,7 +136,9 @@ def _cell(data: Data) -> str:
     return ""
 
 
-def reference(unit: Unit, node: n.Expression, parameter: FormalParameter, *, builtin: bool) -> E:
+def reference(
+    unit: Unit, node: n.Expression, parameter: FormalParameter, *, builtin: bool
+) -> CompiledExpression:
     """Pass `node` to a VAR, PERS, INOUT or REF parameter."""
     place = place_of(unit, node)
     mode = parameter.mode
@@ -149,7 +160,9 @@ def reference(unit: Unit, node: n.Expression, parameter: FormalParameter, *, bui
             raise CannotCompile(f"parameter {parameter.name} has {parameter.dims} dimensions", node)
     _check_mode(data, mode, node)
     code = _reference_code(unit, place, parameter, builtin=builtin)
-    result = E(code, kind, place.e.dims, effect=place.e.effect, fails=place.e.fails)
+    result = CompiledExpression(
+        code, kind, place.e.dims, effect=place.e.effect, fails=place.e.fails
+    )
     result.ops = place.e.ops
     return result
 
@@ -168,7 +181,7 @@ def _check_mode(data: Data, mode: n.Mode, node: n.Expression) -> None:
 
 
 def _reference_code(
-    unit: Unit, place: DataPlace, parameter: FormalParameter, *, builtin: bool
+    unit: Unit, place: DataReference, parameter: FormalParameter, *, builtin: bool
 ) -> str:
     data, e, kind = place.data, place.e, place.e.type
     if kind.kind in ("nonvalue", "semivalue") and not e.dims:
@@ -197,10 +210,10 @@ def _reference_code(
     return f"BOX({e.code}, {t}, {e.dims!r}, {data.name!r})"
 
 
-def _boxed(unit: Unit, node: n.Expression, parameter: FormalParameter) -> E:
+def _boxed(unit: Unit, node: n.Expression, parameter: FormalParameter) -> CompiledExpression:
     """A value for a REF or anytype parameter that is no datum."""
     e = unit.expression(node, parameter.type)
     t = unit.linker.keep(e.type)
     name = node.name if isinstance(node, n.Name) else ""
     code = f"BOX({by_value(e, e.type)}, {t}, {e.dims!r}, {name!r})"
-    return E(code, e.type, e.dims).take(e)
+    return CompiledExpression(code, e.type, e.dims).take(e)

@@ -23,7 +23,7 @@ Path = list[tuple[list[n.Statement], int]]
 
 
 @dataclass(frozen=True, slots=True)
-class Standing:
+class StoppedFrame:
     """Where a routine of a call stack is, and what its variables are."""
 
     routine: Routine
@@ -77,7 +77,7 @@ class _Rest:
     """
 
     def __init__(
-        self, compiler: RoutineCompiler, standing: Standing, *, calls: bool, alone: bool
+        self, compiler: RoutineCompiler, standing: StoppedFrame, *, calls: bool, alone: bool
     ) -> None:
         if compiler.facts.goto:
             raise CannotCompile(
@@ -157,7 +157,7 @@ def compile_backward(
 
 
 def compile_rest(
-    linker: Linker, standing: Standing, options: Options, file: str, *, calls: bool, alone: bool
+    linker: Linker, standing: StoppedFrame, options: Options, file: str, *, calls: bool, alone: bool
 ) -> tuple[Callable[[dict[str, Value]], Value], Compiled]:
     """A function that goes on with a routine, given the values. `file` is the routine's."""
     routine = standing.routine

@@ -5,7 +5,7 @@ from functools import lru_cache
 from types import CodeType
 
 from rapidgen.rapid.syntax import nodes as n
-from rapidgen.runtime.compiler.analysis import Facts
+from rapidgen.runtime.compiler.analysis import RoutineFacts
 from rapidgen.runtime.compiler.code_info import HANDLER, LISTED, UNDO, CodeRole, Compiled
 from rapidgen.runtime.compiler.context import Options, Unit
 from rapidgen.runtime.compiler.emitter import Emitter
@@ -41,7 +41,7 @@ class RoutineCompiler:
         self.entry = entry
         self.file = file
         names = module.scope.routine(node)
-        self.facts = Facts(node, lambda name: linker.routine(names.find(name)))
+        self.facts = RoutineFacts(node, lambda name: linker.routine(names.find(name)))
         boxed = self.facts.by_reference
         self.unit = Unit(linker, module, routine, node, options, compile_expression, names, boxed)
         self.emitter = Emitter(self.unit, compile_statement, self.facts.goto)

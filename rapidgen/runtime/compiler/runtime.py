@@ -4,12 +4,11 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from typing import NoReturn
 
-from rapidgen.machine.io import Awaited
+from rapidgen.machine.io import SignalCondition
 from rapidgen.machine.scheduler import WaitSet
 from rapidgen.rapid.numbers import EXACT, MAX_STRING, single
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.values import (
-    Box,
     Orient,
     PersistentCell,
     Pos,
@@ -17,6 +16,7 @@ from rapidgen.runtime.values import (
     Ref,
     Type,
     Value,
+    ValueRef,
     assign_array,
     copy_value,
 )
@@ -335,9 +335,9 @@ def part(
     name: str,
     cell: PersistentCell | None = None,
     dims: tuple[int, ...] = (),
-) -> Box:
+) -> ValueRef:
     """A reference to a record or array inside a datum."""
-    box = Box(value, type, dims, name)
+    box = ValueRef(value, type, dims, name)
     box.whole = False
     box.cell = cell
     return box
@@ -375,7 +375,7 @@ class Condition:
     cost: int
     reads: Callable[[], tuple[tuple[str, Value], ...]]
     """Names in it, and what they are worth now."""
-    signals: Callable[[], tuple[Awaited, ...]]
+    signals: Callable[[], tuple[SignalCondition, ...]]
     """Comparisons of signals, with which it may hold."""
     calls: bool = False
     """It calls a function of the program."""
@@ -410,10 +410,10 @@ NAMESPACE: dict[str, Callable[..., Value]] = {
     "COPY": copy_value,
     "ASSIGN": assign_array,
     "ONLY_ONE": only_one,
-    "BOX": Box,
+    "BOX": ValueRef,
     "PART": part,
     "LATE": LateArgument,
     "CONDITION": Condition,
-    "AWAITED": Awaited,
+    "AWAITED": SignalCondition,
 }
 """Names that compiled code finds among its globals."""

@@ -6,7 +6,7 @@ from rapidgen.runtime import unsupported
 from rapidgen.runtime.compiler.assignments import assignment, connect, step
 from rapidgen.runtime.compiler.calls import call
 from rapidgen.runtime.compiler.code_info import CodeRole
-from rapidgen.runtime.compiler.context import CALLS, E, calling, failing
+from rapidgen.runtime.compiler.context import CALLS, CompiledExpression, calling, failing
 from rapidgen.runtime.compiler.emitter import Emitter
 from rapidgen.runtime.compiler.late_binding import late_call
 from rapidgen.runtime.compiler.loops import for_loop, if_statement, test_statement, while_loop
@@ -42,7 +42,7 @@ def compile_statement(emitter: Emitter, node: n.Statement) -> None:
         case n.Retry() | n.TryNext():
             _recover(emitter, node)
         case n.Exit():
-            emitter.pay(E("", NUM, effect=CALLS))
+            emitter.pay(CompiledExpression("", NUM, effect=CALLS))
             w.emit("R.b = b")
             w.emit("R.exit()")
             w.close()
@@ -99,7 +99,7 @@ def _return(emitter: Emitter, node: n.Return) -> None:
     else:
         if node.value is not None:
             raise CannotCompile("RETURN takes a value only in a function", node)
-        emitter.pay(E("", NUM))
+        emitter.pay(CompiledExpression("", NUM))
         w.emit("R.b = b")
         w.emit("return" if emitter.function.outer is None else "return 2")
     w.close()
@@ -110,7 +110,7 @@ def _raise(emitter: Emitter, node: n.Raise) -> None:
     if node.number is None:
         if emitter.function.handler is not CodeRole.HANDLER:
             raise CannotCompile("RAISE without a number stands only in an error handler", node)
-        emitter.pay(E("", NUM))
+        emitter.pay(CompiledExpression("", NUM))
         w.emit("R.b = b")
         w.emit("return 3")
         w.close()
@@ -130,7 +130,7 @@ def _raise(emitter: Emitter, node: n.Raise) -> None:
 def _recover(emitter: Emitter, node: n.Retry | n.TryNext) -> None:
     if emitter.function.handler is not CodeRole.HANDLER:
         raise CannotCompile("RETRY and TRYNEXT stand only in an error handler", node)
-    emitter.pay(E("", NUM))
+    emitter.pay(CompiledExpression("", NUM))
     emitter.w.emit("R.b = b")
     emitter.w.emit("return 0" if isinstance(node, n.Retry) else "return 1")
     emitter.w.close()

@@ -20,7 +20,7 @@ class CannotCompile(Exception):
         self.node = node
 
 
-class NoWay(CannotCompile):
+class LabelUnreachable(CannotCompile):
     """A jump has no way to its label: not a matter of one statement."""
 
 

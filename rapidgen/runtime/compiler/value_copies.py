@@ -5,7 +5,7 @@ tested, and NaN takes the slow way, too.
 """
 
 from rapidgen.rapid.numbers import EXACT
-from rapidgen.runtime.compiler.context import E
+from rapidgen.runtime.compiler.context import CompiledExpression
 from rapidgen.runtime.values import Type
 
 _LARGEST = "3.4028234663852886e+38"
@@ -13,7 +13,7 @@ _SMALLEST = "1.1754943508222875e-38"
 """Below it a single has fewer digits."""
 
 
-def rounded(e: E, kind: Type) -> str:
+def rounded(e: CompiledExpression, kind: Type) -> str:
     """Code of `e` as a num that is stored, passed or returned: rounded where it has to be."""
     if kind.kind != "num" or e.exact:
         return e.code
@@ -27,7 +27,7 @@ def rounded(e: E, kind: Type) -> str:
     return f"((_t := (_y := {e.code}) * 536870913.0) - (_t - _y))"
 
 
-def store_lines(target: str, e: E, kind: Type, *, keep: bool = False) -> list[str]:
+def store_lines(target: str, e: CompiledExpression, kind: Type, *, keep: bool = False) -> list[str]:
     """Statements that store `e` in a simple Python target, rounded.
 
     Rounding splits at 24 bits (Veltkamp), which is exact inside the normal range; what may
@@ -56,7 +56,7 @@ def store_lines(target: str, e: E, kind: Type, *, keep: bool = False) -> list[st
     return lines
 
 
-def by_value(e: E, kind: Type) -> str:
+def by_value(e: CompiledExpression, kind: Type) -> str:
     """Code of a value that the receiver may keep: rounded, or copied."""
     if e.dims or kind.kind == "record":
         if e.fresh:

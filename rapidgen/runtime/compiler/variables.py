@@ -1,7 +1,7 @@
 """Parameters and data of a routine: how each is kept, and the Python that makes it."""
 
 from rapidgen.rapid.syntax import nodes as n
-from rapidgen.runtime.compiler.analysis import Facts, Whole
+from rapidgen.runtime.compiler.analysis import IntegerLocals, RoutineFacts
 from rapidgen.runtime.compiler.context import UNBOUNDED, Unit
 from rapidgen.runtime.compiler.symbols import Data, FormalParameter, Storage
 from rapidgen.runtime.compiler.writer import Writer
@@ -20,7 +20,7 @@ def header(unit: Unit) -> str:
     return ", ".join(names)
 
 
-def declare(unit: Unit, w: Writer, facts: Facts) -> None:
+def declare(unit: Unit, w: Writer, facts: RoutineFacts) -> None:
     """Enter parameters and data into the unit, and write what makes them."""
     for parameter in unit.routine.parameters:
         _parameter(unit, w, parameter)
@@ -40,7 +40,7 @@ def declare(unit: Unit, w: Writer, facts: Facts) -> None:
         values.append((d, data, value))
         if kind.kind == "num" and not dims and isinstance(value, int):
             candidates[key] = value
-    whole = Whole(candidates, facts, lambda name: _constant(unit, name))
+    whole = IntegerLocals(candidates, facts, lambda name: _constant(unit, name))
     for d, data, value in values:
         w.token = d.first
         _variable(unit, w, d, data, value, whole)
@@ -80,7 +80,7 @@ def _constant(unit: Unit, name: str) -> Value:
 
 
 def _variable(
-    unit: Unit, w: Writer, d: n.DataDeclaration, data: Data, value: Value, whole: Whole
+    unit: Unit, w: Writer, d: n.DataDeclaration, data: Data, value: Value, whole: IntegerLocals
 ) -> None:
     key, kind, dims, linker = d.name.lower(), data.type, data.dims, unit.linker
     if d.kind == "CONST":

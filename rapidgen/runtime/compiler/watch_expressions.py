@@ -12,7 +12,7 @@ from rapidgen.rapid.syntax import nodes as n
 from rapidgen.rapid.syntax.parser import parse
 from rapidgen.runtime.compiler.assignments import assignment
 from rapidgen.runtime.compiler.code_info import CodeRole
-from rapidgen.runtime.compiler.context import CALLS, E, Options, Unit
+from rapidgen.runtime.compiler.context import CALLS, CompiledExpression, Options, Unit
 from rapidgen.runtime.compiler.emitter import PythonFunction
 from rapidgen.runtime.compiler.linking import Linker
 from rapidgen.runtime.compiler.loops import loop_bound, loop_variable
@@ -94,7 +94,7 @@ class _Probe:
         return function
 
 
-def _allowed(unit: Unit, e: E, node: n.Expression) -> None:
+def _allowed(unit: Unit, e: CompiledExpression, node: n.Expression) -> None:
     name = undeclared(unit, node)
     if name:
         raise CannotCompile(f"{name} is not known here", node)
@@ -115,7 +115,7 @@ def watch(
     CannotCompile: it has no value there, or it would have to call something.
     """
     probe = _Probe(linker, routine, loops, options, known)
-    found: list[E] = []
+    found: list[CompiledExpression] = []
 
     def write() -> None:
         e = probe.unit.expression(node)

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from rapidgen.axes.kinematics import Posture
-from rapidgen.motion.group import MotionGroup, Waiter
+from rapidgen.motion.group import MotionGroup, MotionWaiter
 from rapidgen.motion.moves import FINE, CartesianMove, JointMove, Move
 from rapidgen.runtime.errors import Location
 from rapidgen.runtime.motion_faults import planned
@@ -63,7 +63,7 @@ class StepHistory:
         self._begun.append((move, self._group.path_target))
 
     @planned
-    def drive(self, task: Waiter, statement: Location, start: Callable[[], None]) -> bool:
+    def drive(self, task: MotionWaiter, statement: Location, start: Callable[[], None]) -> bool:
         """Drive back over the move of a statement; False: not known, the robot stays.
 
         The way is that of the move, at its speed, to a stop point. `start` lets robots move.

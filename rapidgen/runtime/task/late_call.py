@@ -3,14 +3,14 @@
 
 from collections.abc import Sequence
 
-from rapidgen.rapid.binding.arguments import Misfit, first_fit, match
+from rapidgen.rapid.binding.arguments import ArgumentFault, first_fit, match
 from rapidgen.runtime.compiler.program import Program
 from rapidgen.runtime.compiler.runtime import LateArgument
 from rapidgen.runtime.compiler.symbols import FormalParameter, LoadedModule, Routine
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.values import ATOMIC, Value
 
-_WRONG = frozenset({Misfit.SURPLUS, Misfit.UNKNOWN, Misfit.TWICE})
+_WRONG = frozenset({ArgumentFault.SURPLUS, ArgumentFault.UNKNOWN, ArgumentFault.TWICE})
 
 
 def find(program: Program, name: str, module: LoadedModule | None) -> Routine:

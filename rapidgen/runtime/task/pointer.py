@@ -14,7 +14,7 @@ from typing import ParamSpec, TypeVar
 from rapidgen.rapid.syntax.walk import walk
 from rapidgen.runtime.compiler.code_info import CodeRole
 from rapidgen.runtime.compiler.program import Program
-from rapidgen.runtime.compiler.resume import Standing, find
+from rapidgen.runtime.compiler.resume import StoppedFrame, find
 from rapidgen.runtime.compiler.symbols import CannotCompile, Routine
 from rapidgen.runtime.errors import FatalError, Location
 from rapidgen.runtime.host import RapidTask
@@ -35,13 +35,15 @@ class CannotStep(Exception):
     """A step is not possible from where the program stands; the text says why."""
 
 
-def standing(program: Program, frames: Iterable[tuple[FrameType, int]]) -> list[Standing] | None:
+def standing(
+    program: Program, frames: Iterable[tuple[FrameType, int]]
+) -> list[StoppedFrame] | None:
     """Where the routines of frames are, outermost first.
 
     None when the program cannot go on there: in a handler, a trap or an event routine, or too
     deep inside.
     """
-    found: dict[int, Standing] = {}
+    found: dict[int, StoppedFrame] = {}
     for frame, line in frames:
         code = frame.f_code
         if any(code is other for other in _OTHER_LEVELS):
@@ -60,7 +62,7 @@ def standing(program: Program, frames: Iterable[tuple[FrameType, int]]) -> list[
         if role is CodeRole.PART:
             key = list(found)[-1]
             values = {**found[key].values, **values}
-        found[key] = Standing(compiled.routine, path, values)
+        found[key] = StoppedFrame(compiled.routine, path, values)
     return list(found.values()) if 0 < len(found) <= LARGEST_STACK else None
 
 
@@ -70,9 +72,9 @@ class Pointer:
     def __init__(self, task: RapidTask, errors: Errors) -> None:
         self._task = task
         self._errors = errors
-        self.place: list[Standing] | None = None
+        self.place: list[StoppedFrame] | None = None
         """Where an error stopped the program; None: it starts from main only."""
-        self._below: list[tuple[Standing, Callable[[dict[str, object]], object]]] = []
+        self._below: list[tuple[StoppedFrame, Callable[[dict[str, object]], object]]] = []
         self._intercepted: tuple[str, object] | None = None
 
     # -- keeping the place -----------------------------------------------------------------------
@@ -100,7 +102,7 @@ class Pointer:
         codes = self._task.program.codes
         return any(f.f_code.co_filename in codes for f in outwards(self._task.frame))
 
-    def stack(self) -> list[Standing]:
+    def stack(self) -> list[StoppedFrame]:
         """Every routine of a stopped program. CannotStep: inside what cannot be left."""
         if self.place is not None:
             return self.place
@@ -145,7 +147,7 @@ class Pointer:
 
     # -- going on --------------------------------------------------------------------------------
 
-    def go_on(self, places: Sequence[Standing]) -> None:
+    def go_on(self, places: Sequence[StoppedFrame]) -> None:
         """Try the statement again where the program stands. CannotCompile: not from there."""
         self._errors.kept_undo = []
         last = len(places) - 1

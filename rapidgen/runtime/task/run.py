@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from rapidgen.runtime.compiler.resume import Standing
+from rapidgen.runtime.compiler.resume import StoppedFrame
 from rapidgen.runtime.compiler.symbols import CannotCompile, Routine
 from rapidgen.runtime.errors import RECOVERABLE, EndOfRun, ExitCycle, FatalError, PointerMoved
 from rapidgen.runtime.host import RapidTask
@@ -113,7 +113,7 @@ class Run:
             ) from error
         return self._next_cycle()
 
-    def _back(self, places: list[Standing]) -> bool:
+    def _back(self, places: list[StoppedFrame]) -> bool:
         """Execute the statement before backward; the program then stands before it."""
         task, stepper = self.task, self.stepper
         stepper.back_asked = False

@@ -11,7 +11,7 @@ import sys
 from dataclasses import dataclass, replace
 
 from rapidgen.rapid.syntax import nodes as n
-from rapidgen.runtime.compiler.resume import Standing
+from rapidgen.runtime.compiler.resume import StoppedFrame
 from rapidgen.runtime.compiler.symbols import CannotCompile, LoadedModule
 from rapidgen.runtime.errors import Location
 from rapidgen.runtime.host import RapidTask
@@ -117,7 +117,7 @@ class Stepper:
 
     # -- backward --------------------------------------------------------------------------------
 
-    def step_back(self, places: list[Standing]) -> list[Standing]:
+    def step_back(self, places: list[StoppedFrame]) -> list[StoppedFrame]:
         """Execute the statement before the place backward; where the program stands then.
 
         CannotStep: there is none, or it has no backward behaviour. Arguments of a call are
@@ -135,7 +135,7 @@ class Stepper:
             raise CannotStep("the statement before cannot be executed backward")
         return [*places[:-1], before]
 
-    def _call_back(self, call: n.ProcedureCall, before: Standing) -> None:
+    def _call_back(self, call: n.ProcedureCall, before: StoppedFrame) -> None:
         task = self.task
         program = task.program
         routine = program.find_routine(before.routine.module, call.name.lower())
@@ -161,7 +161,7 @@ class Stepper:
         if handler is None:
             raise CannotStep(f"{call.name} has no BACKWARD handler")
 
-    def _drive_back(self, call: n.ProcedureCall, before: Standing) -> None:
+    def _drive_back(self, call: n.ProcedureCall, before: StoppedFrame) -> None:
         """A move that was stepped is driven back (switch `moves_back`)."""
         task = self.task
         module = before.routine.module

@@ -8,11 +8,17 @@ import secrets
 from dataclasses import replace
 from functools import partial
 
-from rapidgen.controller.runner import Cabinet
+from rapidgen.controller.runner import ControllerRunner
 from rapidgen.servers.rws import handlers as handlers
-from rapidgen.servers.rws.context import Accounts, Office
+from rapidgen.servers.rws.context import Accounts, RwsContext
 from rapidgen.servers.rws.event_sources import watched
-from rapidgen.servers.rws.messages import Denied, HttpReply, Received, RwsRequest, Served
+from rapidgen.servers.rws.messages import (
+    HttpRequest,
+    HttpResponse,
+    RequestDenied,
+    RwsRequest,
+    RwsResponse,
+)
 from rapidgen.servers.rws.routing import find
 from rapidgen.servers.rws.sessions import Session, Sessions
 from rapidgen.servers.rws.subscriptions import Groups
@@ -29,13 +35,18 @@ LARGEST_FORM = 100_000
 _REALM = 'Basic realm="Robot Web Services"'
 
 
-class Desk:
+class RwsApplication:
     """Answers requests to one cabinet."""
 
     def __init__(
-        self, cabinet: Cabinet, generation: Generation, login: Accounts, *, strict: bool = True
+        self,
+        cabinet: ControllerRunner,
+        generation: Generation,
+        login: Accounts,
+        *,
+        strict: bool = True,
     ) -> None:
-        self.office = office = Office(cabinet, generation, login, strict=strict)
+        self.office = office = RwsContext(cabinet, generation, login, strict=strict)
         self.generation = generation
         # The ceiling is that of RWS 1.0 [RWS manual].
         self.sessions = Sessions(lambda: cabinet.now, limited=strict and self.is_one)
@@ -59,7 +70,7 @@ class Desk:
         """Whether RWS 1.0 is spoken."""
         return self.generation is Generation.ONE
 
-    def session_of(self, got: Received) -> Session | None:
+    def session_of(self, got: HttpRequest) -> Session | None:
         """The session that a request belongs to; None: nobody's, and it is not let in."""
         session = self.sessions.find(_cookies(got).get(SESSION, ""))
         if session is None and self.is_one and (user := self._user(got)) is not None:
@@ -82,20 +93,20 @@ class Desk:
 
     # -- a request -------------------------------------------------------------------------------
 
-    def handle(self, got: Received) -> HttpReply:
+    def handle(self, got: HttpRequest) -> HttpResponse:
         """Answer a request."""
         if self.sessions.is_too_fast():
-            return HttpReply(503, (("Retry-After", "1"),))
+            return HttpResponse(503, (("Retry-After", "1"),))
         try:
             path, suffix, query = split_target(got.target)
         except Unreadable:
-            return HttpReply(400)
+            return HttpResponse(400)
         if not got.headers.get("host", "").isascii():
-            return HttpReply(400)
+            return HttpResponse(400)
         session = self.sessions.find(_cookies(got).get(SESSION, ""))
         if session is None:
             entered = self._enter(got)
-            if isinstance(entered, HttpReply):
+            if isinstance(entered, HttpResponse):
                 return entered
             session = entered
         syntax: Syntax = "xhtml"
@@ -103,18 +114,18 @@ class Desk:
             accepted = self._syntax(got, path, dict(query))
             syntax = accepted or "hal"
             answer = self._carry_out(got, session, path, suffix, dict(query), accepted)
-        except Denied as refused:
+        except RequestDenied as refused:
             title = "rw" if self.is_one else ""
             fault = Fault(refused.code, refused.message)
-            answer = Served(refused.status, Body(title=title, fault=fault))
+            answer = RwsResponse(refused.status, Body(title=title, fault=fault))
         return self._reply(got, session, path, answer, syntax)
 
-    def _enter(self, got: Received) -> Session | HttpReply:
+    def _enter(self, got: HttpRequest) -> Session | HttpResponse:
         """Log in; a reply says why not."""
         user = self._user(got)
         if user is None:
-            return HttpReply(401, (("WWW-Authenticate", self._challenge()),))
-        return self.sessions.begin(user) or HttpReply(503, (("Retry-After", "1"),))
+            return HttpResponse(401, (("WWW-Authenticate", self._challenge()),))
+        return self.sessions.begin(user) or HttpResponse(503, (("Retry-After", "1"),))
 
     def _challenge(self) -> str:
         if self.generation is not Generation.ONE:
@@ -125,7 +136,7 @@ class Desk:
             del self._nonces[next(iter(self._nonces))]
         return logging_in.challenge(nonce)
 
-    def _user(self, got: Received) -> str | None:
+    def _user(self, got: HttpRequest) -> str | None:
         """Who it is, by the Authorization header; None: nobody."""
         header = got.headers.get("authorization", "")
         if self.generation is not Generation.ONE:
@@ -138,7 +149,7 @@ class Desk:
             return None
         return sent.user
 
-    def _syntax(self, got: Received, path: str, query: dict[str, str]) -> Syntax | None:
+    def _syntax(self, got: HttpRequest, path: str, query: dict[str, str]) -> Syntax | None:
         """What the answer is to be written in; None: this client does not say."""
         found = wanted(self.generation, got.headers.get("accept", ""), query)
         if found is None and not self._strict:
@@ -149,23 +160,25 @@ class Desk:
 
     def _carry_out(
         self,
-        got: Received,
+        got: HttpRequest,
         session: Session,
         path: str,
         suffix: str,
         query: dict[str, str],
         syntax: Syntax | None,
-    ) -> Served:
+    ) -> RwsResponse:
         files = path.startswith("/fileservice")
         if syntax is None and not (files and got.method in ("GET", "HEAD", "PUT")):
-            raise Denied(406, "E_INVALIDARG", "cannot generate response for given accept header")
+            raise RequestDenied(
+                406, "E_INVALIDARG", "cannot generate response for given accept header"
+            )
         self._check_type(got, files)
         method = "GET" if got.method == "HEAD" else got.method
         found = find(self.generation, method, path, query)
         if found.handler is None:
             if found.allowed:
-                raise Denied(405, "E_INVALIDARG", f"{got.method} {path}")
-            raise Denied(404, "E_UNRESOLVED_URL", path)
+                raise RequestDenied(405, "E_INVALIDARG", f"{got.method} {path}")
+            raise RequestDenied(404, "E_UNRESOLVED_URL", path)
         self._check_grants(found.operation, session)
         form = got.method == "POST" or path.startswith("/subscription")
         asked = RwsRequest(
@@ -173,15 +186,15 @@ class Desk:
             self._form(got) if form else (), got.body,
             plain(got.headers.get("content-type", "")), got.headers.get("host", ""),
         )  # fmt: skip
-        return found.handler(self.office, asked) or Served()
+        return found.handler(self.office, asked) or RwsResponse()
 
     def _check_grants(self, operation: RwsOperation | None, session: Session) -> None:
         granted = self.office.login.granted(session.user)
         lacking = missing(operation, self.generation, granted) if operation else ()
         if lacking:
-            raise Denied(403, "E_UAS_REJECT", f"user lacks the grant {lacking[0]}", -757)
+            raise RequestDenied(403, "E_UAS_REJECT", f"user lacks the grant {lacking[0]}", -757)
 
-    def _check_type(self, got: Received, files: bool) -> None:
+    def _check_type(self, got: HttpRequest, files: bool) -> None:
         """406 for a request without the type that RWS 2.0 wants, 415 for a file of another."""
         if got.method in ("GET", "HEAD", "OPTIONS") or not self._strict:
             return
@@ -189,22 +202,22 @@ class Desk:
         if self.generation is Generation.ONE:
             # Nothing at all is let through: public clients send such requests [code: rwsuis].
             if got.method == "POST" and got.body and not sent.startswith(FORM):
-                raise Denied(415, "E_INVALIDARG", "a form is wanted")
+                raise RequestDenied(415, "E_INVALIDARG", "a form is wanted")
         elif files and got.method == "PUT":
             if sent not in FILE_TYPES:
-                raise Denied(415, "E_INVALIDARG", f"Content type {sent} is not supported")
+                raise RequestDenied(415, "E_INVALIDARG", f"Content type {sent} is not supported")
         elif sent != f"{FORM};v=2.0":
-            raise Denied(406, "E_INVALIDARG", "Content type is not supported")
+            raise RequestDenied(406, "E_INVALIDARG", "Content type is not supported")
 
-    def _form(self, got: Received) -> tuple[tuple[str, str], ...]:
+    def _form(self, got: HttpRequest) -> tuple[tuple[str, str], ...]:
         if len(got.body) > LARGEST_FORM:
-            raise Denied(413, "E_BUFFER_OVERFLOW", "the form is too large")
+            raise RequestDenied(413, "E_BUFFER_OVERFLOW", "the form is too large")
         try:
             return tuple(read_form(got.body))
         except UnicodeDecodeError as error:
-            raise Denied(400, "E_INVALIDARG", "no form") from error
+            raise RequestDenied(400, "E_INVALIDARG", "no form") from error
 
-    def _connection(self, got: Received, session: Session) -> str:
+    def _connection(self, got: HttpRequest, session: Session) -> str:
         """The cookie of a TCP connection, which leads to the session."""
         number = str(self._key + got.connection)
         if number not in self._connections:
@@ -213,8 +226,8 @@ class Desk:
         return number
 
     def _reply(
-        self, got: Received, session: Session, path: str, answer: Served, syntax: Syntax
-    ) -> HttpReply:
+        self, got: HttpRequest, session: Session, path: str, answer: RwsResponse, syntax: Syntax
+    ) -> HttpResponse:
         headers = [*answer.headers]
         headers.append(("Set-Cookie", f"{SESSION}={session.key}; path=/; httponly"))
         headers.append(
@@ -227,7 +240,7 @@ class Desk:
                 elif self.is_one and answer.status != 204:
                     # Also of an answer without a body [code: abb_robot_client].
                     headers.append(("Content-Type", CONTENT_TYPES[syntax]))
-            return HttpReply(answer.status, tuple(headers), answer.data or b"")
+            return HttpResponse(answer.status, tuple(headers), answer.data or b"")
         scheme = "http" if self.is_one else "https"
         base = f"{scheme}://{got.headers.get('host', '')}{path.rpartition('/')[0]}/"
         body = replace(answer.body, base=base, here=answer.body.here or path.rpartition("/")[2])
@@ -235,9 +248,9 @@ class Desk:
         if syntax == "xhtml" and self.generation is not Generation.ONE:
             kind += ";v=2.0"
         headers.append(("Content-Type", kind))
-        return HttpReply(answer.status, tuple(headers), WRITERS[syntax](body))
+        return HttpResponse(answer.status, tuple(headers), WRITERS[syntax](body))
 
 
-def _cookies(got: Received) -> dict[str, str]:
+def _cookies(got: HttpRequest) -> dict[str, str]:
     parts = (part.strip().partition("=") for part in got.headers.get("cookie", "").split(";"))
     return {name: value for name, _, value in parts if name}

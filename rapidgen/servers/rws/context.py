@@ -5,11 +5,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from rapidgen.controller.controller import VirtualController
-from rapidgen.controller.runner import Cabinet
+from rapidgen.controller.runner import ControllerRunner
 from rapidgen.machine.files import DiskFault
 from rapidgen.servers.rws.client_queues import ClientQueue
-from rapidgen.servers.rws.mastership import Masters
-from rapidgen.servers.rws.messages import Denied, Served
+from rapidgen.servers.rws.mastership import Masterships
+from rapidgen.servers.rws.messages import RequestDenied, RwsResponse
 from rapidgen.servers.rws.rmmp import ManualPrivilege
 from rapidgen.servers.rws.sessions import Session
 from rapidgen.servers.rws.subscriptions import Groups
@@ -30,7 +30,7 @@ class Accounts:
         return frozenset(GRANTS) - (self.denied if user == "Default User" else frozenset())
 
 
-class Office:
+class RwsContext:
     """State of one face beyond its sessions."""
 
     groups: Groups
@@ -41,7 +41,7 @@ class Office:
     """Who is logged in."""
 
     def __init__(
-        self, cabinet: Cabinet, generation: Generation, login: Accounts, *, strict: bool
+        self, cabinet: ControllerRunner, generation: Generation, login: Accounts, *, strict: bool
     ) -> None:
         self.cabinet = cabinet
         self.generation = generation
@@ -68,9 +68,11 @@ class Office:
         """The controller that runs now."""
         return self.cabinet.controller
 
-    def _new_masters(self) -> Masters:
+    def _new_masters(self) -> Masterships:
         manual = ManualPrivilege(lambda: self.controller, lambda: self.cabinet.now)
-        return Masters(self.generation, lambda: self.controller.mode, manual, strict=self.strict)
+        return Masterships(
+            self.generation, lambda: self.controller.mode, manual, strict=self.strict
+        )
 
     def restarted(self) -> None:
         """Nothing is held and nothing is under way any more."""
@@ -78,14 +80,14 @@ class Office:
         for state in (self.progress, self.dialogs, self.queues, self.chosen, self.led):
             state.clear()
 
-    def started(self, refused: str) -> Served:
+    def started(self, refused: str) -> RwsResponse:
         """The answer to a job that has come to its end already: refused by a code's name, or not.
 
         RWS 2.0, and a backup in RWS 1.0, answer 202 with the address of the end.
         """
         number = str(len(self.progress) + 1)
         self.progress[number] = CODES[refused] if refused else OK
-        return Served(202, headers=(("Location", f"/progress/{number}"),))
+        return RwsResponse(202, headers=(("Location", f"/progress/{number}"),))
 
     def write_file(self, path: Path, data: bytes) -> bool:
         """Write a file of the controller's disks; whether it is a new one. Denied."""
@@ -94,7 +96,7 @@ class Office:
             self.controller.files.spend(len(data))
             path.write_bytes(data)
         except DiskFault as fault:
-            raise Denied(507, "E_NOT_ENOUGH_SPACE", str(fault)) from fault
+            raise RequestDenied(507, "E_NOT_ENOUGH_SPACE", str(fault)) from fault
         except OSError as fault:
-            raise Denied(404, "E_DIR_NOT_EXIST", fault.strerror or "") from fault
+            raise RequestDenied(404, "E_DIR_NOT_EXIST", fault.strerror or "") from fault
         return new

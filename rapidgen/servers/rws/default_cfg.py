@@ -11,7 +11,7 @@ from rapidgen.system.base.factory_cfg import unit_group
 from rapidgen.system.cfg import Attribute, Instance, Scalar
 
 if TYPE_CHECKING:
-    from rapidgen.servers.rws.context import Office
+    from rapidgen.servers.rws.context import RwsContext
 
 DOMAINS = ("EIO", "MMC", "MOC", "PROC", "SIO", "SYS")
 """Domains of every controller."""
@@ -19,7 +19,7 @@ OPTIONS = ("616-1 PC Interface",)
 """What is installed."""
 
 
-def built_in(office: "Office") -> dict[tuple[str, str], tuple[Instance, ...]]:
+def built_in(office: "RwsContext") -> dict[tuple[str, str], tuple[Instance, ...]]:
     """Instances by domain and type."""
     groups = [g for g in office.controller.motion.groups.values() if g.config.mechanical_unit]
     joints = [row for group in groups for row in _joints(group)]

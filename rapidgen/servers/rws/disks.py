@@ -4,15 +4,15 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rapidgen.machine.files import DiskFault
-from rapidgen.servers.rws.messages import Denied, RwsRequest
+from rapidgen.servers.rws.messages import RequestDenied, RwsRequest
 
 if TYPE_CHECKING:
-    from rapidgen.servers.rws.context import Office
+    from rapidgen.servers.rws.context import RwsContext
 
 VOLUMES = ("HOME", "TEMP", "BACKUP", "RAMDISK")
 
 
-def disk_path(office: "Office", words: str, asked: RwsRequest) -> Path:
+def disk_path(office: "RwsContext", words: str, asked: RwsRequest) -> Path:
     """Where `$HOME/a`, `HOME/a`, `HOME:/a` or `/fileservice/...` of these lies.
 
     Denied: it names no volume, or leads out of one.
@@ -26,9 +26,9 @@ def disk_path(office: "Office", words: str, asked: RwsRequest) -> Path:
     if name not in VOLUMES:
         # RobotWare 6 and 7 differ here [VC 6.16, VC 7.21].
         if asked.is_one:
-            raise Denied(404, "E_FAIL", f"no volume {first}")
-        raise Denied(400, "E_INVALID_PATH", f"no volume {first}")
+            raise RequestDenied(404, "E_FAIL", f"no volume {first}")
+        raise RequestDenied(400, "E_INVALID_PATH", f"no volume {first}")
     try:
         return office.controller.files.path(f"{name}:{rest}")
     except DiskFault as fault:
-        raise Denied(400, "E_INVALID_PATH", str(fault)) from fault
+        raise RequestDenied(400, "E_INVALID_PATH", str(fault)) from fault

@@ -19,17 +19,17 @@ from rapidgen.servers.rws.handlers import (
     symbols,
     tasks,
 )
-from rapidgen.servers.rws.messages import Denied, RwsRequest
-from rapidgen.servers.rws.subscriptions import Told, Watched
+from rapidgen.servers.rws.messages import RequestDenied, RwsRequest
+from rapidgen.servers.rws.subscriptions import EventSource, Notify
 from rapidgen.wire.rws.bodies import Item
 from rapidgen.wire.rws.events import WantedResource
 from rapidgen.wire.rws.operations import SYMBOL
 
 if TYPE_CHECKING:
-    from rapidgen.servers.rws.context import Office
+    from rapidgen.servers.rws.context import RwsContext
 
 
-def watched(office: "Office", asked: RwsRequest, wanted: WantedResource) -> Watched:
+def watched(office: "RwsContext", asked: RwsRequest, wanted: WantedResource) -> EventSource:
     """The resource of a text such as `/rw/panel/ctrlstate`. Denied: nothing of the kind."""
     path, _, suffix = wanted.resource.partition(";")
     path = unquote(path).rstrip("/")
@@ -37,16 +37,16 @@ def watched(office: "Office", asked: RwsRequest, wanted: WantedResource) -> Watc
         match = re.fullmatch(pattern, path)
         if match is not None:
             return make(office, asked, wanted.resource, suffix, match)
-    raise Denied(400, "E_INVALIDARG", f"cannot be subscribed: {wanted.resource}")
+    raise RequestDenied(400, "E_INVALIDARG", f"cannot be subscribed: {wanted.resource}")
 
 
-_Make = Callable[["Office", RwsRequest, str, str, re.Match[str]], Watched]
+_Make = Callable[["RwsContext", RwsRequest, str, str, re.Match[str]], EventSource]
 
 
-def _on(wait: WaitSet, now: Callable[[], object], item: Callable[[], Item]) -> Watched:
+def _on(wait: WaitSet, now: Callable[[], object], item: Callable[[], Item]) -> EventSource:
     """Watched through a WaitSet; told only when `now()` has another value."""
 
-    def watch(told: Told) -> Callable[[], None]:
+    def watch(told: Notify) -> Callable[[], None]:
         last = now()
 
         def look() -> None:
@@ -58,15 +58,15 @@ def _on(wait: WaitSet, now: Callable[[], object], item: Callable[[], Item]) -> W
         wait.add(look)
         return lambda: wait.remove(look)
 
-    return Watched(item, watch)
+    return EventSource(item, watch)
 
 
-def _panel(kind: str, name: str, read: Callable[["Office"], str]) -> _Make:
+def _panel(kind: str, name: str, read: Callable[["RwsContext"], str]) -> _Make:
     def make(
-        office: "Office", _a: RwsRequest, text: str, suffix: str, _m: re.Match[str]
-    ) -> Watched:
+        office: "RwsContext", _a: RwsRequest, text: str, suffix: str, _m: re.Match[str]
+    ) -> EventSource:
         if suffix not in ("", name):
-            raise Denied(400, "E_INVALIDARG", f"cannot be subscribed: {text}")
+            raise RequestDenied(400, "E_INVALIDARG", f"cannot be subscribed: {text}")
         href = text.partition(";")[0]
 
         def item() -> Item:
@@ -78,11 +78,11 @@ def _panel(kind: str, name: str, read: Callable[["Office"], str]) -> _Make:
 
 
 def _execution(
-    office: "Office", _asked: RwsRequest, text: str, suffix: str, _m: re.Match[str]
-) -> Watched:
+    office: "RwsContext", _asked: RwsRequest, text: str, suffix: str, _m: re.Match[str]
+) -> EventSource:
     kinds = {"ctrlexecstate": "rap-ctrlexecstate-ev", "rapidexeccycle": "rap-execcycle-ev"}
     if suffix not in kinds:
-        raise Denied(400, "E_INVALIDARG", f"cannot be subscribed: {text}")
+        raise RequestDenied(400, "E_INVALIDARG", f"cannot be subscribed: {text}")
 
     def read() -> str:
         c = office.controller
@@ -94,7 +94,9 @@ def _execution(
     return _on(office.controller.operation.changed, read, item)
 
 
-def _task(office: "Office", asked: RwsRequest, text: str, suffix: str, m: re.Match[str]) -> Watched:
+def _task(
+    office: "RwsContext", asked: RwsRequest, text: str, suffix: str, m: re.Match[str]
+) -> EventSource:
     task, programs = tasks.find_task(office, m["task"], asked), office.cabinet.programs
     if suffix == "taskchange":
 
@@ -106,7 +108,7 @@ def _task(office: "Office", asked: RwsRequest, text: str, suffix: str, m: re.Mat
 
         return _on(programs.changed, lambda: programs.changes[task.name], change)
     if suffix != "excstate":
-        raise Denied(400, "E_INVALIDARG", f"cannot be subscribed: {text}")
+        raise RequestDenied(400, "E_INVALIDARG", f"cannot be subscribed: {text}")
 
     def item() -> Item:
         told = {"task-name": task.name, "pgmtaskexec-state": tasks.execution_state(task, asked)}
@@ -116,11 +118,11 @@ def _task(office: "Office", asked: RwsRequest, text: str, suffix: str, m: re.Mat
 
 
 def _tasks(
-    office: "Office", _asked: RwsRequest, text: str, suffix: str, _m: re.Match[str]
-) -> Watched:
+    office: "RwsContext", _asked: RwsRequest, text: str, suffix: str, _m: re.Match[str]
+) -> EventSource:
     programs = office.cabinet.programs
     if suffix != "buildlogchange":
-        raise Denied(400, "E_INVALIDARG", f"cannot be subscribed: {text}")
+        raise RequestDenied(400, "E_INVALIDARG", f"cannot be subscribed: {text}")
 
     def item() -> Item:
         count = str(sum(programs.changes.values()))
@@ -135,11 +137,11 @@ _POINTERS = {
 
 
 def _pointer(
-    office: "Office", asked: RwsRequest, text: str, suffix: str, m: re.Match[str]
-) -> Watched:
+    office: "RwsContext", asked: RwsRequest, text: str, suffix: str, m: re.Match[str]
+) -> EventSource:
     task = tasks.find_task(office, m["task"], asked)
     if suffix not in _POINTERS:
-        raise Denied(400, "E_INVALIDARG", f"cannot be subscribed: {text}")
+        raise RequestDenied(400, "E_INVALIDARG", f"cannot be subscribed: {text}")
     kind, title = _POINTERS[suffix]
 
     def item() -> Item:
@@ -159,13 +161,13 @@ def _pointer(
 
 
 def _dialog(
-    office: "Office", _asked: RwsRequest, text: str, suffix: str, _m: re.Match[str]
-) -> Watched:
+    office: "RwsContext", _asked: RwsRequest, text: str, suffix: str, _m: re.Match[str]
+) -> EventSource:
     operator = office.controller.operator
     if suffix != "uievent":
-        raise Denied(400, "E_INVALIDARG", f"cannot be subscribed: {text}")
+        raise RequestDenied(400, "E_INVALIDARG", f"cannot be subscribed: {text}")
 
-    def watch(told: Told) -> Callable[[], None]:
+    def watch(told: Notify) -> Callable[[], None]:
         seen = {q.number: q for q in operator.questions if q.task}
 
         def look() -> None:
@@ -191,17 +193,17 @@ def _dialog(
         no_more = operator.subscribe(written)
         return end
 
-    return Watched(lambda: Item("rap-ui-ev"), watch, has_state=False)
+    return EventSource(lambda: Item("rap-ui-ev"), watch, has_state=False)
 
 
 def _queue(
-    office: "Office", _asked: RwsRequest, text: str, suffix: str, m: re.Match[str]
-) -> Watched:
+    office: "RwsContext", _asked: RwsRequest, text: str, suffix: str, m: re.Match[str]
+) -> EventSource:
     queue = queues.find(office, m["queue"])
     if suffix not in ("", "nomessage"):
-        raise Denied(400, "E_INVALIDARG", f"cannot be subscribed: {text}")
+        raise RequestDenied(400, "E_INVALIDARG", f"cannot be subscribed: {text}")
 
-    def watch(told: Told) -> Callable[[], None]:
+    def watch(told: Notify) -> Callable[[], None]:
         def look() -> None:
             if suffix:
                 told(Item("dipc-msg-ev", "msg", {}, {"self": text}))
@@ -212,15 +214,15 @@ def _queue(
         queue.queue.changed.add(look)
         return lambda: queue.queue.changed.remove(look)
 
-    return Watched(lambda: Item("dipc-msg-ev"), watch, has_state=False)
+    return EventSource(lambda: Item("dipc-msg-ev"), watch, has_state=False)
 
 
 def _mastership(
-    office: "Office", _asked: RwsRequest, text: str, _suffix: str, m: re.Match[str]
-) -> Watched:
+    office: "RwsContext", _asked: RwsRequest, text: str, _suffix: str, m: re.Match[str]
+) -> EventSource:
     masters, domain = office.masters, m["domain"]
     if domain not in masters.domains:
-        raise Denied(400, "E_INVALIDARG", f"cannot be subscribed: {text}")
+        raise RequestDenied(400, "E_INVALIDARG", f"cannot be subscribed: {text}")
 
     def item() -> Item:
         holder = masters.holders.get(domain)
@@ -237,36 +239,38 @@ def _mastership(
     return _on(masters.changed, lambda: masters.holders.get(domain), item)
 
 
-def _signal(office: "Office", _a: RwsRequest, text: str, suffix: str, m: re.Match[str]) -> Watched:
+def _signal(
+    office: "RwsContext", _a: RwsRequest, text: str, suffix: str, m: re.Match[str]
+) -> EventSource:
     if suffix != "state":
-        raise Denied(400, "E_INVALIDARG", f"cannot be subscribed: {text}")
+        raise RequestDenied(400, "E_INVALIDARG", f"cannot be subscribed: {text}")
     signal = signals.find(office, m["signal"])
 
     def item() -> Item:
         told = {"lvalue": signals.value_of(signal), "lstate": "not simulated"}
         return Item("ios-signalstate-ev", signal.name, told, {"self": text})
 
-    def watch(told: Told) -> Callable[[], None]:
+    def watch(told: Notify) -> Callable[[], None]:
         def look() -> None:
             told(None)
 
         signal.changed.add(look)
         return lambda: signal.changed.remove(look)
 
-    return Watched(item, watch, fast=True)
+    return EventSource(item, watch, fast=True)
 
 
 def _symbol(
-    office: "Office", asked: RwsRequest, text: str, suffix: str, m: re.Match[str]
-) -> Watched:
+    office: "RwsContext", asked: RwsRequest, text: str, suffix: str, m: re.Match[str]
+) -> EventSource:
     route = SYMBOL.route(asked.generation)
     assert route is not None
     if suffix != "value":
-        raise Denied(400, "E_INVALIDARG", f"cannot be subscribed: {text}")
+        raise RequestDenied(400, "E_INVALIDARG", f"cannot be subscribed: {text}")
     found = symbols.find(office, m["symbol"], asked)
     cell = found.task.cell(found.name)
     if not isinstance(cell, PersistentCell) or cell.cell is None:
-        raise Denied(400, "E_INVALIDARG", f"no persistent: {text}")
+        raise RequestDenied(400, "E_INVALIDARG", f"no persistent: {text}")
     # RWS 2.0 gives the address without what follows the semicolon [code: App SDK].
     href = text if asked.is_one else text.partition(";")[0]
 
@@ -274,31 +278,33 @@ def _symbol(
         value = literal_text(found.value, found.type)
         return Item("rap-value-ev", found.name, {"value": value}, {"self": href})
 
-    def watch(told: Told) -> Callable[[], None]:
+    def watch(told: Notify) -> Callable[[], None]:
         def look() -> None:
             told(None)
 
         cell.add(look)
         return lambda: cell.remove(look)
 
-    return Watched(item, watch, fast=True)
+    return EventSource(item, watch, fast=True)
 
 
-def _elog(office: "Office", _a: RwsRequest, text: str, _suffix: str, m: re.Match[str]) -> Watched:
+def _elog(
+    office: "RwsContext", _a: RwsRequest, text: str, _suffix: str, m: re.Match[str]
+) -> EventSource:
     domain = int(m["domain"])
 
     def event_item(event: Event) -> Item:
         href = f"/rw/elog/{domain}/{event.sequence}"
         return Item("elog-message-ev", href, {"seqnum": str(event.sequence)}, {"self": href})
 
-    def watch(told: Told) -> Callable[[], None]:
+    def watch(told: Notify) -> Callable[[], None]:
         def take(event: Event) -> None:
             if domain in (0, int(event.domain)):
                 told(event_item(event))
 
         return office.controller.log.subscribe(take)
 
-    return Watched(lambda: Item("elog-message-ev"), watch, has_state=False)
+    return EventSource(lambda: Item("elog-message-ev"), watch, has_state=False)
 
 
 _KINDS: tuple[tuple[str, _Make], ...] = (

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from typing import Literal
 
 from rapidgen.machine.scheduler import WaitSet
-from rapidgen.servers.rws.messages import Denied, RwsRequest
+from rapidgen.servers.rws.messages import RequestDenied, RwsRequest
 from rapidgen.servers.rws.rmmp import ManualPrivilege, Privilege
 from rapidgen.servers.rws.sessions import Session
 from rapidgen.wire.rws.bodies import Generation
@@ -16,7 +16,7 @@ from rapidgen.wire.rws.bodies import Generation
 Domain = Literal["cfg", "motion", "rapid"]
 
 
-class Masters:
+class Masterships:
     """Mastership of one face."""
 
     def __init__(
@@ -56,13 +56,15 @@ class Masters:
             self.changed.notify()
             session.on_end.append(lambda: self._drop(domain, session))
         elif holder is not session:
-            raise Denied(403, "E_RESOURCE_HELD", f"mastership of {domain} is held", -1)
+            raise RequestDenied(403, "E_RESOURCE_HELD", f"mastership of {domain} is held", -1)
 
     def release(self, session: Session, domain: str) -> None:
         """Give a domain back. Denied: this session does not have it."""
         self._check(domain)
         if self.holders.get(domain) is not session:
-            raise Denied(403, "E_RESOURCE_NOT_HELD", f"mastership of {domain} is not held", -1)
+            raise RequestDenied(
+                403, "E_RESOURCE_NOT_HELD", f"mastership of {domain} is not held", -1
+            )
         del self.holders[domain]
         self.changed.notify()
 
@@ -73,7 +75,7 @@ class Masters:
 
     def _check(self, domain: str) -> None:
         if domain not in self.domains:
-            raise Denied(404, "E_UNRESOLVED_URL", f"no domain {domain}")
+            raise RequestDenied(404, "E_UNRESOLVED_URL", f"no domain {domain}")
 
     def need(self, asked: RwsRequest, domain: Domain, *, by_itself: bool = False) -> None:
         """What this request does takes mastership. Denied: the session does not have it.
@@ -83,17 +85,17 @@ class Masters:
         self.need_mode(asked.session)
         if self._generation is Generation.EIGHT:
             if not asked.session.station or asked.session.station != self.station:
-                raise Denied(403, "E_NO_WRITE_ACCESS", "session does not have SPoC", -20_107)
+                raise RequestDenied(403, "E_NO_WRITE_ACCESS", "session does not have SPoC", -20_107)
             return
         name = domain if self._generation is Generation.ONE else "edit"
         holder = self.holders.get(name)
         if holder is asked.session:
             return
         if holder is not None:
-            raise Denied(403, "E_RESOURCE_HELD", f"mastership of {name} is held", -1)
+            raise RequestDenied(403, "E_RESOURCE_HELD", f"mastership of {name} is held", -1)
         implicit = by_itself or asked.query.get("mastership") == "implicit"
         if not implicit and self._strict:
-            raise Denied(403, "E_MASTER_REJECT", f"mastership of {name} is missing", -4_501)
+            raise RequestDenied(403, "E_MASTER_REJECT", f"mastership of {name} is missing", -4_501)
 
     @property
     def is_editing(self) -> bool:
@@ -104,11 +106,13 @@ class Masters:
         """Who is remote writes in automatic mode, or in manual mode where that was granted."""
         if self._mode() == "auto" or not self._strict or self.manual.has(session, privilege):
             return
-        raise Denied(403, "E_MODE_REJECT", "neither automatic mode nor RMMP", -4_502)
+        raise RequestDenied(403, "E_MODE_REJECT", "neither automatic mode nor RMMP", -4_502)
 
     def need_start(self, asked: RwsRequest) -> None:
         """A start: on RobotWare 8 with write access, and motion allowed [real 8.1.0]."""
         if self._generation is Generation.EIGHT:
             self.need(asked, "rapid")
             if not self.motion_allowed:
-                raise Denied(403, "E_NO_WRITE_ACCESS", "motion control is not allowed", -20_107)
+                raise RequestDenied(
+                    403, "E_NO_WRITE_ACCESS", "motion control is not allowed", -20_107
+                )

@@ -9,7 +9,7 @@ from rapidgen.wire.rws.codes import CODES
 
 
 @dataclass(frozen=True, slots=True)
-class Received:
+class HttpRequest:
     """A request as it came. `connection` numbers the TCP connection that it came over.
 
     Names of headers are in lower case.
@@ -23,7 +23,7 @@ class Received:
 
 
 @dataclass(frozen=True, slots=True)
-class HttpReply:
+class HttpResponse:
     """An answer as it goes out. Several headers may have one name (cookies)."""
 
     status: int
@@ -64,7 +64,7 @@ class RwsRequest:
         """A field that has to be there. Denied: it is not, or is none of the choices."""
         value = self.form.get(name)
         if value is None or (choices and value not in choices):
-            raise Denied(400, "E_INVALIDARG", f"{name}: {value}")
+            raise RequestDenied(400, "E_INVALIDARG", f"{name}: {value}")
         return value
 
     def kind(self, one: str, two: str) -> str:
@@ -73,7 +73,7 @@ class RwsRequest:
 
 
 @dataclass(frozen=True, slots=True)
-class Served:
+class RwsResponse:
     """What a handler gives: a body, bytes of a file, or nothing (204)."""
 
     status: int = 204
@@ -82,7 +82,7 @@ class Served:
     headers: tuple[tuple[str, str], ...] = ()
 
 
-class Denied(Exception):
+class RequestDenied(Exception):
     """A request is refused with ABB's code; `icode` is a hint behind the words."""
 
     def __init__(self, status: int, name: str, text: str = "", icode: int = -1) -> None:
@@ -102,10 +102,12 @@ def whole(name: str, text: str, least: int = 0, most: int = 999_999_999) -> int:
     """A whole number of a request. Denied: it is none, or is out of its range."""
     if text.isdecimal() and len(text) < 10 and least <= int(text) <= most:
         return int(text)
-    raise Denied(400, "E_INVALIDARG", f"{name}: {text}")
+    raise RequestDenied(400, "E_INVALIDARG", f"{name}: {text}")
 
 
-def show(*items: Item, title: str = "rw", collection: bool = False, following: str = "") -> Served:
+def show(
+    *items: Item, title: str = "rw", collection: bool = False, following: str = ""
+) -> RwsResponse:
     """An answer with these items."""
     body = Body(items, title=title, collection=collection, next=following)
-    return Served(200, body)
+    return RwsResponse(200, body)

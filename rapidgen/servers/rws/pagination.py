@@ -2,22 +2,22 @@
 
 from collections.abc import Sequence
 
-from rapidgen.servers.rws.messages import Denied, RwsRequest, Served, show
+from rapidgen.servers.rws.messages import RequestDenied, RwsRequest, RwsResponse, show
 from rapidgen.wire.rws.bodies import Item
 
 
 def page(
     asked: RwsRequest, items: Sequence[Item], most: int, name: str, *, always: bool = False
-) -> Served:
+) -> RwsResponse:
     """The asked page of items, at most `most`; `always`: RWS 1.0 cuts them, too."""
     if asked.is_one and not always:
         return show(*items, collection=True)
     try:
         start, limit = (int(asked.query.get(k, str(d))) for k, d in (("start", 0), ("limit", most)))
     except ValueError as error:
-        raise Denied(400, "E_INVALIDARG", "start or limit") from error
+        raise RequestDenied(400, "E_INVALIDARG", "start or limit") from error
     if start < 0 or limit < 1:
-        raise Denied(400, "E_INVALIDARG", "start or limit")
+        raise RequestDenied(400, "E_INVALIDARG", "start or limit")
     limit = min(limit, most)
     end = start + limit
     following = f"{name}?start={end}&limit={limit}" if end < len(items) else ""

@@ -6,14 +6,14 @@ from dataclasses import dataclass
 from functools import cache
 from typing import TYPE_CHECKING
 
-from rapidgen.servers.rws.messages import RwsRequest, Served
+from rapidgen.servers.rws.messages import RwsRequest, RwsResponse
 from rapidgen.wire.rws.bodies import Generation
 from rapidgen.wire.rws.operations import Route, RwsOperation
 
 if TYPE_CHECKING:
-    from rapidgen.servers.rws.context import Office
+    from rapidgen.servers.rws.context import RwsContext
 
-Handler = Callable[["Office", RwsRequest], Served | None]
+Handler = Callable[["RwsContext", RwsRequest], RwsResponse | None]
 _TABLE: list[tuple[RwsOperation, Handler]] = []
 
 
@@ -41,7 +41,7 @@ class _Row:
 
 
 @dataclass(frozen=True, slots=True)
-class Lookup:
+class RouteMatch:
     """What a path leads to: a handler and its operation, or the methods that there would be."""
 
     handler: Handler | None
@@ -63,7 +63,7 @@ def _vagueness(row: _Row) -> tuple[int, bool, int, bool]:
     return path.count("{"), "*" in path, -len(path), not row.route.selector
 
 
-def find(generation: Generation, method: str, path: str, query: Mapping[str, str]) -> Lookup:
+def find(generation: Generation, method: str, path: str, query: Mapping[str, str]) -> RouteMatch:
     """The handler of a request. With none, `allowed` empty is 404, else 405."""
     action = f"action={query['action']}" if query.get("action") else ""
     asked = (action,) if action else (f"resource={query.get('resource', '')}", "")
@@ -73,6 +73,6 @@ def find(generation: Generation, method: str, path: str, query: Mapping[str, str
         if match is None:
             continue
         if row.route.method == method and row.route.selector in asked:
-            return Lookup(row.handler, match.groupdict(), operation=row.operation)
+            return RouteMatch(row.handler, match.groupdict(), operation=row.operation)
         allowed.append(row.route.method)
-    return Lookup(None, {}, tuple(dict.fromkeys(allowed)))
+    return RouteMatch(None, {}, tuple(dict.fromkeys(allowed)))

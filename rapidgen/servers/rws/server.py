@@ -10,12 +10,12 @@ from itertools import count
 
 from aiohttp import WSCloseCode, WSMsgType, web
 
-from rapidgen.controller.runner import Cabinet
+from rapidgen.controller.runner import ControllerRunner
 from rapidgen.servers.aiohttp_thread import WebThread
-from rapidgen.servers.rws.application import Desk
+from rapidgen.servers.rws.application import RwsApplication
 from rapidgen.servers.rws.certificate import Certificate, self_signed
 from rapidgen.servers.rws.context import Accounts
-from rapidgen.servers.rws.messages import Denied, HttpReply, Received
+from rapidgen.servers.rws.messages import HttpRequest, HttpResponse, RequestDenied
 from rapidgen.servers.service import Service, in_use, loopback
 from rapidgen.wire.rws.bodies import Generation
 from rapidgen.wire.rws.events import PROTOCOLS
@@ -25,13 +25,13 @@ _LOG = logging.getLogger("rapidgen.servers")
 KNOWN = "robotics"
 """The password that controllers are delivered with."""
 LARGEST_BODY = 64 * 1024 * 1024
-_RESTARTING = HttpReply(503, (("Retry-After", "1"),))
+_RESTARTING = HttpResponse(503, (("Retry-After", "1"),))
 _UNREAD = 1000
 """Events that may wait for a client that does not read."""
 
 
 def serve_rws(
-    cabinet: Cabinet,
+    cabinet: ControllerRunner,
     generation: Generation,
     host: str = "127.0.0.1",
     port: int = 0,
@@ -48,7 +48,7 @@ def serve_rws(
         host = loopback(host)
     accounts = accounts or Accounts({"Default User": KNOWN, "Admin": KNOWN})
     certificate = None if generation is Generation.ONE else self_signed(host)
-    server = _Server(Desk(cabinet, generation, accounts, strict=strict), certificate)
+    server = _Server(RwsApplication(cabinet, generation, accounts, strict=strict), certificate)
     server.start(host, port)
     user, password = next(iter(accounts.users.items()))
     fingerprint = certificate.fingerprint if certificate else ""
@@ -58,12 +58,12 @@ def serve_rws(
 class _Server:
     """One port, and the thread with its loop."""
 
-    def __init__(self, desk: Desk, certificate: Certificate | None) -> None:
+    def __init__(self, desk: RwsApplication, certificate: Certificate | None) -> None:
         self._desk = desk
         self._certificate = certificate
         self._connections = count(1)
         self._numbers: dict[asyncio.BaseTransport, int] = {}
-        self._pending: set[asyncio.Future[HttpReply]] = set()
+        self._pending: set[asyncio.Future[HttpResponse]] = set()
         self._thread = WebThread(self._app())
         desk.office.cabinet.on_restart.append(self._restarting)
 
@@ -117,7 +117,7 @@ class _Server:
         _LOG.debug("%s %s: %d", request.method, request.path, reply.status)
         return _response(reply)
 
-    def _received(self, request: web.Request, body: bytes = b"") -> Received:
+    def _received(self, request: web.Request, body: bytes = b"") -> HttpRequest:
         transport = request.transport
         number = 0
         if transport is not None:
@@ -126,18 +126,18 @@ class _Server:
             for gone in [t for t in self._numbers if t.is_closing()]:
                 del self._numbers[gone]
         headers = {name.lower(): value for name, value in request.headers.items()}
-        return Received(request.method, request.raw_path, headers, body, number)
+        return HttpRequest(request.method, request.raw_path, headers, body, number)
 
-    async def _on_controller(self, function: Callable[[], HttpReply]) -> HttpReply:
+    async def _on_controller(self, function: Callable[[], HttpResponse]) -> HttpResponse:
         """The outcome of a function on the controller's thread; 503 while it restarts."""
-        future: asyncio.Future[HttpReply] = self._thread.loop.create_future()
+        future: asyncio.Future[HttpResponse] = self._thread.loop.create_future()
 
-        def settle(reply: HttpReply) -> None:
+        def settle(reply: HttpResponse) -> None:
             if not future.done():
                 future.set_result(reply)
 
         def run() -> None:
-            reply = HttpReply(500)
+            reply = HttpResponse(500)
             try:
                 reply = function()
             finally:
@@ -165,16 +165,16 @@ class _Server:
         def send(event: bytes | None) -> None:
             self._thread.soon(lambda: events.put_nowait(event))
 
-        def listen() -> HttpReply:
+        def listen() -> HttpResponse:
             session = self._desk.session_of(got)
             if session is None:
-                return HttpReply(403)
+                return HttpResponse(403)
             try:
                 group = self._desk.groups.find(number, session)
                 self._desk.groups.listen(group, send, lambda: send(None))
-            except Denied as refused:
-                return HttpReply(refused.status)
-            return HttpReply(101)
+            except RequestDenied as refused:
+                return HttpResponse(refused.status)
+            return HttpResponse(101)
 
         reply = await self._on_controller(listen)
         if reply.status != 101:
@@ -215,7 +215,7 @@ class _Server:
         return WSCloseCode.OK
 
 
-def _response(reply: HttpReply) -> web.Response:
+def _response(reply: HttpResponse) -> web.Response:
     response = web.Response(status=reply.status, body=reply.body or None)
     for name, value in reply.headers:
         response.headers.add(name, value)

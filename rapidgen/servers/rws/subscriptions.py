@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 
 from rapidgen.machine.scheduler import Scheduler, Timer
-from rapidgen.servers.rws.messages import Denied, RwsRequest
+from rapidgen.servers.rws.messages import RequestDenied, RwsRequest
 from rapidgen.servers.rws.sessions import Session
 from rapidgen.wire.rws.bodies import Generation, Item
 from rapidgen.wire.rws.events import WantedResource, write_events
@@ -20,16 +20,16 @@ MOST_SOCKETS = 19
 Send = Callable[[bytes], None]
 
 
-Told = Callable[[Item | None], None]
+Notify = Callable[[Item | None], None]
 """Told that something changed; with the event where only that one knows it."""
 
 
 @dataclass(frozen=True, slots=True)
-class Watched:
+class EventSource:
     """One resource: `item()` is its event now, `watch(told)` begins to watch and gives the end."""
 
     item: Callable[[], Item]
-    watch: Callable[[Told], Callable[[], None]]
+    watch: Callable[[Notify], Callable[[], None]]
     fast: bool = False
     has_state: bool = True
 
@@ -39,7 +39,7 @@ class _Watch:
     """One resource of a group."""
 
     wanted: WantedResource
-    seen: Watched
+    seen: EventSource
     timer: Timer | None = None
     end: Callable[[], None] = lambda: None
 
@@ -66,7 +66,7 @@ class Groups:
         self,
         generation: Generation,
         scheduler: Callable[[], Scheduler],
-        watched: Callable[[RwsRequest, WantedResource], Watched],
+        watched: Callable[[RwsRequest, WantedResource], EventSource],
     ) -> None:
         """`watched` finds a resource, or refuses it."""
         self._generation = generation
@@ -79,7 +79,7 @@ class Groups:
         """A group of a session. Denied: it has none of that number."""
         group = self._groups.get(number)
         if group is None or group.session is not session:
-            raise Denied(404, "E_UNRESOLVED_URL", f"no subscription {number}")
+            raise RequestDenied(404, "E_UNRESOLVED_URL", f"no subscription {number}")
         return group
 
     def of(self, session: Session) -> list[EventGroup]:
@@ -89,7 +89,7 @@ class Groups:
     def begin(self, asked: RwsRequest, wanted: Iterable[WantedResource]) -> EventGroup:
         """A new group. Denied: too many, or something that cannot be watched."""
         if len(self.of(asked.session)) >= MOST_GROUPS:
-            raise Denied(503, "E_MAX_LIMIT_REACHED", "two groups are the most")
+            raise RequestDenied(503, "E_MAX_LIMIT_REACHED", "two groups are the most")
         self._made += 1
         group = EventGroup(self._made, asked.session)
         self.add(asked, group, wanted)
@@ -103,9 +103,9 @@ class Groups:
         every = [*group.watches, *found]
         high = sum(w.wanted.priority == 2 for w in every)
         if len(every) > MOST_RESOURCES or high > MOST_HIGH:
-            raise Denied(503, "E_MAX_LIMIT_REACHED", "too many resources")
+            raise RequestDenied(503, "E_MAX_LIMIT_REACHED", "too many resources")
         if any(w.wanted.priority == 2 and not w.seen.fast for w in found):
-            raise Denied(400, "E_INVALIDARG", "high priority is for signals and persistents")
+            raise RequestDenied(400, "E_INVALIDARG", "high priority is for signals and persistents")
         for watch in found:
             group.watches.append(watch)
             watch.end = watch.seen.watch(self._changed(group, watch))
@@ -119,7 +119,7 @@ class Groups:
                 if not group.watches:
                     self.end(group)
                 return
-        raise Denied(400, "E_INVALIDARG", f"no resource {resource}")
+        raise RequestDenied(400, "E_INVALIDARG", f"no resource {resource}")
 
     def initial(self, group: EventGroup) -> list[Item]:
         """What everything of a group is now."""
@@ -149,10 +149,10 @@ class Groups:
     def listen(self, group: EventGroup, send: Send, hang_up: Callable[[], None]) -> None:
         """Somebody listens from now on. Denied: RWS 2.0 gives a poll URL once."""
         if group.spent and self._generation is not Generation.ONE:
-            raise Denied(404, "E_UNRESOLVED_URL", "used already")
+            raise RequestDenied(404, "E_UNRESOLVED_URL", "used already")
         listening = sum(g.send is not None for g in self._groups.values())
         if listening >= MOST_SOCKETS:
-            raise Denied(503, "E_MAX_LIMIT_REACHED", "19 websockets are the most")
+            raise RequestDenied(503, "E_MAX_LIMIT_REACHED", "19 websockets are the most")
         group.send, group.hang_up, group.spent = send, hang_up, True
         for item in group.waiting:
             self._tell(group, item)

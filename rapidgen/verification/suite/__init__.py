@@ -1,6 +1,6 @@
 """The behaviours that a generated driver must have: one file a theme."""
 
-from rapidgen.verification.case import Behaviour, Theme
+from rapidgen.verification.case import SuiteCase, SuiteGroup
 from rapidgen.verification.suite import (
     batch_encoding,
     batches,
@@ -56,7 +56,7 @@ from rapidgen.verification.suite import (
     user_routines,
 )
 
-CASES: tuple[Behaviour, ...] = tuple(
+CASES: tuple[SuiteCase, ...] = tuple(
     behaviour
     for module in (
         ros_industrial,
@@ -113,6 +113,6 @@ CASES: tuple[Behaviour, ...] = tuple(
         tcp_speed_limit,
     )
     for theme in vars(module).values()
-    if isinstance(theme, Theme)
+    if isinstance(theme, SuiteGroup)
     for behaviour in theme.cases
 )

@@ -4,15 +4,15 @@ import random
 import struct
 
 from rapidgen.verification import batches, messages
-from rapidgen.verification.case import Theme
+from rapidgen.verification.case import SuiteGroup
 from rapidgen.verification.messages import RawComm, RawReason, RawTrajectoryState
-from rapidgen.verification.model import Broken
+from rapidgen.verification.model import CheckFailed
 from rapidgen.verification.position_checks import distance
 from rapidgen.verification.stream import BEGIN, END, NONE, Streamer
 from rapidgen.verification.suite.streams import way
 from rapidgen.verification.testbench import Bench
 
-case = Theme("streaming", needs="stream")
+case = SuiteGroup("streaming", needs="stream")
 
 
 @case("batch-pieces", "a stream in pieces of every size", "R2")
@@ -31,7 +31,7 @@ def _in_pieces(bench: Bench) -> None:
         for count in (15, 24):
             stream.reply()
             if stream.accepted(f"in pieces of {size} bytes").accepted != count:
-                raise Broken(f"{count} points in pieces of {size} bytes: {stream.last}")
+                raise CheckFailed(f"{count} points in pieces of {size} bytes: {stream.last}")
         bench.arrives(points, since, 10)
 
 
@@ -45,14 +45,14 @@ def _as_topics(bench: Bench) -> None:
     bench.wait_until_at(points[-1][0], 20)
     bench.run(1 + 2 * bench.config.state_period)
     if link.read():
-        raise Broken("batches as topics were answered")
+        raise CheckFailed("batches as topics were answered")
     progress, status = bench.progress(watcher), bench.status(watcher)
     wanted = (RawTrajectoryState.FAILED, 22, 22, 22, RawReason.SEQUENCE_GAP, 22, 0)
     if progress[1:] != wanted or (status.in_error, status.error_code) != (
         1,
         RawReason.SEQUENCE_GAP,
     ):
-        raise Broken(f"a topic behind 22 points had a hole, {progress}, {status}")
+        raise CheckFailed(f"a topic behind 22 points had a hole, {progress}, {status}")
 
 
 @case("batch-in-time", "a batch that comes while the last point is approached", "R9")
@@ -68,7 +68,7 @@ def _just_in_time(bench: Bench) -> None:
         stream.takes("points that come just in time, or too late", points[6:], END)
         bench.arrives(points, since, 20)
         if any(e.code == 50_024 for e in bench.controller.log.since(last)):
-            raise Broken(f"a corner had no successor: {number * 20} ms later")
+            raise CheckFailed(f"a corner had no successor: {number * 20} ms later")
 
 
 @case("batch-damage", "random damage of a batch moves nothing but what was sent", "R3")
@@ -103,14 +103,14 @@ def _shapes(bench: Bench) -> None:
         link.send(messages.framed(messages.POINTS, bytes(size)))
         told = messages.decode(link.expect_reply(2, "a batch without a head is answered"))
         if not isinstance(told, messages.RawPointsRefused | messages.RawFailure):
-            raise Broken(f"a batch of {size} bytes is answered by {told}")
+            raise CheckFailed(f"a batch of {size} bytes is answered by {told}")
     for number, first in enumerate((1, messages.INDEX_WRAP - 1), 2):
         link.send(batches.points_frame(number, first, points, BEGIN))
         stream = Streamer(bench, link, number=number)
         stream.reply()
         told = stream.refused(RawReason.SEQUENCE_GAP, f"a beginning at point {first}")
         if (told.accepted, told.point) != (0, 0):
-            raise Broken(f"a beginning at point {first}: the reply is {told}")
+            raise CheckFailed(f"a beginning at point {first}: the reply is {told}")
     bench.stays(1, "no stream has begun")
     words = [word for point in points[5:] for word in batches.words_of(point)]
     exchanged = bytearray(batches.points_frame(7, 5, points[5:]))
@@ -137,7 +137,7 @@ def _shapes(bench: Bench) -> None:
         stream.reply()
         told = stream.refused(reason, f"a batch that begins with {bad[:40].hex()}")
         if (told.accepted, told.point, told.joint) != (5, 5, 0):
-            raise Broken(f"five points were right, the reply is {told}")
+            raise CheckFailed(f"five points were right, the reply is {told}")
         bench.wait_until_at(points[4][0], 10)
         if distance(bench.position, points[4][0]) > 1e-3:
-            raise Broken("the points before a wrong batch are not executed")
+            raise CheckFailed("the points before a wrong batch are not executed")

@@ -4,10 +4,10 @@ import random
 
 from rapidgen.verification import messages
 from rapidgen.verification.batches import checksum, words_frame, words_of, words_to
-from rapidgen.verification.case import Theme
+from rapidgen.verification.case import SuiteGroup
 from rapidgen.verification.instruction_hooks import fails
 from rapidgen.verification.messages import RawReason, RawStreamFlag, RawTrajectoryState
-from rapidgen.verification.model import Broken, NothingToProve
+from rapidgen.verification.model import CheckFailed, NotApplicable
 from rapidgen.verification.position_checks import Point, distance
 from rapidgen.verification.raw_programs import WHOLE, Programmer, orders
 from rapidgen.verification.stream import BEGIN, END, FLUSH, Streamer
@@ -15,7 +15,7 @@ from rapidgen.verification.suite.motion_task import datum
 from rapidgen.verification.suite.streams import way
 from rapidgen.verification.testbench import Bench
 
-case = Theme("streaming", needs="stream")
+case = SuiteGroup("streaming", needs="stream")
 
 _NONE = RawStreamFlag(0)
 _LARGEST = 2**23 - 1
@@ -32,9 +32,11 @@ def _replies(bench: Bench) -> None:
         stream.put(points[first : first + 10], _NONE if first else BEGIN)
         told = stream.accepted(f"points from {first} on")
         if (told.stream, told.accepted) != (_LARGEST, first + 10):
-            raise Broken(f"{first + 10} points of stream {_LARGEST} were sent, the reply is {told}")
+            raise CheckFailed(
+                f"{first + 10} points of stream {_LARGEST} were sent, the reply is {told}"
+            )
         if not told.reached <= told.planned <= told.accepted:
-            raise Broken(f"counts of a reply do not fit each other: {told}")
+            raise CheckFailed(f"counts of a reply do not fit each other: {told}")
         # Points may be taken out between the two readings, of planned and then of room: the first
         # ones, which are short, as fast as they come, if the tasks' turns fall so.
         setting = bench.setting
@@ -45,18 +47,18 @@ def _replies(bench: Bench) -> None:
             told.room > ring - 1 - in_it
             or told.accepted > ring - 1 - told.room + told.planned + between
         ):
-            raise Broken(f"a ring of {ring} places, the reply is {told}")
+            raise CheckFailed(f"a ring of {ring} places, the reply is {told}")
         bench.run(0.3)
         if bench.progress(watcher).trajectory != told.trajectory:
-            raise Broken(f"PROGRESS is of another trajectory than {told}")
+            raise CheckFailed(f"PROGRESS is of another trajectory than {told}")
     stream.put(())
     if stream.accepted("a batch without points").state != RawTrajectoryState.MOVING:
-        raise Broken(f"the robot moves, the reply is {stream.last}")
+        raise CheckFailed(f"the robot moves, the reply is {stream.last}")
     bench.wait_until_at(points[-1][0], 30)
     bench.run(0.5)
     told = stream.takes("a batch without points, starved", ())
     if told[2:] != (40, ring - 1, 40, 40, RawTrajectoryState.STARVED):
-        raise Broken(f"all of 40 points are executed, the reply is {told}")
+        raise CheckFailed(f"all of 40 points are executed, the reply is {told}")
     stream.put((), END)
     bench.run(0.5)
     for flags in (_NONE, END):
@@ -65,7 +67,7 @@ def _replies(bench: Bench) -> None:
             stream.accepted("a batch without points behind the end").state
             != RawTrajectoryState.DONE
         ):
-            raise Broken(f"the stream is done, the reply is {stream.last}")
+            raise CheckFailed(f"the stream is done, the reply is {stream.last}")
 
 
 @case("batch-strange", "batches of no stream", "C4")
@@ -78,7 +80,7 @@ def _strange(bench: Bench) -> None:
         told = stream.refuses(RawReason.NO_START, f"stream {number}, {flags!r}", points, flags)
         wanted = number if number <= _LARGEST else 0
         if told != messages.RawPointsRefused(wanted, 0, 0, RawReason.NO_START, -1, 0):
-            raise Broken(f"a batch of no stream is answered by {told}")
+            raise CheckFailed(f"a batch of no stream is answered by {told}")
     stream.number, stream.sent = 7, 0
     stream.takes("a beginning", points, BEGIN)
     stream.number = 8
@@ -104,9 +106,9 @@ def _no_number(bench: Bench) -> None:
         stream.say(_spoilt(stream.frame(way(bench, 4), BEGIN), place))
         told = stream.last
         if not isinstance(told, messages.RawPointsRefused) or told.accepted or told.stream != whose:
-            raise Broken(f"8 bytes of ff at {place} of stream 3, the reply is {told}")
+            raise CheckFailed(f"8 bytes of ff at {place} of stream 3, the reply is {told}")
         if place >= 32 and told.reason != RawReason.CHECKSUM:
-            raise Broken(f"8 bytes of ff at {place} of stream 3, the reply is {told}")
+            raise CheckFailed(f"8 bytes of ff at {place} of stream 3, the reply is {told}")
         bench.stays(1, "a beginning is damaged")
         stream.link.close(then=0.5)
 
@@ -125,7 +127,7 @@ def _damaged_beginning(bench: Bench) -> None:
         stream.say(bytes(data))
         told = stream.refused(RawReason.CHECKSUM, "a damaged beginning")
         if told.stream != number:
-            raise Broken(f"a damaged beginning of stream {number}: the reply is {told}")
+            raise CheckFailed(f"a damaged beginning of stream {number}: the reply is {told}")
         stream.put(points[20:], END)
         if number == 4:
             stream.accepted("points of the stream under way")
@@ -143,7 +145,7 @@ def _enough(bench: Bench) -> None:
     preload = bench.config.trajectory.preload
     duration = preload / 4
     if duration < 1.05 * bench.config.trajectory.min_segment:
-        raise NothingToProve("its segments are longer than a part of `preload`")
+        raise NotApplicable("its segments are longer than a part of `preload`")
     for count, enough in ((5, True), (4, False)):
         stream = Streamer(bench)
         points = [(p, duration) for p, _ in way(bench, 5, duration)][:count]
@@ -171,13 +173,13 @@ def _not_now(bench: Bench) -> None:
         stream.put(way(bench, 20))
         told = stream.last
         if not isinstance(told, messages.RawPointsRefused) or told.reason not in reasons:
-            raise Broken(f"after {action} points are answered by {told}")
+            raise CheckFailed(f"after {action} points are answered by {told}")
         if (told.accepted, told.point, told.joint) != (0, -1, 0):
-            raise Broken(f"after {action} points are answered by {told}")
+            raise CheckFailed(f"after {action} points are answered by {told}")
         program = Programmer(bench, stream.link)
         told = program.send(orders(bench, 3, random.Random(3)), BEGIN | WHOLE)
         if not isinstance(told, messages.RawPointsRefused) or told.reason not in reasons:
-            raise Broken(f"after {action} the first part of a program is answered by {told}")
+            raise CheckFailed(f"after {action} the first part of a program is answered by {told}")
         bench.start_again()
         bench.stays(3, f"points came after {action}")
         stream.link.close(then=1.2)
@@ -196,7 +198,7 @@ def _ends_before_it_moves(bench: Bench) -> None:
     stream.link.stop()
     refusal = stream.refuses(RawReason.STOPPED, "points behind a STOP", way(bench, 20))
     if (refusal.accepted, refusal.point, refusal.joint) != (0, -1, 0):
-        raise Broken(f"points behind a STOP are answered by {refusal}")
+        raise CheckFailed(f"points behind a STOP are answered by {refusal}")
     bench.stays(1, "the stream was stopped")
     stream.number, stream.sent = 2, 0
     stream.put((), BEGIN)
@@ -214,7 +216,7 @@ def _ends_before_it_moves(bench: Bench) -> None:
         told = bench.progress(watcher)
         wanted = (RawTrajectoryState.REFUSED, RawReason.INCOMPLETE) if number == 3 else None
         if wanted and ((told.state, told.reason) != wanted or (told.point, told.joint) != (0, 0)):
-            raise Broken(f"a stream without a point was left, PROGRESS says {told}")
+            raise CheckFailed(f"a stream without a point was left, PROGRESS says {told}")
         stream = Streamer(bench)
         watcher.read()
     bench.run(1)
@@ -231,10 +233,10 @@ def _stays(bench: Bench) -> None:
     bench.wait_until_at(third[0], 10)
     asked = second[1] + stay + third[1]
     if not asked - 0.1 <= bench.now - since <= 1.3 * asked + 0.4:
-        raise Broken(f"{asked:.2f} s with a stay took {bench.now - since:.2f} s")
+        raise CheckFailed(f"{asked:.2f} s with a stay took {bench.now - since:.2f} s")
     still = [t for t, p in bench.track if t > since and distance(p, second[0]) < 1e-4]
     if not still:
-        raise Broken("the robot was not where it had to stay")
+        raise CheckFailed("the robot was not where it had to stay")
     # That it is a stay comes in the next batch.
     first, second, third = way(bench, 3, 0.6)
     stream, since = Streamer(bench, stream.link, number=2), bench.now
@@ -242,7 +244,7 @@ def _stays(bench: Bench) -> None:
     stream.takes("a stay in another batch", [(second[0], stay), third], END)
     bench.wait_until_at(third[0], 10)
     if not any(t > since and distance(p, second[0]) < 1e-4 for t, p in bench.track):
-        raise Broken("the robot was not where the next batch told it to stay")
+        raise CheckFailed("the robot was not where the next batch told it to stay")
 
 
 @case("batch-short-last", "a short last segment of a stream", "R9")
@@ -250,7 +252,7 @@ def _short_last(bench: Bench) -> None:
     """The last segment may be short: it has no successor."""
     policy = bench.config.trajectory
     if policy.too_fast != "refuse" or policy.min_segment < 0.005:
-        raise NothingToProve("`min_segment` refuses no segment")
+        raise NotApplicable("`min_segment` refuses no segment")
     points = [(p, 1.0) for p, _ in bench.wave(4, size=0.001)]
     points[3] = (points[3][0], policy.min_segment / 2)
     stream = Streamer(bench)
@@ -288,7 +290,7 @@ def _index_wraps(bench: Bench) -> None:
     stream.sent = last - 5
     stream.put(points[10:20])
     if stream.accepted("points over the last number").accepted != 5:
-        raise Broken(f"ten points from {last - 5} on, the reply is {stream.last}")
+        raise CheckFailed(f"ten points from {last - 5} on, the reply is {stream.last}")
     stream.sent = 5
     stream.takes("points behind the last number", points[20:], END)
     bench.arrives(points, since, 20)
@@ -311,7 +313,7 @@ def _unreadable(bench: Bench) -> None:
             stream.reply()
             told = stream.last
             if not isinstance(told, messages.RawPointsRefused) or told.reason != RawReason.CHECKSUM:
-                raise Broken(f"read {after} of a batch has failed, the reply is {told}")
+                raise CheckFailed(f"read {after} of a batch has failed, the reply is {told}")
         bench.wait_until_standing(10)
         bench.executed(points[:8], since)
         bench.stays(0.3, f"read {after} of a batch has failed")
@@ -337,7 +339,7 @@ def _fits_unread(bench: Bench) -> None:
         fails(bench, "ROS_motionServer", "UnpackRawBytes", "ERR_OUTOFBND", after=after)
         told = stream.say(words_frame(number, 8, 2, sent))
         if not isinstance(told, messages.RawPointsRefused) or told.reason != RawReason.CHECKSUM:
-            raise Broken(f"{unread} of a batch cannot be read, the reply is {told}")
+            raise CheckFailed(f"{unread} of a batch cannot be read, the reply is {told}")
         bench.wait_until_at(points[7][0], 10)
         bench.executed(points[:8], since)
         stream.link.close(then=0.5)
@@ -351,12 +353,12 @@ def _behind_the_end(bench: Bench) -> None:
     stream.all(way(bench, 12))
     told = stream.refuses(RawReason.SEQUENCE_GAP, "points behind the end", way(bench, 3))
     if (told.accepted, told.point) != (12, 12):
-        raise Broken(f"points came behind 12 and the end, the reply is {told}")
+        raise CheckFailed(f"points came behind 12 and the end, the reply is {told}")
     bench.wait_until_at(stream.points[11][0], 20)
     bench.run(0.5)
     progress = bench.progress(watcher)
     if (progress.state, progress.reached) != (RawTrajectoryState.DONE, 12):
-        raise Broken(f"points came behind the end, PROGRESS says {progress}")
+        raise CheckFailed(f"points came behind the end, PROGRESS says {progress}")
 
 
 @case("batch-full-ring", "a full ring begins with less than it likes to have", "R1")
@@ -365,14 +367,14 @@ def _full_ring(bench: Bench) -> None:
     policy = bench.config.trajectory
     count, seconds = policy.ring - 1, max(0.12, 1.05 * policy.min_segment)
     if count * seconds > policy.preload:
-        raise NothingToProve("a full ring lasts longer than `preload`")
+        raise NotApplicable("a full ring lasts longer than `preload`")
     stream = Streamer(bench)
     points = way(bench, count, seconds)
     stream.takes("almost all that there is room for", points[:-3], BEGIN)
     bench.stays(1, f"{count - 4} points are less than it likes to have")
     stream.put(points[-3:])
     if stream.accepted("all that there is room for").room:
-        raise Broken(f"the ring is full, the reply is {stream.last}")
+        raise CheckFailed(f"the ring is full, the reply is {stream.last}")
     bench.wait_until_moving(1)
     stream.put((), END)
     bench.wait_until_at(points[-1][0], 30)

@@ -1,14 +1,14 @@
 """What was received before a stop, in whole or in part, does not move the robot after Start."""
 
-from rapidgen.verification.case import Theme
+from rapidgen.verification.case import SuiteGroup
 from rapidgen.verification.messages import RawTrajectoryState
-from rapidgen.verification.model import Broken
+from rapidgen.verification.model import CheckFailed
 from rapidgen.verification.position_checks import distance
 from rapidgen.verification.raw_connection import RawLink
 from rapidgen.verification.stream import BEGIN, END, Streamer
 from rapidgen.verification.testbench import Bench
 
-case = Theme("controller")
+case = SuiteGroup("controller")
 
 _SHORT = 0.002
 """s of a stop that is over before a task that looks ten times a second has seen it."""
@@ -54,7 +54,9 @@ def _order_before_stop(bench: Bench) -> None:
                 _stopped_shortly(bench, action)
                 bench.rests(3, 2, what)
                 if distance(bench.position, place) > _BRAKING:
-                    raise Broken(f"{what}: the robot went {distance(bench.position, place):.3f}")
+                    raise CheckFailed(
+                        f"{what}: the robot went {distance(bench.position, place):.3f}"
+                    )
                 link.close(then=1.2)
     bench.moves_through(bench.motion(), bench.wave(3))
 
@@ -83,7 +85,7 @@ def _part_before_stop(bench: Bench) -> None:
             bench.stays(2.5, what)
             told = bench.progress(watcher)
             if told.state != RawTrajectoryState.REFUSED:
-                raise Broken(f"{what}: PROGRESS says {told}")
+                raise CheckFailed(f"{what}: PROGRESS says {told}")
             bench.moves_through(link, bench.wave(3))
             link.close(then=1.2)
         watcher.close()

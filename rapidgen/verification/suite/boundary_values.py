@@ -4,7 +4,7 @@ import math
 from itertools import pairwise
 
 from rapidgen.verification import messages
-from rapidgen.verification.case import Theme
+from rapidgen.verification.case import SuiteGroup
 from rapidgen.verification.messages import (
     RawComm,
     RawReason,
@@ -12,7 +12,7 @@ from rapidgen.verification.messages import (
     RawTrajectoryState,
     decode,
 )
-from rapidgen.verification.model import Broken, NothingToProve
+from rapidgen.verification.model import CheckFailed, NotApplicable
 from rapidgen.verification.position_checks import (
     SETTLED,
     Point,
@@ -26,7 +26,7 @@ from rapidgen.verification.raw_connection import RawLink, point_frame, raw_point
 from rapidgen.verification.suite.refusals import refused
 from rapidgen.verification.testbench import Bench
 
-case = Theme("edges")
+case = SuiteGroup("edges")
 
 _LONGEST = 3600.0
 
@@ -44,7 +44,7 @@ def _taken(bench: Bench, points: list[Point], why: str) -> None:
     link.send(point_frame(len(points) - 1, len(points), *points[-1], RawComm.REQUEST))
     content = decode(link.expect_reply(5, "the end frame is answered"))
     if not isinstance(content, messages.RawAccepted):
-        raise Broken(f"{why} is refused: {content}")
+        raise CheckFailed(f"{why} is refused: {content}")
     link.stop()
     bench.wait_until_standing(5)
     link.close(then=1.2)
@@ -74,7 +74,7 @@ def _durations(bench: Bench) -> None:
 def _shortest_segment(bench: Bench) -> None:
     shortest = bench.config.trajectory.min_segment
     if shortest < 0.005 or bench.config.trajectory.too_fast != "refuse":
-        raise NothingToProve("`min_segment` refuses no segment")
+        raise NotApplicable("`min_segment` refuses no segment")
     points = bench.wave(4, size=0.001)
     points[1] = points[2] = (points[1][0], shortest * 1.001)
     _taken(bench, [points[0], (points[1][0], shortest * 1.001), points[3]], "the shortest segment")
@@ -91,7 +91,7 @@ def _shortest_segment(bench: Bench) -> None:
 @case("fastest", "each axis at its speed and above", "R10")
 def _fastest(bench: Bench) -> None:
     if bench.config.trajectory.too_fast != "refuse" or bench.group.tcp_speed_limit < 5:
-        raise NothingToProve("axes are not refused for their speed alone")
+        raise NotApplicable("axes are not refused for their speed alone")
     for axis, joint in enumerate(bench.group.joints):
         seconds = max(0.2, bench.config.trajectory.min_segment)
         room = max(joint.upper - bench.position[axis], bench.position[axis] - joint.lower)
@@ -156,10 +156,12 @@ def _slow_to(bench: Bench, start: Position, since: float, speed: float) -> None:
     """Broken when the robot came to its first point faster than at approach speed."""
     for (t1, one), (t2, two) in pairwise([(t, p) for t, p in bench.track if t >= since]):
         if distance(one, two) > 1.5 * speed * (t2 - t1) + 1e-4:
-            raise Broken(f"on the way to the first point the robot was faster than {speed:.3f}/s")
+            raise CheckFailed(
+                f"on the way to the first point the robot was faster than {speed:.3f}/s"
+            )
         if distance(two, start) < SETTLED:
             return
-    raise Broken("the first point was left out")
+    raise CheckFailed("the first point was left out")
 
 
 def _moved(bench: Bench, since: float) -> tuple[float, float]:
@@ -168,7 +170,7 @@ def _moved(bench: Bench, since: float) -> tuple[float, float]:
     times = [t for t, p in bench.track if t > since and distance(p, start) > SETTLED]
     changes = [t for t, _ in bench.track if t > since]
     if not times:
-        raise Broken("the robot has not moved")
+        raise CheckFailed("the robot has not moved")
     return times[0], changes[-1]
 
 
@@ -194,12 +196,12 @@ def _takes_its_time(bench: Bench) -> None:
         if points[0][0] == points[1][0]:
             moving -= points[1][1]
             if begun - since < points[1][1]:
-                raise Broken(f"the robot left its first point after {begun - since:.2f} s")
+                raise CheckFailed(f"the robot left its first point after {begun - since:.2f} s")
         if not 0.85 * moving - 0.05 <= ended - begun <= 1.15 * moving + 0.25:
-            raise Broken(f"{moving:.2f} s of motion took {ended - begun:.2f} s")
+            raise CheckFailed(f"{moving:.2f} s of motion took {ended - begun:.2f} s")
         for index in stands:
             if index and not _stood_at(bench, points[index][0], since, 0.8 * points[index + 1][1]):
-                raise Broken(f"the robot did not stay at point {index}")
+                raise CheckFailed(f"the robot did not stay at point {index}")
         bench.run(1)
         link.send(bench.download([(bench.position, 10.0), (first[0], 2.0), (first[0], 0.5)]))
         bench.wait_until_at(first[0], 30)
@@ -242,7 +244,7 @@ def _approach(bench: Bench) -> None:
             begun, ended = _moved(bench, since)
             wanted = max(needed, seconds)
             if not 0.8 * wanted - 0.1 <= ended - begun <= 1.3 * wanted + 0.3:
-                raise Broken(
+                raise CheckFailed(
                     f"joint {axis + 1}: {step:.4f} rad (m) in {seconds:.2f} s, or at approach "
                     f"speed in {needed:.2f} s, took {ended - begun:.2f} s"
                 )
@@ -309,7 +311,7 @@ def _rest_is_skipped(bench: Bench) -> None:
         link.send(raw_point(int(RawSpecial.END), bench.position, 1.0))
         bench.run(0.3)
         if bench.progress(state).reason != RawReason.SEQUENCE_GAP:
-            raise Broken(f"number {wrong} behind a start is taken")
+            raise CheckFailed(f"number {wrong} behind a start is taken")
 
 
 def _blames(bench: Bench, state: RawLink, number: int, reason: RawReason) -> None:
@@ -320,7 +322,7 @@ def _blames(bench: Bench, state: RawLink, number: int, reason: RawReason) -> Non
         RawTrajectoryState.REFUSED,
         reason,
     ):
-        raise Broken(f"trajectory {number} had to be refused with {reason.name}, {told}")
+        raise CheckFailed(f"trajectory {number} had to be refused with {reason.name}, {told}")
 
 
 @case("replies-of-refused", "replies tell what became of the trajectory so far")
@@ -333,9 +335,9 @@ def _replies_of_a_refused_one(bench: Bench) -> None:
         link.send(point_frame(number, 6, *point, RawComm.REQUEST))
         content = decode(link.expect_reply(2, f"point {number} is answered"))
         if number < 3 and not isinstance(content, messages.RawAcknowledged):
-            raise Broken(f"point {number} is right, the reply is {content}")
+            raise CheckFailed(f"point {number} is right, the reply is {content}")
         if number >= 3 and content != messages.RawRefused(RawReason.JOINT_LIMIT, 3, 2):
-            raise Broken(f"point 3 was wrong, the reply to point {number} is {content}")
+            raise CheckFailed(f"point 3 was wrong, the reply to point {number} is {content}")
     # Behind a refusal at the end nothing is left to be skipped.
     axis, here = 0, bench.position
     far = changed(here, axis, _inward(bench, axis, 0.3))
@@ -343,7 +345,7 @@ def _replies_of_a_refused_one(bench: Bench) -> None:
     link.send(raw_point(1, here, 1.0, RawComm.REQUEST))
     content = decode(link.expect_reply(2, "a point behind a refused end is answered"))
     if not isinstance(content, messages.RawRefused) or content.reason != RawReason.NO_START:
-        raise Broken(f"a point behind a refused end is answered by {content}")
+        raise CheckFailed(f"a point behind a refused end is answered by {content}")
     link.send(raw_point(int(RawSpecial.END), here, 1.0))
     bench.run(0.5)
     state = bench.watcher()
@@ -353,5 +355,5 @@ def _replies_of_a_refused_one(bench: Bench) -> None:
         link.send(point_frame(index, 3, *point, RawComm.REQUEST))
         content = decode(link.expect_reply(3, f"point {index} is answered"))
     if content != messages.RawAccepted(number + 1):
-        raise Broken(f"trajectory {number + 1} was taken, the reply is {content}")
+        raise CheckFailed(f"trajectory {number + 1} was taken, the reply is {content}")
     bench.wait_until_at(good[-1][0])

@@ -1,16 +1,16 @@
 """What a configuration can ask for: slower rather than refused, a slow TCP, some clients alone."""
 
 from rapidgen.verification import messages
-from rapidgen.verification.case import Theme
-from rapidgen.verification.model import Broken, NothingToProve
+from rapidgen.verification.case import SuiteGroup
+from rapidgen.verification.model import CheckFailed, NotApplicable
 from rapidgen.verification.position_checks import Point, changed, distance
 from rapidgen.verification.raw_connection import STOP, raw_point
 from rapidgen.verification.stream import BEGIN, END, Streamer
 from rapidgen.verification.testbench import Bench
 
-case = Theme("edges")
-links = Theme("links")
-reading = Theme("reading")
+case = SuiteGroup("edges")
+links = SuiteGroup("links")
+reading = SuiteGroup("reading")
 
 
 def _quick(bench: Bench) -> list[Point]:
@@ -27,7 +27,7 @@ def _quick(bench: Bench) -> list[Point]:
 @case("slowed-down", "what is too fast is slowed down where told so", "R10")
 def _slowed_down(bench: Bench) -> None:
     if bench.config.trajectory.too_fast != "slow_down":
-        raise NothingToProve("`too_fast` refuses")
+        raise NotApplicable("`too_fast` refuses")
     for streaming in (False, True) if bench.streams else (False,):
         points, last, since = _quick(bench), bench.last_event, bench.now
         if streaming:
@@ -37,7 +37,7 @@ def _slowed_down(bench: Bench) -> None:
             bench.motion().send(bench.download(points))
         bench.arrives(points, since, 20)
         if not any("slowed down" in str(e) for e in bench.controller.log.since(last)):
-            raise Broken("a trajectory was slowed down, the event log does not say so")
+            raise CheckFailed("a trajectory was slowed down, the event log does not say so")
         bench.run(1.5)
 
 
@@ -45,7 +45,7 @@ def _slowed_down(bench: Bench) -> None:
 def _strangers(bench: Bench) -> None:
     """Nor do they take anybody's place."""
     if not bench.config.allowed_clients:
-        raise NothingToProve("`allowed_clients` names none")
+        raise NotApplicable("`allowed_clients` names none")
     ports, known = bench.group.ports, [bench.state() for _ in range(3)]
     bench.run(0.5)
     for port in (ports.motion, ports.state, ports.control):
@@ -55,9 +55,9 @@ def _strangers(bench: Bench) -> None:
         stranger.send(bench.download(bench.wave(4)))
         bench.stays(1, "a stranger has asked for it")
         if not stranger.lost or stranger.read():
-            raise Broken(f"a stranger is served on port {port}")
+            raise CheckFailed(f"a stranger is served on port {port}")
     if any(link.lost for link in known):
-        raise Broken("strangers take the place of others")
+        raise CheckFailed("strangers take the place of others")
     bench.moves_through(bench.motion(), bench.wave(3))
 
 
@@ -68,7 +68,7 @@ def _stalls(bench: Bench) -> None:
     link.send(raw_point(-1, bench.position, 1.0)[:40])
     bench.run(seconds - 0.5 if seconds else 60)
     if link.lost:
-        raise Broken("a client that takes its time is dropped")
+        raise CheckFailed("a client that takes its time is dropped")
     if seconds:
         link.wait_until_lost(2, "a client that stalls inside of a message is dropped")
     else:
@@ -85,7 +85,7 @@ def _control_silent(bench: Bench) -> None:
         bench.sets_off(link, bench.wave(12), 0.3)
         link.send(STOP)
         if link.reply(messages.JOINT_TRAJ_PT) != messages.RawAcknowledged():
-            raise Broken("STOP is not confirmed while a control client does not read")
+            raise CheckFailed("STOP is not confirmed while a control client does not read")
         bench.wait_until_standing(3)
         bench.run(0.5)
         bench.moves_through(link, bench.wave(3))
@@ -104,9 +104,9 @@ def _braking(bench: Bench) -> None:
         bench.run(4 * period + bench.setting.motion.settle)
         for when, status in state.told(messages.RawStatus, since):
             if when < stood - 0.005 and not status.in_motion:
-                raise Broken(f"at {when:.3f} s the robot brakes, STATUS says {status}")
+                raise CheckFailed(f"at {when:.3f} s the robot brakes, STATUS says {status}")
         if state.told(messages.RawStatus, since)[-1][1].in_motion:
-            raise Broken("the robot stands, STATUS says that it is in motion")
+            raise CheckFailed("the robot stands, STATUS says that it is in motion")
 
 
 @reading("there-and-back", "a movement back and forth between two STATUS is in one of them", "R16")
@@ -121,7 +121,7 @@ def _there_and_back(bench: Bench) -> None:
         link.send(bench.download([(here, 1.0), (away, 0.15), (here, 0.15)]))
         bench.run(0.6 + 2 * bench.config.state_period + 2 * bench.setting.motion.settle)
         if distance(bench.position, here) > 1e-4:
-            raise Broken("a movement there and back does not end where it began")
+            raise CheckFailed("a movement there and back does not end where it began")
         moved = [status.in_motion for _, status in state.told(messages.RawStatus, since)]
         if 1 not in moved or moved[-1]:
-            raise Broken(f"a movement there and back: STATUS says {moved}")
+            raise CheckFailed(f"a movement there and back: STATUS says {moved}")

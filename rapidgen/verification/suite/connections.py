@@ -1,7 +1,7 @@
 """Connections that come, go, hang and take each other's place."""
 
 from rapidgen.verification import messages
-from rapidgen.verification.case import Theme
+from rapidgen.verification.case import SuiteGroup
 from rapidgen.verification.messages import (
     PING,
     RawComm,
@@ -10,13 +10,13 @@ from rapidgen.verification.messages import (
     decode,
     encode,
 )
-from rapidgen.verification.model import Broken
+from rapidgen.verification.model import CheckFailed
 from rapidgen.verification.position_checks import Point, changed, distance
 from rapidgen.verification.raw_connection import STOP, RawLink, point_frame, raw_point
 from rapidgen.verification.stream import BEGIN, END, FLUSH, Streamer
 from rapidgen.verification.testbench import Bench
 
-case = Theme("links")
+case = SuiteGroup("links")
 
 
 @case("leaves-in-download", "a client that leaves in its download moves nothing")
@@ -37,7 +37,7 @@ def _has_no_start(bench: Bench) -> None:
     link.send(raw_point(5, bench.position, 1.0, RawComm.REQUEST))
     told = decode(link.expect_reply(2, "a point without a start is answered"))
     if not isinstance(told, messages.RawRefused) or told.reason != RawReason.NO_START:
-        raise Broken(f"a point without a start is answered by {told}")
+        raise CheckFailed(f"a point without a start is answered by {told}")
     link.close(then=0.2)
 
 
@@ -50,7 +50,7 @@ def _leaves_while_moving(bench: Bench) -> None:
         link.close(abort=abort)
         bench.wait_until_standing(5)
         if distance(bench.position, points[-1][0]) < 1e-4:
-            raise Broken("the robot went on to the end for a client that had left")
+            raise CheckFailed("the robot went on to the end for a client that had left")
         bench.stays(2, "its client is gone")
         _moves(bench)
 
@@ -115,7 +115,7 @@ def _pings(bench: Bench, link: RawLink, seconds: float = 0.1, *, slowly: bool = 
         bench.run(0.012)
     link.send(data[-1:] if slowly else data)
     if not isinstance(link.reply(PING, seconds), messages.RawAcknowledged):
-        raise Broken("PING is not confirmed")
+        raise CheckFailed("PING is not confirmed")
 
 
 def _gives_way(bench: Bench, old: RawLink, new: RawLink, what: str) -> None:
@@ -127,7 +127,7 @@ def _gives_way(bench: Bench, old: RawLink, new: RawLink, what: str) -> None:
     bench.run(0.8)
     old.wait_until_lost(3, f"a silent client gives way: {what}")
     if not 0.9 < bench.now - last < 1.4:
-        raise Broken(f"{what}: a client gave way after {bench.now - last:.2f} s of silence")
+        raise CheckFailed(f"{what}: a client gave way after {bench.now - last:.2f} s of silence")
     _pings(bench, new, 0.3)
     bench.stays(0.3, f"the client before gave way: {what}")
 
@@ -171,7 +171,7 @@ def _silent_while_moving(bench: Bench) -> None:
             new.send(said)
             bench.run(0.3)
             if bench.standing:
-                raise Broken(f"{what}: a newer client says {said!r}, and the robot stops")
+                raise CheckFailed(f"{what}: a newer client says {said!r}, and the robot stops")
             new.close()
         bench.arrives(points, since, 30)
         # To the driver it is over when the controller says so: the axes follow late.
@@ -203,15 +203,15 @@ def _second_stops(bench: Bench) -> None:
         asked = bench.now
         bench.wait_until_standing(1)
         if bench.now - asked > 0.6 + bench.setting.motion.settle:
-            raise Broken(f"{what}: a second client's STOP takes {bench.now - asked:.2f} s")
+            raise CheckFailed(f"{what}: a second client's STOP takes {bench.now - asked:.2f} s")
         if number == 1 and not isinstance(new.reply(PING, 1), messages.RawAcknowledged):
-            raise Broken("the PING in front of a second client's STOP is not answered")
+            raise CheckFailed("the PING in front of a second client's STOP is not answered")
         if not isinstance(new.reply(messages.JOINT_TRAJ_PT, 1), messages.RawAcknowledged):
-            raise Broken(f"{what}: a second client's STOP is not confirmed")
+            raise CheckFailed(f"{what}: a second client's STOP is not confirmed")
         bench.stays(1, f"{what}: a second client has said STOP")
         told = bench.progress(watcher)
         if (told.state, told.reason) != (RawTrajectoryState.STOPPED, RawReason.STOPPED):
-            raise Broken(f"{what}: a second client has said STOP, PROGRESS says {told}")
+            raise CheckFailed(f"{what}: a second client has said STOP, PROGRESS says {told}")
         bench.moves_through(new, bench.wave(3))
         old = new
     # Its own trajectory takes the place of what is under way, and begins where that has stopped.

@@ -5,10 +5,10 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from rapidgen.verification import messages
-from rapidgen.verification.case import Theme
+from rapidgen.verification.case import SuiteGroup
 from rapidgen.verification.instruction_hooks import Instruction, fails, watched_orders, wrapped
 from rapidgen.verification.messages import RawComm, RawReason, RawStreamFlag, RawTrajectoryState
-from rapidgen.verification.model import Broken
+from rapidgen.verification.model import CheckFailed
 from rapidgen.verification.position_checks import distance
 from rapidgen.verification.raw_connection import STOP, RawLink
 from rapidgen.verification.stream import BEGIN, END, Streamer
@@ -16,7 +16,7 @@ from rapidgen.verification.suite.motion_task import patience
 from rapidgen.verification.suite.streams import way
 from rapidgen.verification.testbench import HELLO, Bench
 
-case = Theme("controlling", needs="control")
+case = SuiteGroup("controlling", needs="control")
 
 _TRAJ = messages.JOINT_TRAJ_PT
 
@@ -24,7 +24,7 @@ _TRAJ = messages.JOINT_TRAJ_PT
 def stop(link: RawLink, seconds: float = 1) -> None:
     """STOP over this connection; Broken unless it is confirmed in time."""
     if not isinstance(link.stop(seconds), messages.RawAcknowledged):
-        raise Broken("STOP on the control port is not confirmed")
+        raise CheckFailed("STOP on the control port is not confirmed")
 
 
 def stopped(link: RawLink, trajectory: int) -> None:
@@ -36,13 +36,13 @@ def stopped(link: RawLink, trajectory: int) -> None:
 def not_done(told: object, reason: RawReason, what: str) -> None:
     """Broken unless a reply says that it was not done, for that reason."""
     if told != messages.RawNotDone(reason):
-        raise Broken(f"{what}: wanted {reason.name}, the reply is {told}")
+        raise CheckFailed(f"{what}: wanted {reason.name}, the reply is {told}")
 
 
 def done(told: object, what: str) -> None:
     """Broken unless a reply is a plain success."""
     if not isinstance(told, messages.RawAcknowledged):
-        raise Broken(f"{what}: the reply is {told}")
+        raise CheckFailed(f"{what}: the reply is {told}")
 
 
 @case("control-stop", "STOP over the control port, and where the robot stands", "R5")
@@ -58,7 +58,7 @@ def _stops(bench: Bench) -> None:
         stop(control)
         bench.wait_until_standing(3)
         if bench.now - asked > 1.5:
-            raise Broken(f"the robot stood {bench.now - asked:.2f} s after STOP")
+            raise CheckFailed(f"the robot stood {bench.now - asked:.2f} s after STOP")
         bench.followed([p for p, _ in points], since=since)
         told = control.expect(messages.RawStopped, 2, "STOPPED arrives")
         progress = bench.progress(watcher)
@@ -66,13 +66,13 @@ def _stops(bench: Bench) -> None:
         # Axes that follow late are measured on their last millimetres.
         near = 5e-3 if bench.setting.motion.servo_lag else 1e-4
         if max(abs(a - b) for a, b in zip(told.joints, here, strict=True)) > near:
-            raise Broken(f"the robot stands at {here}, STOPPED says {told.joints}")
+            raise CheckFailed(f"the robot stands at {here}, STOPPED says {told.joints}")
         if (told.trajectory, told.reached, told.reason) != (
             progress.trajectory,
             progress.reached,
             RawReason.STOPPED,
         ):
-            raise Broken(f"STOPPED says {told}, PROGRESS {progress}")
+            raise CheckFailed(f"STOPPED says {told}, PROGRESS {progress}")
         bench.stays(2, "it was stopped over the control port")
         bench.moves_through(link, bench.wave(3))
         link.close(then=1.5)
@@ -104,11 +104,11 @@ def _stop_under_load(bench: Bench) -> None:
         # Some controllers let a program go on behind StopMove only when the robot has settled.
         settled = bench.setting.motion.settle if bench.setting.motion.stop_waits else 0
         if bench.now - asked > 0.3 + settled:
-            raise Broken(f"under load STOP is answered after {bench.now - asked:.2f} s")
+            raise CheckFailed(f"under load STOP is answered after {bench.now - asked:.2f} s")
         late = next(o.time for o in orders if o.time >= asked and o.instruction == "StopMove")
         most = delay + 0.01 * bench.setting.slowness
         if late - asked > most and not bench.setting.random_schedule:
-            raise Broken(
+            raise CheckFailed(
                 f"under load the robot is told to stop after {late - asked:.3f} s, not {most:.3f} s"
             )
         bench.rests(3, 1, "it was stopped under load")
@@ -148,9 +148,9 @@ def _pauses(bench: Bench) -> None:
         bench.rests(3, 4, "it is paused")
         told, status = bench.progress(watcher), bench.status(watcher)
         if told.state != RawTrajectoryState.PAUSED or told.reason:
-            raise Broken(f"a trajectory is paused, PROGRESS says {told}")
+            raise CheckFailed(f"a trajectory is paused, PROGRESS says {told}")
         if (status.in_motion, status.in_error) != (0, 0):
-            raise Broken(f"a trajectory is paused, STATUS says {status}")
+            raise CheckFailed(f"a trajectory is paused, STATUS says {status}")
         done(control.ask(messages.RawPause(1)), "PAUSE again")
         done(control.ask(messages.RawPause(0)), "the end of PAUSE")
         bench.wait_until_moving(2)
@@ -183,7 +183,7 @@ def _pause_ends(bench: Bench) -> None:
         bench.run(0.5)
         told = control.ask(messages.RawPause(0))
         if isinstance(told, messages.RawAcknowledged) and action != "another":
-            raise Broken(f"after {action} an end of the pause is taken: {told}")
+            raise CheckFailed(f"after {action} an end of the pause is taken: {told}")
         bench.rests(5, 3, f"it was paused, then came {action}")
         bench.start_again()
         bench.stays(3, f"it was paused, then came {action} and a start of the program")
@@ -203,7 +203,7 @@ def _nobody_answers(bench: Bench) -> None:
     asked = bench.now
     told = control.ask(messages.RawSpeed(50))
     if not isinstance(told, messages.RawNotDone) or bench.now - asked > 1.5:
-        raise Broken(f"SPEED is answered by {told} after {bench.now - asked:.2f} s")
+        raise CheckFailed(f"SPEED is answered by {told} after {bench.now - asked:.2f} s")
     bench.controller.perform("start")
     bench.stays(3, "the program was stopped and started")
     bench.moves_through(link, bench.wave(3))
@@ -247,7 +247,7 @@ def _one_stops(bench: Bench) -> None:
     bench.moves_through(link, bench.wave(3))
     beside = [name for name in used if not tasks[name].spec.motion]
     if beside != [bench.task("ROS_supervisor")]:
-        raise Broken(f"the robot is stopped and started by {beside}")
+        raise CheckFailed(f"the robot is stopped and started by {beside}")
 
 
 @case("heartbeats", "a missing heartbeat stops the robot", "R12")
@@ -266,16 +266,16 @@ def _heartbeats(bench: Bench) -> None:
             bench.run(0.3)
             told = control.ask(beat)
             if not isinstance(told, messages.RawHeartbeatReply):
-                raise Broken(f"HEARTBEAT is answered by {told}")
+                raise CheckFailed(f"HEARTBEAT is answered by {told}")
             if told.trajectory != bench.progress(watcher).trajectory:
-                raise Broken(f"HEARTBEAT is answered for another trajectory: {told}")
+                raise CheckFailed(f"HEARTBEAT is answered for another trajectory: {told}")
             if bench.standing or told.state != RawTrajectoryState.MOVING:
-                raise Broken(f"the robot does not move although heartbeats come: {told}")
+                raise CheckFailed(f"the robot does not move although heartbeats come: {told}")
         last = bench.now
         told_stop = control.expect(messages.RawStopped, 3, "without a heartbeat the robot stops")
         bench.wait_until_standing(3)
         if not 0.45 < bench.now - last < 2.5 or told_stop.reason != RawReason.CLIENT_LOST:
-            raise Broken(f"{bench.now - last:.2f} s after the last heartbeat: {told_stop}")
+            raise CheckFailed(f"{bench.now - last:.2f} s after the last heartbeat: {told_stop}")
         bench.stays(3, "a heartbeat is missing")
         # It is missed once.
         bench.moves_through(link, bench.wave(6))
@@ -288,10 +288,10 @@ def _heartbeats(bench: Bench) -> None:
             not isinstance(told, messages.RawHeartbeatReply)
             or told.state != RawTrajectoryState.FAILED
         ):
-            raise Broken(f"a heartbeat after one was missing is answered by {told}")
+            raise CheckFailed(f"a heartbeat after one was missing is answered by {told}")
         bench.moves_through(link, bench.wave(10))
         if not isinstance(control.ask(messages.RawHeartbeat(3600)), messages.RawHeartbeatReply):
-            raise Broken("an hour between heartbeats is refused")
+            raise CheckFailed("an hour between heartbeats is refused")
         for wrong in (-1.0, 3601.0, 1e5, math.nan, math.inf):
             not_done(control.ask(messages.RawHeartbeat(wrong)), RawReason.BAD_VALUE, f"{wrong:g} s")
         link.close()
@@ -310,7 +310,7 @@ def _heartbeat_in_time(bench: Bench) -> None:
         bench.wait_until_standing(3)
         stops = [o.time for o in orders if o.instruction == "StopMove" and o.time > last]
         if not stops or not seconds - 0.02 <= stops[0] - last <= seconds + 0.06:
-            raise Broken(f"heartbeats of {seconds} s: the last at {last:.3f} s, stops {stops}")
+            raise CheckFailed(f"heartbeats of {seconds} s: the last at {last:.3f} s, stops {stops}")
         control.ask(messages.RawHeartbeat(0))
         bench.moves_through(link, bench.wave(4))
         # Axes may follow late.
@@ -335,7 +335,9 @@ def _awaits(bench: Bench) -> None:
         looks.clear()
         bench.run(0.65)
         if not 5 <= len(looks) <= 9:
-            raise Broken(f"in 0.65 s it looked {len(looks)} times for a heartbeat of {seconds} s")
+            raise CheckFailed(
+                f"in 0.65 s it looked {len(looks)} times for a heartbeat of {seconds} s"
+            )
     control.ask(messages.RawHeartbeat(0))
 
 
@@ -392,7 +394,7 @@ def _first_start(bench: Bench) -> None:
     heard = watched_orders(bench)
     bench.run(2)
     if heard:
-        raise Broken(f"nobody has asked for anything, the driver orders {heard[0]}")
+        raise CheckFailed(f"nobody has asked for anything, the driver orders {heard[0]}")
 
 
 @case("supervisor-gone", "a supervisor that does not answer", "R7b", background=True)
@@ -402,18 +404,18 @@ def _supervisor_is_gone(bench: Bench) -> None:
         control, link, state = other.control(), other.motion(), other.state()
         other.run(1)
         if not other.status(state).motion_possible:
-            raise Broken("no motion is possible, before anything has happened")
+            raise CheckFailed("no motion is possible, before anything has happened")
         fails(other, "ROS_supervisor", "OpMode", "ERR_OUTOFBND")
         other.run(1.5 + 2 * other.config.state_period)
         if other.status(state).motion_possible:
-            raise Broken("the supervisor has ended, STATUS says that motion is possible")
+            raise CheckFailed("the supervisor has ended, STATUS says that motion is possible")
         link.send(other.download(other.wave(8)))
         other.stays(3, "the supervisor does not answer")
         for asked in (control, link):
             asked.send(STOP)
             told = asked.reply(_TRAJ, 3)
             if not isinstance(told, messages.RawFailure):
-                raise Broken(f"the supervisor does not answer, STOP is answered by {told}")
+                raise CheckFailed(f"the supervisor does not answer, STOP is answered by {told}")
         not_done(control.ask(messages.RawPause(1), 3), RawReason.INTERNAL, "PAUSE")
         other.stays(1, "the supervisor does not answer")
     with bench.beside(bench.system) as other:
@@ -436,7 +438,7 @@ def _old_end(bench: Bench) -> None:
     control = bench.control()
     bench.run(1)
     if any(f.number == messages.STOPPED for f in control.read()):
-        raise Broken("a client is told of a trajectory that had ended before it came")
+        raise CheckFailed("a client is told of a trajectory that had ended before it came")
     link.close(then=1.2)
     stream = Streamer(bench)
     points = way(bench, 20)
@@ -448,11 +450,11 @@ def _old_end(bench: Bench) -> None:
     stream.refused(RawReason.JOINT_LIMIT, "joint 2 is outside its limits")
     told = control.expect(messages.RawStopped, 10, "STOPPED arrives")
     if (told.reached, told.reason) != (20, RawReason.JOINT_LIMIT):
-        raise Broken(f"a stream was cut behind 20 points, STOPPED says {told}")
+        raise CheckFailed(f"a stream was cut behind 20 points, STOPPED says {told}")
     # Axes that follow late are not quite there yet.
     near = 1e-3 + 0.2 * bench.setting.motion.servo_lag
     if distance(told.joints[: len(here)], here) > near or any(told.joints[len(here) :]):
-        raise Broken(f"the stream ended at {here}, STOPPED says {told.joints}")
+        raise CheckFailed(f"the stream ended at {here}, STOPPED says {told.joints}")
 
 
 @case("stream-control", "pause, speed and STOP of a stream")
@@ -482,5 +484,5 @@ def _stream_over_control(bench: Bench) -> None:
     told = control.expect(messages.RawStopped, 2, "STOPPED arrives")
     refusal = stream.refuses(RawReason.STOPPED, "points behind a STOP", way(bench, 3))
     if refusal.trajectory != told.trajectory or refusal.point != told.reached:
-        raise Broken(f"STOPPED says {told}, a batch behind it is answered by {refusal}")
+        raise CheckFailed(f"STOPPED says {told}, a batch behind it is answered by {refusal}")
     bench.rests(1, 2, "the stream was stopped")

@@ -4,15 +4,15 @@ import math
 import struct
 
 from rapidgen.verification import messages
-from rapidgen.verification.case import Theme
+from rapidgen.verification.case import SuiteGroup
 from rapidgen.verification.messages import RawComm, RawReason, RawReplyCode
-from rapidgen.verification.model import Broken
+from rapidgen.verification.model import CheckFailed
 from rapidgen.verification.position_checks import distance
 from rapidgen.verification.raw_connection import STOP, RawLink, raw_point
 from rapidgen.verification.suite.control import done, not_done, stop
 from rapidgen.verification.testbench import HELLO, Bench
 
-case = Theme("controlling", needs="control")
+case = SuiteGroup("controlling", needs="control")
 
 _TRAJ = messages.JOINT_TRAJ_PT
 
@@ -31,7 +31,7 @@ def _control_client_leaves(bench: Bench) -> None:
         if heartbeats:
             bench.wait_until_standing(3)
             if distance(bench.position, points[-1][0]) < 1e-3:
-                raise Broken("the robot went on though the client that beats has left")
+                raise CheckFailed("the robot went on though the client that beats has left")
             bench.stays(2, "the client that beats has left")
         else:
             bench.wait_until_at(points[-1][0], 20)
@@ -59,13 +59,13 @@ def _control_hello(bench: Bench) -> None:
     control = bench.control()
     told = control.ask(HELLO)
     if not isinstance(told, messages.RawHelloReply) or told.build_id != bench.system.build_id:
-        raise Broken(f"HELLO on the control port is answered by {told}")
+        raise CheckFailed(f"HELLO on the control port is answered by {told}")
     if bench.state().ask(HELLO) != told:
-        raise Broken(f"HELLO on the state port is not answered by {told}")
+        raise CheckFailed(f"HELLO on the state port is not answered by {told}")
     done(control.ask(messages.RawPing()), "PING")
     control.send(b"\x0c\0\0\0\x14\0\0\0\x02\0\0\0\0\0\0\0")
     if not isinstance(_failure(control), messages.RawFailure):
-        raise Broken("a request of an unknown type is not answered by a failure")
+        raise CheckFailed("a request of an unknown type is not answered by a failure")
     for byte in messages.encode(messages.RawHeartbeat(0), RawComm.REQUEST):
         control.send(bytes([byte]))
         bench.run(0.003)
@@ -108,7 +108,7 @@ def _control_junk(bench: Bench) -> None:
         control.send(data)
         control.wait_until_lost(3, f"{data[:24].hex()} drops its client")
         if bench.standing:
-            raise Broken(f"the robot stopped for {data[:24].hex()}")
+            raise CheckFailed(f"the robot stopped for {data[:24].hex()}")
     bench.wait_until_at(points[-1][0], 30)
     control = bench.control()
     stop(control)
@@ -126,7 +126,7 @@ def _signals(bench: Bench) -> None:
             told = control.reply(messages.SIGNAL)
             not_done(told, RawReason.NO_SIGNAL, f"signal {index} of {count}")
         elif not isinstance(_failure(control), messages.RawFailure):
-            raise Broken("a driver without signals answers SIGNAL")
+            raise CheckFailed("a driver without signals answers SIGNAL")
     for index, signal in enumerate(exposed):
         _one_signal(bench, control, index, signal.kind, signal.access == "write")
 
@@ -138,21 +138,21 @@ def _one_signal(bench: Bench, control: RawLink, index: int, kind: str, writable:
         not_done(told, RawReason.NO_SIGNAL, f"signal {index} is not on the controller")
         return
     if not isinstance(told, messages.RawSignalReply) or told.signal != index:
-        raise Broken(f"signal {index} is read as {told}")
+        raise CheckFailed(f"signal {index} is read as {told}")
     name, signals = bench.config.signals[index].name, bench.controller.signals
     if not writable:
         signals[name] = 1
         told = control.ask(messages.RawSignal(index, 0, 0.0))
         if told != messages.RawSignalReply(index, 1.0):
-            raise Broken(f"signal {index} is 1, it is read as {told}")
+            raise CheckFailed(f"signal {index} is 1, it is read as {told}")
         told = control.ask(messages.RawSignal(index, 1, 0.0))
         not_done(told, RawReason.READ_ONLY, f"signal {index} may not be written")
         if signals[name] != 1:
-            raise Broken(f"signal {index} may not be written, and is {signals[name]}")
+            raise CheckFailed(f"signal {index} may not be written, and is {signals[name]}")
         return
     told = control.ask(messages.RawSignal(index, 1, 1.0))
     if told != messages.RawSignalReply(index, 1.0):
-        raise Broken(f"signal {index} is written as {told}")
+        raise CheckFailed(f"signal {index} is written as {told}")
     none = {"DO": (2.0, 0.5, -1.0), "GO": (-1.0, 0.5)}.get(kind, ())
     for value in (*none, math.nan, math.inf, 1e20):
         not_done(
@@ -161,9 +161,9 @@ def _one_signal(bench: Bench, control: RawLink, index: int, kind: str, writable:
             f"{value} to {kind}",
         )
     if signals[name] != 1:
-        raise Broken(f"signal {index} is written, and is {signals[name]}")
+        raise CheckFailed(f"signal {index} is written, and is {signals[name]}")
     for write in (2, -1):
         told = control.ask(messages.RawSignal(index, write, 0.0))
         not_done(told, RawReason.BAD_VALUE, "neither read nor write")
     if control.ask(messages.RawSignal(index, 1, 0.0)) != messages.RawSignalReply(index, 0.0):
-        raise Broken(f"signal {index} does not go back to 0")
+        raise CheckFailed(f"signal {index} does not go back to 0")

@@ -1,17 +1,17 @@
 """The control server's own: it stops by itself, awaits heartbeats to the moment, loses clients."""
 
 from rapidgen.verification import messages
-from rapidgen.verification.case import Theme
+from rapidgen.verification.case import SuiteGroup
 from rapidgen.verification.instruction_hooks import fails, watched_orders
 from rapidgen.verification.messages import RawComm, RawReason, RawTrajectoryState
-from rapidgen.verification.model import Broken, NothingToProve
+from rapidgen.verification.model import CheckFailed, NotApplicable
 from rapidgen.verification.raw_connection import STOP, RawLink
 from rapidgen.verification.stream import BEGIN, Streamer
 from rapidgen.verification.suite.control import not_done, stop, stopped
 from rapidgen.verification.suite.streams import way
 from rapidgen.verification.testbench import Bench
 
-case = Theme("controlling", needs="control")
+case = SuiteGroup("controlling", needs="control")
 
 _TRAJ = messages.JOINT_TRAJ_PT
 _FAILED = RawTrajectoryState.FAILED
@@ -45,14 +45,14 @@ def _stops_alone(bench: Bench, port: str) -> None:
     if port in ("control", "motion"):
         told = chosen.reply(_TRAJ, 2)
         if not isinstance(told, messages.RawFailure) or not 0.9 < bench.now - asked < 1.8:
-            raise Broken(f"STOP is answered by {told} after {bench.now - asked:.2f} s")
+            raise CheckFailed(f"STOP is answered by {told} after {bench.now - asked:.2f} s")
     if not any(o.instruction == "StopMove" and o.free for o in orders):
-        raise Broken(f"the supervisor hangs, a stop was asked for ({port}), then {orders}")
+        raise CheckFailed(f"the supervisor hangs, a stop was asked for ({port}), then {orders}")
     # Some controllers let a program go on behind StopMove, and tell of it, only then.
     bench.run(2 * motion.settle if motion.stop_waits else 0)
     said = [e.title for e in bench.controller.log.since(last) if e.title.startswith("ROS")]
     if "ROS: the supervisor does not answer" not in said:
-        raise Broken(f"the supervisor hangs, the robot was stopped, the event log says {said}")
+        raise CheckFailed(f"the supervisor hangs, the robot was stopped, the event log says {said}")
     for paused in (0, 1):
         refused = control.ask(messages.RawPause(paused))
         not_done(refused, RawReason.INTERNAL, f"the supervisor hangs, PAUSE {paused}")
@@ -66,7 +66,7 @@ def _stops_alone(bench: Bench, port: str) -> None:
     # There the supervisor cannot take back what a server has done.
     said = [e.title for e in bench.controller.log.since(last)]
     if "ROS: the robot stays stopped" not in said:
-        raise Broken(f"a server's stop cannot be taken back, the event log says {said}")
+        raise CheckFailed(f"a server's stop cannot be taken back, the event log says {said}")
     link.send(bench.download(bench.wave(3)))
     bench.stays(4, "a server's stop cannot be taken back")
 
@@ -86,7 +86,7 @@ def _cannot(bench: Bench) -> None:
     texts = " ".join(str(event) for event in bench.controller.log.since(last))
     known = "could not stop the robot" in texts or "The robot was stopped by" in texts
     if not isinstance(told, messages.RawFailure) or not known:
-        raise Broken(f"a server cannot stop the robot, {told}, the event log says {texts}")
+        raise CheckFailed(f"a server cannot stop the robot, {told}, the event log says {texts}")
     bench.wait_until_standing(1 + bench.setting.motion.settle + bench.setting.motion.servo_lag)
     supervisor.start()
     bench.rests(3, 1, "the supervisor goes on, and was asked to stop")
@@ -102,7 +102,7 @@ def _beats(bench: Bench) -> None:
     control, link = bench.control(), bench.motion()
     told = control.ask(messages.RawHeartbeat(0))
     if not isinstance(told, messages.RawHeartbeatReply) or told.state != RawTrajectoryState.NONE:
-        raise Broken(f"a heartbeat at rest is answered by {told}")
+        raise CheckFailed(f"a heartbeat at rest is answered by {told}")
     points = bench.wave(12)
     bench.sets_off(link, points)
     for seconds in (0.3, 0.0):
@@ -123,15 +123,15 @@ def _beats(bench: Bench) -> None:
         stops = [o.time for o in orders if o.instruction == "StopMove"]
         late = bench.setting.latest_interrupt + 0.01 * bench.setting.slowness
         if not stops or not seconds - 0.02 <= stops[0] - last <= seconds + late:
-            raise Broken(f"heartbeats of {seconds} s: the last at {last:.3f} s, stops {stops}")
+            raise CheckFailed(f"heartbeats of {seconds} s: the last at {last:.3f} s, stops {stops}")
         if seconds > 1:
             if not isinstance(beating, messages.RawHeartbeatReply):
-                raise Broken(f"HEARTBEAT is answered by {beating}")
+                raise CheckFailed(f"HEARTBEAT is answered by {beating}")
             # Some controllers let the supervisor go on only when the robot has settled.
             stopped(control, beating.trajectory)
             told = control.ask(messages.RawHeartbeat(0.2))
             if not isinstance(told, messages.RawHeartbeatReply) or told.state != _FAILED:
-                raise Broken(f"a heartbeat after one was missing is answered by {told}")
+                raise CheckFailed(f"a heartbeat after one was missing is answered by {told}")
             control.ask(messages.RawHeartbeat(0))
         bench.moves_through(link, bench.wave(5))
 
@@ -160,7 +160,7 @@ def _leave(bench: Bench) -> None:
         else:
             bench.rests(0.3 + 0.05 * bench.setting.slowness, 0.3, f"a client that beats {how}")
         if not control.lost:
-            raise Broken(f"a control client that {how} keeps its connection")
+            raise CheckFailed(f"a control client that {how} keeps its connection")
         control = next_one if next_one is not None else bench.control()
         # Whoever comes next has asked for no heartbeats.
         bench.moves_through(link, bench.wave(6, duration=0.25))
@@ -170,7 +170,7 @@ def _leave(bench: Bench) -> None:
 def _not_begun(bench: Bench) -> None:
     """A stream that has points but did not begin to move is stopped: no point was reached."""
     if bench.config.trajectory.preload <= 0:
-        raise NothingToProve("streams begin at once, `preload` is 0")
+        raise NotApplicable("streams begin at once, `preload` is 0")
     control, watcher = bench.control(), bench.watcher()
     stream = Streamer(bench)
     stream.put(way(bench, 1), BEGIN)
@@ -182,7 +182,7 @@ def _not_begun(bench: Bench) -> None:
         told[:3] != (number, 0, RawReason.STOPPED)
         or max(abs(a - b) for a, b in zip(told.joints, here, strict=True)) > 1e-5
     ):
-        raise Broken(f"a stream was stopped before it moved, STOPPED says {told}")
+        raise CheckFailed(f"a stream was stopped before it moved, STOPPED says {told}")
     stream.refuses(RawReason.STOPPED, "points behind STOP", way(bench, 2))
     bench.run(0.3)
     progress = bench.progress(watcher)
@@ -191,5 +191,5 @@ def _not_begun(bench: Bench) -> None:
         RawTrajectoryState.STOPPED,
         RawReason.STOPPED,
     ):
-        raise Broken(f"a stream was stopped before it moved, PROGRESS says {progress}")
+        raise CheckFailed(f"a stream was stopped before it moved, PROGRESS says {progress}")
     bench.stays(0.5, "the stream was stopped before it moved")

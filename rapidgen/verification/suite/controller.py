@@ -6,13 +6,13 @@ from functools import partial
 from rapidgen.generate.layout import open_signals, signal_name
 from rapidgen.generate.status import STATUS_SIGNALS
 from rapidgen.verification import messages
-from rapidgen.verification.case import Theme
+from rapidgen.verification.case import SuiteGroup
 from rapidgen.verification.messages import RawMode, RawReason, RawTrajectoryState, RawTriState
-from rapidgen.verification.model import Broken
+from rapidgen.verification.model import CheckFailed
 from rapidgen.verification.raw_connection import STOP, RawLink
 from rapidgen.verification.testbench import Bench, with_module
 
-case = Theme("controller")
+case = SuiteGroup("controller")
 
 
 def _back_to_work(bench: Bench) -> None:
@@ -39,7 +39,9 @@ def _interrupted(bench: Bench, action: str, *, pp_to_main: bool = False) -> None
         if action != "power-loss":
             status = bench.status(state)
             if status.motion_possible != 1:
-                raise Broken(f"STATUS says that no motion is possible after {action}: {status}")
+                raise CheckFailed(
+                    f"STATUS says that no motion is possible after {action}: {status}"
+                )
         link.close()
         state.close(then=1.5)
         link = bench.motion()
@@ -61,12 +63,14 @@ def _refused_while_not_executing(bench: Bench) -> None:
         bench.stays(5, f"the controller is in {action}")
         status, told = bench.status(state), bench.progress(state)
         if (told.state, told.point, told.joint) != (RawTrajectoryState.REFUSED, -1, 0):
-            raise Broken(f"after {action} a trajectory is refused for no point, PROGRESS: {told}")
+            raise CheckFailed(
+                f"after {action} a trajectory is refused for no point, PROGRESS: {told}"
+            )
         reason, _ = messages.split_error_code(status.error_code)
         if status.in_error != 1 or reason not in reasons:
-            raise Broken(f"after {action} a trajectory is answered by {status}")
+            raise CheckFailed(f"after {action} a trajectory is answered by {status}")
         if status.motion_possible != 0:
-            raise Broken(f"after {action} STATUS says that motion is possible")
+            raise CheckFailed(f"after {action} STATUS says that motion is possible")
         _back_to_work(bench)
         bench.stays(5, "what came while nothing was executing is not kept")
         bench.moves_through(link, bench.wave(3))
@@ -81,11 +85,11 @@ def _e_stop_shows(bench: Bench) -> None:
     bench.run(0.5)
     status = bench.status(state)
     if (status.e_stopped, status.drives_powered, status.motion_possible) != (1, 0, 0):
-        raise Broken(f"during an emergency stop STATUS says {status}")
+        raise CheckFailed(f"during an emergency stop STATUS says {status}")
     _back_to_work(bench)
     status = bench.status(state)
     if (status.e_stopped, status.drives_powered, status.motion_possible) != (0, 1, 1):
-        raise Broken(f"after an emergency stop STATUS says {status}")
+        raise CheckFailed(f"after an emergency stop STATUS says {status}")
 
 
 @case("manual-status", "STATUS shows manual mode", background=True)
@@ -94,7 +98,7 @@ def _manual_mode_shows(bench: Bench) -> None:
     bench.controller.perform("manual")
     bench.run(0.5)
     if bench.status(state).mode != RawMode.MANUAL:
-        raise Broken("in manual mode STATUS does not say so")
+        raise CheckFailed("in manual mode STATUS does not say so")
 
 
 @case("pp-to-main", "PP to main leaves nothing taken", "R7a")
@@ -118,7 +122,7 @@ def _without_signals(bench: Bench) -> None:
         state, link = other.state(), other.motion()
         status = other.status(state)
         if status.drives_powered != RawTriState.UNKNOWN:
-            raise Broken(f"without signals STATUS says {status}")
+            raise CheckFailed(f"without signals STATUS says {status}")
         other.moves_through(link, other.wave(4))
 
 
@@ -144,7 +148,7 @@ def _serves_and_stops(bench: Bench) -> None:
     points, since = bench.wave(10), bench.now
     bench.sets_off(link, points, 0.5)
     if bench.status(state, 2 + period).in_motion != 1:
-        raise Broken("a trajectory is under way, STATUS says that nothing moves")
+        raise CheckFailed("a trajectory is under way, STATUS says that nothing moves")
     link.send(STOP)
     bench.rests(5, 1, "STOP was sent")
     bench.followed([p for p, _ in points], since=since)
@@ -178,7 +182,7 @@ def _is_over(bench: Bench, state: RawLink, what: str) -> None:
     bench.run(bench.setting.motion.settle + 2.5 * bench.config.state_period)
     status = bench.status(state, 2 + bench.config.state_period)
     if status.in_motion != 0:
-        raise Broken(f"{what}, STATUS says {status}")
+        raise CheckFailed(f"{what}, STATUS says {status}")
 
 
 @case("standing-forgotten", "a signal that says for ever that the robot moves")
@@ -189,7 +193,7 @@ def _standing_forgotten(bench: Bench) -> None:
     bench.controller.signals[_name(bench, "standing")] = 0
     bench.run(1.5 * period)
     if bench.status(state, 2 + period).in_motion != 1:
-        raise Broken("the controller says that the robot moves, STATUS does not")
+        raise CheckFailed("the controller says that the robot moves, STATUS does not")
     bench.run(max(10, 5 * period))
     _is_over(bench, state, "no axis has moved for ten seconds")
     bench.controller.signals[_name(bench, "standing")] = 1
@@ -221,12 +225,14 @@ def _mixed_builds(bench: Bench) -> None:
             if (told.state, told.reason, told.point, told.joint) != (
                 RawTrajectoryState.REFUSED, RawReason.BUILD_MISMATCH, -1, 0
             ):  # fmt: skip
-                raise Broken(f"{path} is of another build, PROGRESS says {told}")
+                raise CheckFailed(f"{path} is of another build, PROGRESS says {told}")
             link.send(frames[68:])
             other.stays(3, f"{path} is of another build")
             status = other.status(state)
             if status.motion_possible != 0:
-                raise Broken(f"with {path} of another build STATUS says that motion is possible")
+                raise CheckFailed(
+                    f"with {path} of another build STATUS says that motion is possible"
+                )
 
 
 @case("no-task-ends", "no task ends by itself", "R3")
@@ -237,7 +243,7 @@ def _no_task_ends(bench: Bench) -> None:
     bench.run(60)
     ended = [name for name, task in bench.controller.tasks.items() if task.state != "running"]
     if ended:
-        raise Broken(f"tasks that ended by themselves: {', '.join(ended)}")
+        raise CheckFailed(f"tasks that ended by themselves: {', '.join(ended)}")
 
 
 case("e-stop", "nothing resumes after an emergency stop")(partial(_interrupted, action="e-stop"))

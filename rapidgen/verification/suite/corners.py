@@ -14,15 +14,15 @@ from rapidgen.axes import frames
 from rapidgen.config.model import Joint
 from rapidgen.motion.moves import JointMove, Move, Zone
 from rapidgen.rapid.builtins import signatures
-from rapidgen.verification.case import Theme
+from rapidgen.verification.case import SuiteGroup
 from rapidgen.verification.instruction_hooks import fails
-from rapidgen.verification.model import Broken, NothingToProve
+from rapidgen.verification.model import CheckFailed, NotApplicable
 from rapidgen.verification.position_checks import Point, Position
 from rapidgen.verification.suite.motion_task import begins
 from rapidgen.verification.suite.speed import asks_as_it_begins
 from rapidgen.verification.testbench import Bench
 
-case = Theme("moving")
+case = SuiteGroup("moving")
 
 _SHARE = 0.3
 """Of an axis' acceleration."""
@@ -137,10 +137,10 @@ def _check(bench: Bench, points: Sequence[Point], what: str, percent: float = 10
     seen = [m.zone for m in moves if isinstance(m, JointMove)]
     # The first point is where the robot stands.
     if len(seen) != len(wanted) + 1 or not seen[-1].fine:
-        raise Broken(f"{what}: {len(points)} points, but {len(seen)} moves")
+        raise CheckFailed(f"{what}: {len(points)} points, but {len(seen)} moves")
     for number, (zone, one) in enumerate(zip(seen, wanted, strict=False), 1):
         if not _alike(zone, one):
-            raise Broken(f"{what}, point {number}: {zone}, not {one}")
+            raise CheckFailed(f"{what}, point {number}: {zone}, not {one}")
 
 
 def _alike(zone: Zone, wanted: Zone) -> bool:
@@ -211,7 +211,7 @@ def _slowed(bench: Bench) -> None:
 def _largest(bench: Bench) -> None:
     """A quick TCP that turns round: no corner is larger than the zone of the configuration."""
     if bench.group.tcp_speed_limit < 5:
-        raise NothingToProve("the TCP's ceiling is too low for large corners")
+        raise NotApplicable("the TCP's ceiling is too low for large corners")
     least = max(0.2, bench.config.trajectory.min_segment)
     walk = _Walk(bench)
     joint = bench.group.joints[0]
@@ -241,7 +241,7 @@ def _unknown(bench: Bench) -> None:
     """The TCP's speed cannot be told: the largest corner, and the trajectory goes on."""
     policy = bench.config.trajectory
     if policy.zone == "fine" or policy.corners == "zone" or not bench.group.chain:
-        raise NothingToProve("the driver computes no sizes of corners")
+        raise NotApplicable("the driver computes no sizes of corners")
     zones: list[Zone] = []
     group = bench.motion_group
 
@@ -253,4 +253,4 @@ def _unknown(bench: Bench) -> None:
     bench.moves_through(bench.motion(), bench.wave(6))
     group.listeners.remove(heard)
     if not any(_alike(zone, _named(policy.zone)) for zone in zones):
-        raise Broken(f"CalcRobT has failed, the zones are {zones}")
+        raise CheckFailed(f"CalcRobT has failed, the zones are {zones}")

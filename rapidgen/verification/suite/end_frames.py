@@ -4,9 +4,9 @@ import math
 from itertools import pairwise
 
 from rapidgen.verification import messages
-from rapidgen.verification.case import Theme
+from rapidgen.verification.case import SuiteGroup
 from rapidgen.verification.messages import RawReason, RawSpecial, RawTrajectoryState
-from rapidgen.verification.model import Broken, NothingToProve
+from rapidgen.verification.model import CheckFailed, NotApplicable
 from rapidgen.verification.position_checks import (
     SETTLED,
     Point,
@@ -18,7 +18,7 @@ from rapidgen.verification.position_checks import (
 from rapidgen.verification.suite.points import Table
 from rapidgen.verification.testbench import CEILING, Bench
 
-case = Theme("taking")
+case = SuiteGroup("taking")
 
 _BEGIN, _END = int(RawSpecial.BEGIN), int(RawSpecial.END)
 _TAKEN = messages.RawAcknowledged()
@@ -57,7 +57,7 @@ def _in_time(bench: Bench, what: str, seen: float, wanted: float, possible: floa
     motion = bench.setting.motion
     late = _slack(bench) + motion.settle + motion.servo_lag
     if not 0.95 * wanted - 0.02 <= seen <= max(wanted, possible) + late:
-        raise Broken(f"{what} took {seen:.3f} s, not {wanted:.3f} s")
+        raise CheckFailed(f"{what} took {seen:.3f} s, not {wanted:.3f} s")
 
 
 def _times(bench: Bench, since: float, place: Position) -> tuple[float, float]:
@@ -65,7 +65,7 @@ def _times(bench: Bench, since: float, place: Position) -> tuple[float, float]:
     track = [(t, p) for t, p in bench.track if t >= since]
     arrived = next((i for i, (_, p) in enumerate(track) if distance(p, place) < SETTLED), None)
     if arrived is None:
-        raise Broken(f"the robot was not at {place}")
+        raise CheckFailed(f"the robot was not at {place}")
     for (left, _), (_, after) in pairwise(track[arrived:]):
         if distance(after, place) >= SETTLED:
             return track[arrived][0], left
@@ -82,7 +82,7 @@ def _done(bench: Bench, table: Table, count: int, seconds: float) -> None:
         told = table.watcher.expect(messages.RawProgress, 2, "a PROGRESS arrives")
         if told == wanted:
             return
-    raise Broken(f"{count} points are executed, PROGRESS says {told}")
+    raise CheckFailed(f"{count} points are executed, PROGRESS says {told}")
 
 
 @case("one-place", "one point, sent twice, in its time", "R8")
@@ -100,7 +100,7 @@ def _one_place(bench: Bench) -> None:
         since = bench.now
         table.ask()
         if bench.now - since > 0.2:
-            raise Broken(f"the end frame was answered after {bench.now - since:.2f} s")
+            raise CheckFailed(f"the end frame was answered after {bench.now - since:.2f} s")
         bench.wait_until_at(there, 5)
         if needed:
             took = bench.now - since
@@ -172,7 +172,7 @@ def _ways(bench: Bench, table: Table, near: Position) -> None:
         ended = _times(bench, left, three)[0]
         _in_time(bench, "the ways behind a stay", ended - left, 2 * short + 0.1)
         if last and finished < ended + 0.3:
-            raise Broken("a stay at the end was left out")
+            raise CheckFailed("a stay at the end was left out")
 
 
 @case("not-now", "an end frame while no motion is possible, or another one moves", "R7a")
@@ -230,7 +230,7 @@ def _while_moving(bench: Bench, table: Table) -> None:
     table.ask()
     halted = bench.now
     if not since + 0.02 < halted < since + 0.9 + bench.setting.motion.settle:
-        raise Broken(f"a trajectory under way was halted in {halted - since:.3f} s")
+        raise CheckFailed(f"a trajectory under way was halted in {halted - since:.3f} s")
     bench.wait_until_standing(5)
     bench.followed([here, away], since=since - 0.6 * seconds)
     bench.moves_through(table.link, bench.way_to(here))
@@ -247,7 +247,7 @@ def _fed(bench: Bench) -> None:
     """More points than the ring takes are all executed, in time, and the server goes on reading."""
     policy = bench.config.trajectory
     if policy.capacity < policy.ring + 25:
-        raise NothingToProve("a whole trajectory has room in the ring")
+        raise NotApplicable("a whole trajectory has room in the ring")
     table, points, since = Table(bench), _long(bench, policy.ring + 25), bench.now
     table.number += 1
     table.link.send(bench.download(points))
@@ -255,12 +255,12 @@ def _fed(bench: Bench) -> None:
     for silence in (0.1, 0.1, 1.25):
         bench.run(silence)
         if not isinstance(table.link.ask(messages.RawPing(), 0.05), messages.RawAcknowledged):
-            raise Broken("PING is not confirmed while a trajectory is fed")
+            raise CheckFailed("PING is not confirmed while a trajectory is fed")
     asked = sum(d for _, d in points[1:])
     bench.wait_until_at(points[-1][0], asked + 5)
     # How closely axes follow dense points depends on their accelerations.
     if bench.now - since > 1.4 * asked + 1:
-        raise Broken(f"{asked:.2f} s of {len(points)} points took {bench.now - since:.2f} s")
+        raise CheckFailed(f"{asked:.2f} s of {len(points)} points took {bench.now - since:.2f} s")
     _done(bench, table, len(points), 0.1)
     bench.executed(points, since)
 
@@ -270,7 +270,7 @@ def _ends_while_fed(bench: Bench) -> None:
     """Nothing of what had not found room yet is ever executed."""
     policy = bench.config.trajectory
     if policy.capacity < policy.ring + 60:
-        raise NothingToProve("a whole trajectory has room in the ring")
+        raise NotApplicable("a whole trajectory has room in the ring")
     table, points = Table(bench), _long(bench, policy.ring + 60)
     link, data = table.link, bench.download(points)
     for action in ("STOP", "stop", "another"):

@@ -6,17 +6,17 @@ from typing import Any
 
 from rapidgen.runtime.errors import FatalError
 from rapidgen.verification import messages
-from rapidgen.verification.case import Theme
+from rapidgen.verification.case import SuiteGroup
 from rapidgen.verification.instruction_hooks import watched_orders, wrapped
 from rapidgen.verification.messages import RawComm, RawReason, RawTrajectoryState
-from rapidgen.verification.model import Broken, NothingToProve
+from rapidgen.verification.model import CheckFailed, NotApplicable
 from rapidgen.verification.raw_connection import RawLink
 from rapidgen.verification.stream import BEGIN, Streamer
 from rapidgen.verification.suite.motion_task import patience, unit_of
 from rapidgen.verification.suite.supervisor import end_as_request
 from rapidgen.verification.testbench import Bench
 
-case = Theme("halting")
+case = SuiteGroup("halting")
 
 DETECTED = 0.5
 """s from the end of a task to the stop of the robot and the event, at most."""
@@ -99,21 +99,21 @@ def _halts(bench: Bench, module: str, situation: str) -> None:
     ended = bench.now
     bench.run(DETECTED)
     if situation != "idle" and not any(o.instruction == "StopMove" for o in orders):
-        raise Broken(f"{what}: after {DETECTED} s no task has stopped it")
+        raise CheckFailed(f"{what}: after {DETECTED} s no task has stopped it")
     said = [str(event) for event in bench.controller.log.since(last)]
     if not any("a server task has ended" in text and task.name in text for text in said):
-        raise Broken(f"{what}: after {bench.now - ended:.2f} s the event log says {said}")
+        raise CheckFailed(f"{what}: after {bench.now - ended:.2f} s the event log says {said}")
     bench.wait_until_standing(1 + bench.setting.motion.settle + bench.setting.motion.servo_lag)
     bench.run(patience(bench))
     if module != "ROS_stateServer":
         status, told = bench.status(watcher), bench.progress(watcher)
         if (status.motion_possible, status.error_code) != (0, RawReason.TASK_ENDED):
-            raise Broken(f"{what}: STATUS says {status}")
+            raise CheckFailed(f"{what}: STATUS says {status}")
         if situation != "idle" and (told.state, told.reason) != (
             RawTrajectoryState.FAILED,
             RawReason.TASK_ENDED,
         ):
-            raise Broken(f"{what}: PROGRESS says {told}")
+            raise CheckFailed(f"{what}: PROGRESS says {told}")
     if module != "ROS_motionServer":
         _is_refused(bench, link, stream, what)
     bench.stays(1, what)
@@ -130,7 +130,7 @@ def _is_refused(bench: Bench, link: RawLink, stream: Streamer | None, what: str)
     link.send(end_as_request(bench, 3, unit_of(bench)))
     content = messages.decode(link.expect_reply(3, "the end frame is answered"))
     if content != messages.RawRefused(RawReason.TASK_ENDED, -1, 0):
-        raise Broken(f"{what}: a trajectory is answered by {content}")
+        raise CheckFailed(f"{what}: a trajectory is answered by {content}")
     if not bench.streams:
         return
     stream = Streamer(bench, link, 1 if stream is None else stream.number + 1)
@@ -187,7 +187,7 @@ def _ends_with_an_error(bench: Bench, module: str) -> None:
             wrapped(task, call, fail)
     bench.run(1.5)
     if task.state != "error":
-        raise NothingToProve(f"{task.name} does none of that now")
+        raise NotApplicable(f"{task.name} does none of that now")
     bench.start_again()
     bench.run(1)
     bench.wait_until_standing(2)

@@ -7,14 +7,14 @@ from itertools import pairwise
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.runtime.values import PersistentCell
 from rapidgen.system.model import ModuleFile, System
-from rapidgen.verification.case import Theme
+from rapidgen.verification.case import SuiteGroup
 from rapidgen.verification.messages import RawTrajectoryState
-from rapidgen.verification.model import Broken, NothingToProve
+from rapidgen.verification.model import CheckFailed, NotApplicable
 from rapidgen.verification.position_checks import Point, distance
 from rapidgen.verification.raw_connection import STOP
 from rapidgen.verification.testbench import Bench, with_module
 
-case = Theme("faults")
+case = SuiteGroup("faults")
 
 
 @case("stop-and-more", "STOP and a new trajectory in one packet", "R5")
@@ -31,7 +31,7 @@ def _stop_and_more_in_one_packet(bench: Bench) -> None:
         bench.wait_until_standing(20)
         at_end = distance(bench.position, second[-1][0]) < 1e-3
         if not delay and not at_end:
-            raise Broken("a trajectory in the packet of a STOP is not executed")
+            raise CheckFailed("a trajectory in the packet of a STOP is not executed")
         bench.stays(2, "all that was sent is over")
         bench.moves_through(link, bench.wave(3))
 
@@ -51,14 +51,14 @@ def _loop(bench: Bench) -> None:
         RawTrajectoryState.MOVING,
     ):
         if bench.now - since > 20:
-            raise Broken("a loop does not end")
+            raise CheckFailed("a loop does not end")
     if bench.now - since < sum(d for _, d in points[1:]) - 0.5:
-        raise Broken("a loop is told to be done before it is")
+        raise CheckFailed("a loop is told to be done before it is")
     bench.wait_until_at(points[-1][0], 5)
     bench.followed([p for p, _ in points], since=since)
     moved = [p for t, p in bench.track if t >= since]
     if min(distance(p, out[-1][0]) for p in moved) > 0.05:
-        raise Broken("the far end of a loop was left out")
+        raise CheckFailed("the far end of a loop was left out")
 
 
 @case("close-points", "zones wider than segments, points at no distance", "R9")
@@ -83,7 +83,7 @@ def _close_points(bench: Bench) -> None:
         bench.run(3)
         took = max(t for t, _ in bench.track) - since
         if took > 20 * shortest + 3:
-            raise Broken(f"{19 * shortest:.1f} s of short segments took {took:.1f} s")
+            raise CheckFailed(f"{19 * shortest:.1f} s of short segments took {took:.1f} s")
         bench.moves_through(link, bench.wave(3))
 
 
@@ -100,7 +100,7 @@ def _override(bench: Bench) -> None:
         taken.append(bench.now - since)
     group.override = 1.0
     if not 1.6 * taken[0] - 0.5 < taken[1] < 2.4 * taken[0] + 0.5:
-        raise Broken(f"at 50 % {taken[0]:.2f} s became {taken[1]:.2f} s")
+        raise CheckFailed(f"at 50 % {taken[0]:.2f} s became {taken[1]:.2f} s")
 
 
 @case("manual-speed", "a trajectory in manual mode", background=True)
@@ -113,7 +113,7 @@ def _manual_mode(bench: Bench) -> None:
     bench.run(1)
     state, link = bench.state(), bench.motion()
     if bench.status(state).motion_possible != 1:
-        raise Broken("in manual mode, motors on, program running, no motion is possible")
+        raise CheckFailed("in manual mode, motors on, program running, no motion is possible")
     bench.moves_through(link, bench.wave(5, duration=1.0))
 
 
@@ -137,7 +137,7 @@ def _stale_data(bench: Bench) -> None:
             before = other.position
             other.run(4)
             if distance(before, other.position) > 1e-4:
-                raise Broken("the robot moved at the start, by what its data happened to hold")
+                raise CheckFailed("the robot moved at the start, by what its data happened to hold")
             link = other.motion()
             other.moves_through(link, other.wave(4))
             other.sets_off(link, other.wave(8))
@@ -209,7 +209,7 @@ def _moves_nothing(bench: Bench, system: System, what: str) -> None:
 def _two_groups(bench: Bench) -> None:
     """Groups move at the same time, and a STOP for one stops no other."""
     if len(bench.config.groups) < 2:
-        raise NothingToProve("there is one group")
+        raise NotApplicable("there is one group")
     other = bench.of_group((bench.setting.group + 1) % len(bench.config.groups))
     mine, theirs = bench.motion(), other.motion()
     for stopping in (False, True):
@@ -221,7 +221,7 @@ def _two_groups(bench: Bench) -> None:
             mine.stop()
             bench.wait_until_standing(3)
             if distance(bench.position, first[-1][0]) < 1e-3:
-                raise Broken("a group went on after its STOP")
+                raise CheckFailed("a group went on after its STOP")
         else:
             bench.wait_until_at(first[-1][0])
         other.wait_until_at(second[-1][0])
@@ -251,9 +251,9 @@ def _even(bench: Bench) -> None:
         if begun < t1 and t2 < ended and t2 - t1 > 1e-3
     ]
     if not speeds:
-        raise Broken("on a straight way the robot hardly moved")
+        raise CheckFailed("on a straight way the robot hardly moved")
     if min(speeds) < 0.5 * max(speeds):
-        raise Broken(
+        raise CheckFailed(
             f"on a straight way the robot goes from {max(speeds):.3f} down to {min(speeds):.3f} "
             "rad/s at its points"
         )

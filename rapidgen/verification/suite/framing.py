@@ -2,13 +2,13 @@
 
 import random
 
-from rapidgen.verification.case import Theme
+from rapidgen.verification.case import SuiteGroup
 from rapidgen.verification.messages import POINT_BYTES, RawComm, RawReplyCode
-from rapidgen.verification.model import Broken
+from rapidgen.verification.model import CheckFailed
 from rapidgen.verification.raw_connection import raw_point
 from rapidgen.verification.testbench import Bench
 
-case = Theme("framing")
+case = SuiteGroup("framing")
 
 ROUNDS = 60
 """Malformed openings of one run; `campaign` has more."""
@@ -71,7 +71,7 @@ def _unknown_request(bench: Bench) -> None:
     link.send(_word(12) + _word(20) + _word(2) + _word(0))
     frame = link.expect_reply(2, "a request of an unknown type is answered")
     if (frame.comm, frame.reply) != (RawComm.REPLY, RawReplyCode.FAILURE):
-        raise Broken(f"a request of an unknown type is answered by {frame}")
+        raise CheckFailed(f"a request of an unknown type is answered by {frame}")
 
 
 @case("breaks-in-download", "garbage in a download: nothing moves")

@@ -7,15 +7,15 @@ from rapidgen import __version__
 from rapidgen.client.core.group import Group
 from rapidgen.generate.hello_reply import features
 from rapidgen.verification import batches, messages
-from rapidgen.verification.case import Theme
+from rapidgen.verification.case import SuiteGroup
 from rapidgen.verification.instruction_hooks import fails
 from rapidgen.verification.messages import RawComm, RawFeature, RawReason, RawTrajectoryState
-from rapidgen.verification.model import Broken
+from rapidgen.verification.model import CheckFailed
 from rapidgen.verification.position_checks import Point
 from rapidgen.verification.raw_connection import STOP, RawLink
 from rapidgen.verification.testbench import HELLO, Bench
 
-case = Theme("paired")
+case = SuiteGroup("paired")
 
 
 def _float32(value: float) -> float:
@@ -55,12 +55,14 @@ def _hello_tells_all(bench: Bench) -> None:
     }
     for name, value in wanted.items():
         if not _same(getattr(told, name), value):
-            raise Broken(f"HELLO tells {name} {getattr(told, name)}, the configuration {value}")
+            raise CheckFailed(
+                f"HELLO tells {name} {getattr(told, name)}, the configuration {value}"
+            )
     if RawFeature.PROGRESS not in RawFeature(told.features):
-        raise Broken("HELLO does not promise PROGRESS")
+        raise CheckFailed("HELLO does not promise PROGRESS")
     progress = bench.progress(link)
     if progress.state not in (RawTrajectoryState.NONE, RawTrajectoryState.DONE):
-        raise Broken(f"a driver that was never asked for anything tells {progress}")
+        raise CheckFailed(f"a driver that was never asked for anything tells {progress}")
 
 
 def _same(told: object, wanted: object) -> bool:
@@ -80,18 +82,20 @@ def _other_versions(bench: Bench) -> None:
         link.send(messages.encode(older, RawComm.REQUEST))
         told = link.expect(messages.RawHelloRefusal, 2, "an older HELLO is answered")
         if told.protocol != messages.PROTOCOL_VERSION:
-            raise Broken(f"an older HELLO is answered by version {told.protocol}")
+            raise CheckFailed(f"an older HELLO is answered by version {told.protocol}")
     bench.run(1)
     said = [e for e in bench.controller.log if "another version was refused" in str(e)]
     if len(said) != 1 or f"has version {older.protocol}," not in " ".join(said[0].texts):
-        raise Broken(f"a client of version {older.protocol} was refused, the event log says {said}")
+        raise CheckFailed(
+            f"a client of version {older.protocol} was refused, the event log says {said}"
+        )
     if any(f.number == messages.PROGRESS for f in link.read()):
-        raise Broken("PROGRESS comes although HELLO was refused")
+        raise CheckFailed("PROGRESS comes although HELLO was refused")
     link.send(messages.encode(HELLO._replace(subscribe=2), RawComm.REQUEST))
     link.expect(messages.RawHelloReply, 2, "the next HELLO on the same link is answered")
     bench.run(1)
     if any(f.number == messages.PROGRESS for f in link.read()):
-        raise Broken("PROGRESS comes although it was not asked for")
+        raise CheckFailed("PROGRESS comes although it was not asked for")
 
 
 @case("hello-in-pieces", "a HELLO in pieces is answered", "R2")
@@ -171,17 +175,17 @@ def _progress_tells_the_way(bench: Bench) -> None:
             if told[-1].state == RawTrajectoryState.MOVING and not (
                 passed - 4 <= told[-1].reached <= passed + 0.5
             ):
-                raise Broken(f"the robot has passed {passed:.1f} points, {told[-1]}")
+                raise CheckFailed(f"the robot has passed {passed:.1f} points, {told[-1]}")
             if len(told) > 100:
-                raise Broken(f"the trajectory does not end: {told[-1]}")
+                raise CheckFailed(f"the trajectory does not end: {told[-1]}")
         counts = [(t.received, t.planned, t.reached) for t in told]
         if any(a > b for one, two in pairwise(counts) for a, b in zip(one, two, strict=True)):
-            raise Broken(f"counts of PROGRESS go back: {counts}")
+            raise CheckFailed(f"counts of PROGRESS go back: {counts}")
         if told[-1] != (before + number, RawTrajectoryState.DONE, 12, 12, 12, 0, -1, 0):
-            raise Broken(f"a trajectory of 12 points is done, PROGRESS says {told[-1]}")
+            raise CheckFailed(f"a trajectory of 12 points is done, PROGRESS says {told[-1]}")
         seen = {t.state for t in told}
         if RawTrajectoryState.MOVING not in seen:
-            raise Broken("no PROGRESS says that the robot is moving")
+            raise CheckFailed("no PROGRESS says that the robot is moving")
         bench.run(0.5)
 
 
@@ -194,7 +198,9 @@ def _is_consistent(told: messages.RawProgress, number: int, count: int) -> None:
         and (told.reason, told.point, told.joint) == (0, -1, 0)
     )
     if not fine:
-        raise Broken(f"trajectory {number} of {count} points is under way, PROGRESS says {told}")
+        raise CheckFailed(
+            f"trajectory {number} of {count} points is under way, PROGRESS says {told}"
+        )
 
 
 @case("progress-download", "PROGRESS of a download and its STOP")
@@ -206,13 +212,13 @@ def _progress_of_a_download(bench: Bench) -> None:
         motion.send(frames[(sent - 1) * size : sent * size])
         told = _newest(bench, link)
         if told[1:] != (RawTrajectoryState.RECEIVING, sent, 0, 0, 0, -1, 0):
-            raise Broken(f"{sent} points were sent, PROGRESS says {told}")
+            raise CheckFailed(f"{sent} points were sent, PROGRESS says {told}")
     motion.stop(1)
     told = _newest(bench, link)
     if (told.state, told.reason) != (RawTrajectoryState.STOPPED, RawReason.STOPPED):
-        raise Broken(f"a download was stopped, PROGRESS says {told}")
+        raise CheckFailed(f"a download was stopped, PROGRESS says {told}")
     if bench.status(link).in_error:
-        raise Broken("a download that was stopped is an error in STATUS")
+        raise CheckFailed("a download that was stopped is an error in STATUS")
 
 
 @case("progress-refused", "PROGRESS of a refusal: reason, point, joint", "R1, R10")
@@ -224,14 +230,14 @@ def _progress_of_a_refusal(bench: Bench) -> None:
     motion.send(bench.download(points))
     told = _newest(bench, link)
     if told[1:] != (RawTrajectoryState.REFUSED, 3, 0, 0, RawReason.JOINT_LIMIT, 3, 2):
-        raise Broken(f"point 3 was refused for joint 2, PROGRESS says {told}")
+        raise CheckFailed(f"point 3 was refused for joint 2, PROGRESS says {told}")
     status = bench.status(link)
     if (status.in_error, status.error_code) != (1, 204):
-        raise Broken(f"point 3 was refused for joint 2, STATUS says {status}")
+        raise CheckFailed(f"point 3 was refused for joint 2, STATUS says {status}")
     motion.stop(1)
     told, status = _newest(bench, link), bench.status(link)
     if (told.state, status.in_error, status.error_code) != (RawTrajectoryState.STOPPED, 0, 0):
-        raise Broken(f"STOP ends the report of a refusal, but {told}, {status}")
+        raise CheckFailed(f"STOP ends the report of a refusal, but {told}, {status}")
 
 
 @case(
@@ -263,15 +269,15 @@ def _progress_of_an_early_end(bench: Bench) -> None:
         bench.wait_until_standing(5)
         told, passed = _newest(bench, link), _passed(bench, points)
         if told.state != state or told.reason not in reasons or told.joint:
-            raise Broken(f"a trajectory was ended by {action}, PROGRESS says {told}")
+            raise CheckFailed(f"a trajectory was ended by {action}, PROGRESS says {told}")
         if told.point != told.reached or not passed - 4 <= told.reached <= passed + 0.5:
-            raise Broken(f"{action} after {passed:.1f} points, PROGRESS says {told}")
+            raise CheckFailed(f"{action} after {passed:.1f} points, PROGRESS says {told}")
         status = bench.status(link)
         failed = state is RawTrajectoryState.FAILED
         if (status.in_error, status.error_code) != ((1, told.reason) if failed else (0, 0)):
-            raise Broken(f"a trajectory was ended by {action}, STATUS says {status}")
+            raise CheckFailed(f"a trajectory was ended by {action}, STATUS says {status}")
         if status.in_motion:
-            raise Broken(f"the robot stands after {action}, STATUS says {status}")
+            raise CheckFailed(f"the robot stands after {action}, STATUS says {status}")
         bench.start_again()
         bench.run(1)
         link.close()
@@ -286,7 +292,7 @@ def _progress_of_a_successor(bench: Bench) -> None:
     motion.send(bench.download(bench.wave(4))[:68])
     told = _newest(bench, link)
     if told[:3] != (number + 1, RawTrajectoryState.RECEIVING, 1):
-        raise Broken(f"a new trajectory has begun, PROGRESS says {told}")
+        raise CheckFailed(f"a new trajectory has begun, PROGRESS says {told}")
     bench.wait_until_standing(2)
     link.read()
     bench.run(1)
@@ -296,7 +302,7 @@ def _progress_of_a_successor(bench: Bench) -> None:
         if isinstance(content := messages.decode(frame), messages.RawProgress)
     }
     if states != {RawTrajectoryState.RECEIVING}:
-        raise Broken(f"half a trajectory was received, PROGRESS says {states}")
+        raise CheckFailed(f"half a trajectory was received, PROGRESS says {states}")
 
 
 @case("progress-in-between", "PROGRESS while another task writes what it tells")
@@ -310,7 +316,7 @@ def _progress_in_between(bench: Bench) -> None:
     told = _newest(bench, link)
     refusal = (RawTrajectoryState.REFUSED, 2, 0, 0, RawReason.JOINT_LIMIT, 2, 1)
     if told[1:] != refusal:
-        raise Broken(f"point 2 was refused for joint 1, PROGRESS says {told}")
+        raise CheckFailed(f"point 2 was refused for joint 1, PROGRESS says {told}")
     # A trajectory begins: nothing is known of it but its number.
     task = bench.controller.task(bench.task("ROS_motionServer"))
     declared = task.rapid.program.modules["ros_common"].declarations
@@ -318,16 +324,16 @@ def _progress_in_between(bench: Bench) -> None:
     task[names["ros_trajectory"]] = told.trajectory + 1
     between = _newest(bench, link)
     if between != (told.trajectory + 1, RawTrajectoryState.RECEIVING, 0, 0, 0, 0, -1, 0):
-        raise Broken(f"a trajectory begins after {told}, PROGRESS says {between}")
+        raise CheckFailed(f"a trajectory begins after {told}, PROGRESS says {between}")
     task[names["ros_trajectory"]] = told.trajectory
     # A STOP takes back the refusal: its code is written before its state.
     task[names["ros_refusal"]] = RawReason.STOPPED
     between = _newest(bench, link)
     if between[1:] != (RawTrajectoryState.STOPPED, 2, 0, 0, RawReason.STOPPED, -1, 0):
-        raise Broken(f"a STOP takes back a refusal, PROGRESS says {between}")
+        raise CheckFailed(f"a STOP takes back a refusal, PROGRESS says {between}")
     status = bench.status(link)
     if (status.in_error, status.error_code) != (0, 0):
-        raise Broken(f"a STOP takes back a refusal, STATUS says {status}")
+        raise CheckFailed(f"a STOP takes back a refusal, STATUS says {status}")
     bench.moves_through(motion, bench.wave(3))
 
 

@@ -5,14 +5,14 @@ from collections.abc import Callable
 
 from rapidgen.verification import messages
 from rapidgen.verification.boundary import drawn
-from rapidgen.verification.case import Theme
+from rapidgen.verification.case import SuiteGroup
 from rapidgen.verification.messages import RawAcknowledged
-from rapidgen.verification.model import Broken
+from rapidgen.verification.model import CheckFailed
 from rapidgen.verification.raw_connection import RawLink, raw_point
 from rapidgen.verification.suite.framing import malformed
 from rapidgen.verification.testbench import Bench
 
-case = Theme("framing")
+case = SuiteGroup("framing")
 
 ROUNDS = 40
 """Random openings of one run; `campaign` has more."""
@@ -59,7 +59,7 @@ def _state(bench: Bench) -> None:
 def _control(bench: Bench) -> None:
     link = bench.control()
     if not isinstance(link.ask(messages.RawPing()), RawAcknowledged):
-        raise Broken("PING on the control port is not confirmed")
+        raise CheckFailed("PING on the control port is not confirmed")
     link.close(then=0.1)
 
 
@@ -83,8 +83,8 @@ def _opens(bench: Bench, port: str, data: bytes, chance: random.Random) -> None:
     try:
         bench.healthy()
         serve(bench)
-    except Broken as error:
-        raise Broken(f"after {data.hex()} on the {port} port: {error}") from error
+    except CheckFailed as error:
+        raise CheckFailed(f"after {data.hex()} on the {port} port: {error}") from error
     bench.forget()
 
 

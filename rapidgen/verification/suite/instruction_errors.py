@@ -6,7 +6,7 @@ from dataclasses import replace
 from rapidgen.generate.context import WRAP
 from rapidgen.machine.event_log import EventType
 from rapidgen.runtime.builtins.clocks import StopWatch
-from rapidgen.verification.case import Theme
+from rapidgen.verification.case import SuiteGroup
 from rapidgen.verification.instruction_hooks import fails
 from rapidgen.verification.messages import (
     STATUS,
@@ -15,13 +15,13 @@ from rapidgen.verification.messages import (
     RawTriState,
     text_of,
 )
-from rapidgen.verification.model import Broken
+from rapidgen.verification.model import CheckFailed
 from rapidgen.verification.raw_connection import STOP
-from rapidgen.verification.suite.motion_task import Meter, datum
+from rapidgen.verification.suite.motion_task import CpuMeter, datum
 from rapidgen.verification.suite.off_path import STAYS_STOPPED
 from rapidgen.verification.testbench import Bench
 
-case = Theme("failing")
+case = SuiteGroup("failing")
 
 _COUNTERS = (
     ("head", "tail"),
@@ -89,9 +89,9 @@ def _instructions_fail(bench: Bench) -> None:
             state.close(then=2.5)
             try:
                 _serves(bench)
-            except Broken as error:
+            except CheckFailed as error:
                 how = "while moving" if moving else "at a standstill"
-                raise Broken(f"{instruction} of {module} has failed {how}: {error}") from error
+                raise CheckFailed(f"{instruction} of {module} has failed {how}: {error}") from error
 
 
 @case("move-fails", "a move that fails ends its trajectory with its own reason", "R11, R14")
@@ -109,16 +109,18 @@ def _move_fails(bench: Bench) -> None:
         bench.run(0.3)
         told, status = bench.progress(watcher), bench.status(watcher)
         if (told.state, told.reason) != (RawTrajectoryState.FAILED, reason):
-            raise Broken(f"a move ended with {error}, PROGRESS says {told}")
+            raise CheckFailed(f"a move ended with {error}, PROGRESS says {told}")
         if (status.in_error, status.error_code, status.in_motion) != (1, reason, 0):
-            raise Broken(f"a move ended with {error}, STATUS says {status}")
+            raise CheckFailed(f"a move ended with {error}, STATUS says {status}")
         said = [text for text in _errors(bench)[len(errors) :] if text_of(reason) in text]
         if len(said) != 1 or f"point {told.planned - 1}" not in said[0]:
-            raise Broken(f"a move to point {told.planned - 1} failed, the event log says {said}")
+            raise CheckFailed(
+                f"a move to point {told.planned - 1} failed, the event log says {said}"
+            )
         bench.moves_through(link, bench.wave(3))
         bench.run(0.3)
         if bench.status(watcher).in_error:
-            raise Broken("in_error stays after a good trajectory")
+            raise CheckFailed("in_error stays after a good trajectory")
         watcher.close()
         link.close(then=1.5)
 
@@ -162,7 +164,7 @@ def _far_off_once(bench: Bench) -> None:
         said = [e.texts[0] for e in bench.controller.log.since(last) if e.title == STAYS_STOPPED]
         held = keeps or error != "ERR_PATHDIST"
         if bool(bench.motion_group.stop_reasons) != held or said != [why] * held:
-            raise Broken(
+            raise CheckFailed(
                 f"StartMove says {error}: held by {bench.motion_group.stop_reasons}, the event "
                 f"log says {said}"
             )
@@ -182,7 +184,9 @@ def _port_taken(bench: Bench) -> None:
         other.run(4.5)
         warned = [e for e in other.controller.log if "cannot be opened" in str(e)]
         if len(warned) != 2:
-            raise Broken(f"two ports were taken for 4 s, the event log has {len(warned)} warnings")
+            raise CheckFailed(
+                f"two ports were taken for 4 s, the event log has {len(warned)} warnings"
+            )
         for endpoint in taken:
             network.close(endpoint)
         other.run(1.1)
@@ -204,7 +208,9 @@ def _counters_wrap(bench: Bench) -> None:
             other.run(0.3)
             number = other.progress(watcher).trajectory
             if number >= WRAP or (number - first) % WRAP != 8:
-                raise Broken(f"after trajectory {first} come eight others, the last is {number}")
+                raise CheckFailed(
+                    f"after trajectory {first} come eight others, the last is {number}"
+                )
             other.healthy()
 
 
@@ -262,16 +268,16 @@ def _state_for_hours(bench: Bench) -> None:
     period = bench.config.state_period
     for i, when in enumerate(stamps):
         if abs(when - (stamps[0] + i * period)) > period:
-            raise Broken(f"STATUS {i} came at {when:.3f} s, more than a period off")
+            raise CheckFailed(f"STATUS {i} came at {when:.3f} s, more than a period off")
     if abs(len(stamps) - 1050 / period) > 3:
-        raise Broken(f"{len(stamps)} STATUS in 1050 s, wanted {1050 / period:.0f}")
+        raise CheckFailed(f"{len(stamps)} STATUS in 1050 s, wanted {1050 / period:.0f}")
 
 
 @case("nobody-costs", "a driver that nobody talks to takes little of the processor", "R19")
 def _nobody_costs(bench: Bench) -> None:
     """Each of its tasks waits for somebody."""
     bench.run(0.1)
-    meter = Meter(bench)
+    meter = CpuMeter(bench)
     bench.run(0.5)
     meter.end("while nobody is there")
 
@@ -283,7 +289,7 @@ def _idle_costs_nothing(bench: Bench) -> None:
     if bench.group.ports.control:
         bench.control()
     bench.run(2)
-    meter = Meter(bench)
+    meter = CpuMeter(bench)
     bench.run(20)
     meter.end("while nobody wants anything")
     bench.status(state)
@@ -299,9 +305,9 @@ def _signal_units_fail(bench: Bench) -> None:
     status = bench.status(state)
     unknown = RawTriState.UNKNOWN
     if (status.drives_powered, status.e_stopped, status.in_motion) != (unknown, unknown, 0):
-        raise Broken(f"no signal can be read, STATUS says {status}")
+        raise CheckFailed(f"no signal can be read, STATUS says {status}")
     if status.in_error:
-        raise Broken(f"no signal can be read, STATUS calls it an error: {status}")
+        raise CheckFailed(f"no signal can be read, STATUS calls it an error: {status}")
 
 
 @case("stopped-unseen", "a program stop that no signal shows", "R15", background=True)
@@ -317,12 +323,16 @@ def _stopped_without_signals(bench: Bench) -> None:
         other.run(3)
         told = other.progress(watcher)
         if (told.state, told.reason) != (RawTrajectoryState.STOPPED, RawReason.STOPPED):
-            raise Broken(f"STOP came while the motion task does not answer, PROGRESS says {told}")
+            raise CheckFailed(
+                f"STOP came while the motion task does not answer, PROGRESS says {told}"
+            )
         if told.point != told.reached or not 0 < told.planned <= told.received:
-            raise Broken(f"STOP came while the motion task does not answer, PROGRESS says {told}")
+            raise CheckFailed(
+                f"STOP came while the motion task does not answer, PROGRESS says {told}"
+            )
         said = [e for e in other.controller.log if "does not answer" in str(e)]
         if len(said) != 1:
-            raise Broken(
+            raise CheckFailed(
                 f"the motion task does not answer, the event log says so {len(said)} times"
             )
         link.send(other.download(other.wave(4)))

@@ -8,7 +8,7 @@ from rapidgen.machine.event_log import EventType
 from rapidgen.runtime.errors import RapidError
 from rapidgen.system.model import System
 from rapidgen.verification import messages
-from rapidgen.verification.case import Theme
+from rapidgen.verification.case import SuiteGroup
 from rapidgen.verification.instruction_hooks import (
     Instruction,
     at_call,
@@ -17,16 +17,16 @@ from rapidgen.verification.instruction_hooks import (
     wrapped,
 )
 from rapidgen.verification.messages import JOINT_TRAJ_PT, RawReason, RawTrajectoryState
-from rapidgen.verification.model import Broken
+from rapidgen.verification.model import CheckFailed
 from rapidgen.verification.position_checks import SETTLED, Position
 from rapidgen.verification.raw_connection import STOP, RawLink
 from rapidgen.verification.suite.instruction_errors import set_counters
-from rapidgen.verification.suite.motion_task import Meter, begins, datum, patience, soon, unit_of
+from rapidgen.verification.suite.motion_task import CpuMeter, begins, datum, patience, soon, unit_of
 from rapidgen.verification.suite.off_path import STAYS_STOPPED
 from rapidgen.verification.suite.supervisor import end_as_request
 from rapidgen.verification.testbench import Bench, with_module
 
-case = Theme("interrupted")
+case = SuiteGroup("interrupted")
 
 _TRAJ = JOINT_TRAJ_PT
 
@@ -41,7 +41,7 @@ def _ended(bench: Bench, watcher: RawLink, reason: RawReason, what: str) -> mess
         # Motors that are off stop the program, too, which may be read first.
         reasons.append(RawReason.PROGRAM_STOPPED)
     if told.state != state or told.reason not in reasons:
-        raise Broken(f"{what}: {reason.name} is wanted, PROGRESS says {told}")
+        raise CheckFailed(f"{what}: {reason.name} is wanted, PROGRESS says {told}")
     return told
 
 
@@ -69,7 +69,7 @@ def _before_a_move(bench: Bench) -> None:
         bench.stays(patience(bench), f"the program was stopped before move {number}, and started")
         told = _ended(bench, watcher, RawReason.PROGRAM_STOPPED, "the program was stopped")
         if (told.planned, told.reached) != (number + 1, max(1, number - 1)):
-            raise Broken(f"the program was stopped before move {number}, PROGRESS says {told}")
+            raise CheckFailed(f"the program was stopped before move {number}, PROGRESS says {told}")
         _works(bench, link)
 
 
@@ -97,7 +97,7 @@ def _first_reason(bench: Bench) -> None:
     _works(bench, link)
     said = [e for e in bench.controller.log.since(last) if e.type is EventType.ERROR]
     if said:
-        raise Broken(f"a trajectory was stopped, the event log says {[str(e) for e in said]}")
+        raise CheckFailed(f"a trajectory was stopped, the event log says {[str(e) for e in said]}")
 
 
 def _fails_with_a_halt(bench: Bench, error: str) -> list[float]:
@@ -147,7 +147,7 @@ def _late_point(bench: Bench) -> None:
     bench.stays(1, "a point of a stopped trajectory came late")
     _works(bench, link)
     if any(e.type is EventType.ERROR for e in bench.controller.log.since(last)):
-        raise Broken("a point of a stopped trajectory came late, and is told as an error")
+        raise CheckFailed("a point of a stopped trajectory came late, and is told as an error")
 
 
 def _beside(bench: Bench, system: System, *, early: bool = False) -> Bench:
@@ -195,7 +195,9 @@ def _unseen(bench: Bench) -> None:
                 _ended(other, watcher, reason, f"{action} of a driver without signals")
             said = [e.time for e in other.controller.log.since(last) if "answer" in e.title]
             if len(said) != int(not restarts) or any(abs(t - halted - 2) > 0.2 for t in said):
-                raise Broken(f"from {halted:.2f} s on nobody answers, which is told at {said} s")
+                raise CheckFailed(
+                    f"from {halted:.2f} s on nobody answers, which is told at {said} s"
+                )
             other.start_again()
             other.stays(1, f"{action} of a driver without signals, then Start")
             _ended(other, watcher, reason, f"{action} of a driver without signals, then Start")
@@ -216,7 +218,7 @@ def _stopped_alone(bench: Bench) -> None:
             # Nobody tells of an emergency stop where it calls no event routine.
             unseen = action == "e-stop" and not other.setting.dialect.e_stop_routines
             if told != messages.RawRefused(RawReason.NOT_EXECUTING, -1, 0) and not unseen:
-                raise Broken(f"{action} of a driver without signals, a trajectory: {told}")
+                raise CheckFailed(f"{action} of a driver without signals, a trajectory: {told}")
             other.start_again()
             other.stays(patience(other), f"{action} of a driver without signals, then Start")
             _works(other, link)
@@ -240,12 +242,12 @@ def _cannot(bench: Bench) -> None:
             bench.wait_until_standing(1)
             bench.controller.perform("start")
         bench.wait_until_standing(1)
-        last, meter = bench.last_event, Meter(bench)
+        last, meter = bench.last_event, CpuMeter(bench)
         bench.stays(2.5, f"{instruction} of the motion task fails")
         meter.end(f"while {instruction} of the motion task fails")
         said = [e.title for e in bench.controller.log.since(last) if e.title.startswith("ROS")]
         if said != [title]:
-            raise Broken(f"{instruction} of the motion task fails, the event log says {said}")
+            raise CheckFailed(f"{instruction} of the motion task fails, the event log says {said}")
         ends()
         bench.run(patience(bench))
         link = link if not link.lost else bench.motion()
@@ -260,12 +262,14 @@ def _crept(bench: Bench, here: Position, wait: float, when: str) -> None:
     That it stops first of all is seen where no chance decides: there nothing moves.
     """
     if wait > soon(bench):
-        raise Broken(f"{when}: the robot is stopped after {wait:.3f} s")
+        raise CheckFailed(f"{when}: the robot is stopped after {wait:.3f} s")
     for number, (joint, a, b) in enumerate(
         zip(bench.group.joints, here, bench.position, strict=True), 1
     ):
         if abs(b - a) > joint.acceleration * wait * wait + SETTLED:
-            raise Broken(f"{when}: in {1000 * wait:.1f} ms joint {number} went on by {b - a:.5f}")
+            raise CheckFailed(
+                f"{when}: in {1000 * wait:.1f} ms joint {number} went on by {b - a:.5f}"
+            )
 
 
 @case("start-alone", "event routines drop the path by themselves", "R7a", background=True)
@@ -311,7 +315,7 @@ def _without_routines(bench: Bench) -> None:
         for number in (WRAP - 1, 0):
             _pauses_at_its_end(other, watcher, link, control)
             if other.progress(watcher).trajectory != number:
-                raise Broken(f"the last trajectory was {number}, {other.progress(watcher)}")
+                raise CheckFailed(f"the last trajectory was {number}, {other.progress(watcher)}")
         _refills(other, link)
         for action, reason in (
             ("stop", RawReason.PROGRAM_STOPPED),
@@ -327,7 +331,7 @@ def _without_routines(bench: Bench) -> None:
                 # Where a task's turn ends at a PERS, the supervisor may have ended it all by then.
                 reasons = (reason, RawReason.IDLE) if other.setting.switch_at_pers else (reason,)
                 if told not in [messages.RawNotDone(reason) for reason in reasons]:
-                    raise Broken(f"{action}, and right behind it the end of a pause: {told}")
+                    raise CheckFailed(f"{action}, and right behind it the end of a pause: {told}")
             other.wait_until_standing(1)
             other.run(patience(other))
             _ended(other, watcher, reason, f"{action} without event routines")
@@ -343,7 +347,7 @@ def _without_routines(bench: Bench) -> None:
         if control is not None:
             stopped = control.expect(messages.RawStopped, 1, "STOPPED arrives")
             if stopped.reason != RawReason.POWER_FAILURE:
-                raise Broken(f"a power failure has ended a trajectory, STOPPED says {stopped}")
+                raise CheckFailed(f"a power failure has ended a trajectory, STOPPED says {stopped}")
         _works(other, other.motion())
 
 
@@ -351,7 +355,9 @@ def _pause(bench: Bench, control: RawLink, paused: int) -> None:
     told = control.ask(messages.RawPause(paused))
     bench.run(0.1)
     if told != messages.RawAcknowledged() or bench.standing != bool(paused):
-        raise Broken(f"PAUSE {paused} is answered by {told}, the robot stands: {bench.standing}")
+        raise CheckFailed(
+            f"PAUSE {paused} is answered by {told}, the robot stands: {bench.standing}"
+        )
 
 
 def _pauses_at_its_end(
@@ -369,11 +375,13 @@ def _pauses_at_its_end(
         _pause(bench, control, 1)
         bench.run(2 * bench.config.state_period)
         if bench.status(watcher).motion_possible:
-            raise Broken("a trajectory is paused, STATUS says that another one may come")
+            raise CheckFailed("a trajectory is paused, STATUS says that another one may come")
     bench.run(2.5 * unit)
     told, status = bench.progress(watcher), bench.status(watcher)
     if (told.state, status.motion_possible) != (RawTrajectoryState.DONE, 1):
-        raise Broken(f"a trajectory that was paused in its last stay is over: {told}, {status}")
+        raise CheckFailed(
+            f"a trajectory that was paused in its last stay is over: {told}, {status}"
+        )
 
 
 def _refills(bench: Bench, link: RawLink) -> None:
@@ -384,7 +392,7 @@ def _refills(bench: Bench, link: RawLink) -> None:
     seconds = max(0.1, 1.05 * bench.config.trajectory.min_segment)
     bench.sets_off(link, bench.wave(count, duration=seconds, size=0.01), 20 * seconds)
     if bench.standing:
-        raise Broken("a trajectory longer than the ring stops on its way")
+        raise CheckFailed("a trajectory longer than the ring stops on its way")
     link.stop()
     bench.wait_until_standing(1)
     bench.run(patience(bench))
@@ -410,4 +418,4 @@ def _stale_build(bench: Bench) -> None:
         other.stays(1, "modules of the motion task are of different builds")
         told = other.progress(watcher)
         if (told.state, told.reason) != (RawTrajectoryState.REFUSED, RawReason.BUILD_MISMATCH):
-            raise Broken(f"modules of the motion task are of different builds, {told}")
+            raise CheckFailed(f"modules of the motion task are of different builds, {told}")

@@ -2,9 +2,9 @@
 
 from rapidgen.generate.layout import signal_name
 from rapidgen.generate.status import STATUS_SIGNALS
-from rapidgen.verification.case import Theme
+from rapidgen.verification.case import SuiteGroup
 from rapidgen.verification.messages import RawReason, RawTriState
-from rapidgen.verification.model import Broken
+from rapidgen.verification.model import CheckFailed
 from rapidgen.verification.position_checks import Point, changed, distance, inward
 from rapidgen.verification.raw_connection import RawLink
 from rapidgen.verification.stream import BEGIN, END, Streamer
@@ -12,13 +12,13 @@ from rapidgen.verification.suite.motion_task import patience
 from rapidgen.verification.suite.streams import way
 from rapidgen.verification.testbench import Bench
 
-case = Theme("joints")
+case = SuiteGroup("joints")
 
 _BEYOND = 0.01
 """rad or m outside a limit: more than rounding."""
 
 
-class _Blame:
+class _RejectedJoint:
     """Streams of one batch that are refused for one joint of one point."""
 
     def __init__(self, bench: Bench) -> None:
@@ -36,7 +36,9 @@ class _Blame:
             point,
             axis + 1,
         ):
-            raise Broken(f"{reason.name} of joint {axis + 1}, point {point}: the reply is {told}")
+            raise CheckFailed(
+                f"{reason.name} of joint {axis + 1}, point {point}: the reply is {told}"
+            )
         self._bench.stays(0.2, f"joint {axis + 1} is refused: {reason.name}")
 
     def limits(self) -> None:
@@ -57,7 +59,7 @@ class _Blame:
 )
 def _joints_of_a_stream(bench: Bench) -> None:
     policy, here = bench.config.trajectory, bench.position
-    blame = _Blame(bench)
+    blame = _RejectedJoint(bench)
     blame.limits()
     seconds = max(0.2, policy.min_segment)
     for axis, joint in enumerate(bench.group.joints):
@@ -79,7 +81,9 @@ def _joints_of_a_stream(bench: Bench) -> None:
     bench.wait_until_moving(1)
     bench.run(2.5)
     if not bench.standing or distance(bench.position, here) > 1e-4:
-        raise Broken("the way to the first point of a stream took as long as its duration says")
+        raise CheckFailed(
+            "the way to the first point of a stream took as long as its duration says"
+        )
 
 
 @case("away-from-zero", "short ways where no joint is near zero", needs="stream")
@@ -113,10 +117,10 @@ def _controller_error(bench: Bench) -> None:
             bench.run(2.5 * bench.config.state_period)
             status = bench.status(state)
             if (getattr(status, field), status.error_code) != (int(value == on), 0):
-                raise Broken(f"signal {names[function]} is {value}, STATUS says {status}")
+                raise CheckFailed(f"signal {names[function]} is {value}, STATUS says {status}")
         bench.run(0.5)
     if status != bench.status(state) or not status.motion_possible:
-        raise Broken(f"all signals are as they were, STATUS says {status}")
+        raise CheckFailed(f"all signals are as they were, STATUS says {status}")
 
 
 @case("one-signal-missing", "each signal missing alone", "R15", background=True)
@@ -160,7 +164,7 @@ def _is_seen(bench: Bench, state: RawLink, function: str, value: int, *, seen: b
         status = bench.status(state)
         told = status.in_error if function == "controller_error" else status.in_motion
         if told != (seen and now == value):
-            raise Broken(f"signal {name} is {now}, STATUS says {status}")
+            raise CheckFailed(f"signal {name} is {now}, STATUS says {status}")
 
 
 def _power_again(bench: Bench) -> None:
@@ -187,4 +191,4 @@ def _shown(
         possible,
     )
     if (status.drives_powered, status.e_stopped, status.motion_possible) != wanted:
-        raise Broken(f"{when}, without the signal for {missing}, STATUS says {status}")
+        raise CheckFailed(f"{when}, without the signal for {missing}, STATUS says {status}")

@@ -8,14 +8,14 @@ from rapidgen.config.model import Joint
 from rapidgen.machine.event_log import EventType
 from rapidgen.machine.system_parameters import arm_name
 from rapidgen.verification import messages
-from rapidgen.verification.case import Theme
+from rapidgen.verification.case import SuiteGroup
 from rapidgen.verification.messages import RawComm, RawReason, decode
-from rapidgen.verification.model import Broken, NothingToProve
+from rapidgen.verification.model import CheckFailed, NotApplicable
 from rapidgen.verification.position_checks import Position
 from rapidgen.verification.raw_connection import RawLink, raw_point
 from rapidgen.verification.testbench import HELLO, Bench
 
-case = Theme("limits")
+case = SuiteGroup("limits")
 
 _SAID = {
     "are narrower": (EventType.WARNING, "Those of the controller count."),
@@ -85,7 +85,7 @@ def _hello(link: RawLink) -> messages.RawHelloReply:
     told = link.ask(HELLO)
     link.close()
     if not isinstance(told, messages.RawHelloReply):
-        raise Broken(f"HELLO is answered by {told}")
+        raise CheckFailed(f"HELLO is answered by {told}")
     return told
 
 
@@ -121,11 +121,11 @@ class _Cell:
         what = f"joint {number} may move from {told.lower} to {told.upper}, of {joint}"
         if not (told.said and self._bench.setting.dialect.axis_limits_told):
             if found:
-                raise Broken(f"{what}: the event log says {found[0]}")
+                raise CheckFailed(f"{what}: the event log says {found[0]}")
             return
         kind, effect = _SAID[told.said]
         if [(e.type, e.title, e.texts[0]) for e in found] != [(kind, title + told.said, effect)]:
-            raise Broken(f"{what}: the event log says {[str(e) for e in found]}")
+            raise CheckFailed(f"{what}: the event log says {[str(e) for e in found]}")
         _are(found[0].texts[1], "Configuration", joint, joint.lower, joint.upper)
         _are(found[0].texts[2], "Controller", joint, told.lower or 0.0, told.upper or 0.0)
 
@@ -136,7 +136,9 @@ class _Cell:
         if bench.group.ports.control:
             other = _hello(bench.control())
             if (other.lower, other.upper) != (told.lower, told.upper):
-                raise Broken(f"the control port tells limits of {other}, the state port {told}")
+                raise CheckFailed(
+                    f"the control port tells limits of {other}, the state port {told}"
+                )
         return told
 
 
@@ -152,7 +154,7 @@ def _are(text: str, whose: str, joint: Joint, lower: float, upper: float) -> Non
     told = re.fullmatch(rf"{whose}: (-?\d+(?:\.\d\d?)?) to (-?\d+(?:\.\d\d?)?) {unit}", text)
     for number, limit in enumerate((factor * lower, factor * upper), 1):
         if told is None or abs(float(told[number]) - limit) > 0.0051 + 1e-5 * abs(limit):
-            raise Broken(f"a limit of {limit:.3f} {unit} is told in {text!r}")
+            raise CheckFailed(f"a limit of {limit:.3f} {unit} is told in {text!r}")
 
 
 @case("limits-as-told", "limits that the controller tells of each joint, or does not", "R11")
@@ -182,7 +184,7 @@ def _counts(bench: Bench, cell: _Cell, told: Sequence[_Told]) -> None:
     for axis, limits in enumerate(left):
         seen = hello.lower[axis], hello.upper[axis]
         if any(abs(t - w) > 1e-6 * max(1.0, abs(w)) for t, w in zip(seen, limits, strict=True)):
-            raise Broken(f"joint {axis + 1} may move in {limits}, HELLO says {seen}")
+            raise CheckFailed(f"joint {axis + 1} may move in {limits}, HELLO says {seen}")
         for limit, inside in ((limits[0], _NEAR), (limits[1], -_NEAR)):
             for value, wanted in (
                 (limit + inside, messages.RawAcknowledged()),
@@ -190,7 +192,9 @@ def _counts(bench: Bench, cell: _Cell, told: Sequence[_Told]) -> None:
             ):
                 answer = _answer(link, here, axis, value)
                 if answer != wanted:
-                    raise Broken(f"joint {axis + 1} is at {value}, the limit {limit}: {answer}")
+                    raise CheckFailed(
+                        f"joint {axis + 1} is at {value}, the limit {limit}: {answer}"
+                    )
     bench.stays(0.5, "no trajectory was sent to its end")
 
 
@@ -198,7 +202,7 @@ def _counts(bench: Bench, cell: _Cell, told: Sequence[_Told]) -> None:
 def _limits_without_sense(bench: Bench) -> None:
     """Nobody knows where such a joint may be: no point is taken, wherever it is."""
     if not bench.setting.dialect.axis_limits_told:
-        raise NothingToProve("the controller does not tell limits of axes")
+        raise NotApplicable("the controller does not tell limits of axes")
     joints, cell = bench.group.joints, _Cell(bench)
     for number in range(len(_nonsense(joints[0], 0.0, 0.0))):
         axis = number % len(joints)
@@ -209,10 +213,14 @@ def _limits_without_sense(bench: Bench) -> None:
         cell.start(chosen)
         hello, link = cell.in_force(), bench.motion()
         if not hello.lower[axis] > _FAR > -_FAR > hello.upper[axis]:
-            raise Broken(f"nothing is left of the range of joint {axis + 1}, HELLO says {hello}")
+            raise CheckFailed(
+                f"nothing is left of the range of joint {axis + 1}, HELLO says {hello}"
+            )
         ends = (joint.lower - _ROUNDING, joint.upper + _ROUNDING, odd.lower or 0, odd.upper or 0)
         for value in (bench.position[axis], *ends):
             answer = _answer(link, bench.position, axis, value)
             if answer != messages.RawRefused(RawReason.JOINT_LIMIT, 0, axis + 1):
-                raise Broken(f"nothing is left of joint {axis + 1}, it is at {value}: {answer}")
+                raise CheckFailed(
+                    f"nothing is left of joint {axis + 1}, it is at {value}: {answer}"
+                )
         bench.stays(0.5, "a joint has no range")

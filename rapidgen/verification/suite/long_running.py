@@ -3,12 +3,12 @@
 from rapidgen.runtime.builtins.clocks import StopWatch
 from rapidgen.runtime.errors import RapidError
 from rapidgen.verification import messages
-from rapidgen.verification.case import Theme
+from rapidgen.verification.case import SuiteGroup
 from rapidgen.verification.instruction_hooks import Instruction, wrapped
-from rapidgen.verification.model import Broken
+from rapidgen.verification.model import CheckFailed
 from rapidgen.verification.testbench import Bench
 
-case = Theme("lasting")
+case = SuiteGroup("lasting")
 
 _DAYS = 10.0
 """s that stand for the 49 days that a clock counts."""
@@ -43,7 +43,9 @@ def _days(bench: Bench) -> None:
                 bench.run(0.3)
                 told = control.ask(messages.RawHeartbeat(1.0))
                 if not isinstance(told, messages.RawHeartbeatReply):
-                    raise Broken(f"after days without a client HEARTBEAT is answered by {told}")
+                    raise CheckFailed(
+                        f"after days without a client HEARTBEAT is answered by {told}"
+                    )
             control.ask(messages.RawHeartbeat(0))
             bench.run(_DAYS + 2)
             control.stop()

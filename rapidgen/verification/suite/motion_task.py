@@ -7,16 +7,16 @@ from itertools import zip_longest
 
 from rapidgen.machine.event_log import EventType
 from rapidgen.verification import messages
-from rapidgen.verification.case import Theme
+from rapidgen.verification.case import SuiteGroup
 from rapidgen.verification.instruction_hooks import at_call, fails
 from rapidgen.verification.messages import RawMode, RawReason, RawTrajectoryState
-from rapidgen.verification.model import Broken
+from rapidgen.verification.model import CheckFailed
 from rapidgen.verification.position_checks import Point, distance, inward
 from rapidgen.verification.raw_connection import STOP, RawLink
 from rapidgen.verification.stream import BEGIN, END, FLUSH, Streamer
 from rapidgen.verification.testbench import Bench
 
-case = Theme("moving")
+case = SuiteGroup("moving")
 
 _CLOSE = 0.06
 """s between a change and the moment in which it can be read, at most."""
@@ -74,16 +74,16 @@ def _in_order(
         while at < len(steps) and tuple(said) != each[at]:
             at += 1
         if at == len(steps):
-            raise Broken(
+            raise CheckFailed(
                 f"{when - begun:.3f} s behind its beginning a trajectory is told to be in state "
                 f"{said[0]} with {said[1]} points planned and {said[2]} reached"
             )
         seen.add(at)
         if not steps[at].since - _CLOSE <= when - begun <= steps[at].until + late:
-            raise Broken(f"{steps[at]} is told {when - begun:.3f} s behind the beginning")
+            raise CheckFailed(f"{steps[at]} is told {when - begun:.3f} s behind the beginning")
     missing = [step for number, step in enumerate(steps) if number not in seen]
     if missing:
-        raise Broken(f"it is never told that {missing}")
+        raise CheckFailed(f"it is never told that {missing}")
 
 
 def watched(
@@ -111,7 +111,7 @@ def _goes_by(
     following = [progress.state for _, progress, _ in told[1:]]
     for (when, progress, status), then in zip_longest(told, following):
         if (progress.trajectory, progress.received, *progress[5:]) != (trajectory, count, 0, -1, 0):
-            raise Broken(f"at {when:.3f} s trajectory {trajectory} is told as {progress}")
+            raise CheckFailed(f"at {when:.3f} s trajectory {trajectory} is told as {progress}")
         moving = [int(progress.state == RawTrajectoryState.MOVING)]
         over = over if over or moving[0] else when
         if when <= over + lag:
@@ -121,14 +121,14 @@ def _goes_by(
             # STATUS is read behind PROGRESS: it may tell of what is true by then.
             moving.append(int(then == RawTrajectoryState.MOVING))
         if status not in [messages.RawStatus(1, 0, 0, 0, m, RawMode.AUTO, 1) for m in moving]:
-            raise Broken(f"at {when:.3f} s PROGRESS says {progress}, but STATUS {status}")
+            raise CheckFailed(f"at {when:.3f} s PROGRESS says {progress}, but STATUS {status}")
 
 
 def begins_soon(bench: Bench, sent: float) -> float:
     """When the motion begins that was asked for at `sent`: soon."""
     bench.wait_until_moving(2)
     if bench.now - sent > soon(bench) + 2 * bench.setting.motion.settle:
-        raise Broken(f"the robot begins to move {bench.now - sent:.3f} s behind the end frame")
+        raise CheckFailed(f"the robot begins to move {bench.now - sent:.3f} s behind the end frame")
     return bench.now
 
 
@@ -139,7 +139,7 @@ def begins(bench: Bench, link: RawLink, points: Sequence[Point]) -> float:
     return begins_soon(bench, sent)
 
 
-class Meter:
+class CpuMeter:
     """What the driver takes of the controller's processor."""
 
     def __init__(self, bench: Bench) -> None:
@@ -158,7 +158,7 @@ class Meter:
         # The state server has some 3 ms of work in each period.
         little = len(config.groups) * (0.06 + 0.004 / config.state_period)
         if share > little * self._bench.setting.slowness:
-            raise Broken(f"{doing} the driver takes {share:.0%} of the processor")
+            raise CheckFailed(f"{doing} the driver takes {share:.0%} of the processor")
         self.begin()
 
 
@@ -167,7 +167,7 @@ def _step_by_step(bench: Bench) -> None:
     """Zones, stop points and stays: what is planned, what is reached, and when it is over."""
     watcher, link, unit = bench.watcher(), bench.motion(), unit_of(bench)
     number, done = bench.progress(watcher).trajectory, RawTrajectoryState.DONE
-    meter = Meter(bench)
+    meter = CpuMeter(bench)
     for last in (True, False):
         way = bench.wave(6, duration=unit)
         points: list[Point] = [*way[:4], (way[3][0], unit), *way[4:]]
@@ -215,7 +215,7 @@ def _step_by_step(bench: Bench) -> None:
 def _stream_by_step(bench: Bench) -> None:
     """A stream that starves twice, and one that is cut."""
     watcher, unit = bench.watcher(), unit_of(bench)
-    stream, meter = Streamer(bench), Meter(bench)
+    stream, meter = Streamer(bench), CpuMeter(bench)
     starved, done = RawTrajectoryState.STARVED, RawTrajectoryState.DONE
     points = bench.wave(4, duration=unit)
     told: list[tuple[float, RawTrajectoryState | int, int, int]] = []
@@ -236,7 +236,7 @@ def _stream_by_step(bench: Bench) -> None:
     meter.end("while a stream waits for points")
     status = bench.status(watcher)
     if (status.in_motion, status.in_error) != (0, 0):
-        raise Broken(f"a stream waits for points, STATUS says {status}")
+        raise CheckFailed(f"a stream waits for points, STATUS says {status}")
     more = bench.now - begun
     stream.put(points[3:], FLUSH)
     ask(1.7 * unit)
@@ -269,7 +269,7 @@ def _stream_by_step(bench: Bench) -> None:
     progress, status = bench.progress(watcher), bench.status(watcher)
     failed = (number, RawTrajectoryState.FAILED, 2, 2, 2, RawReason.JOINT_LIMIT, 2, 1)
     if progress != failed or (status.in_error, status.error_code, status.in_motion) != (1, 104, 0):
-        raise Broken(f"a stream was cut behind two points, but {progress} and {status}")
+        raise CheckFailed(f"a stream was cut behind two points, but {progress} and {status}")
 
 
 def _cycles(bench: Bench) -> int:
@@ -320,7 +320,7 @@ def _halts(bench: Bench) -> None:
     link.stop(latest, "STOP on the way is answered")
     told = _over_soon(bench, watcher, since, "STOP on the way")
     if (told.planned, told.reached) != (3, 1):
-        raise Broken(f"STOP came between points 1 and 2, PROGRESS says {told}")
+        raise CheckFailed(f"STOP came between points 1 and 2, PROGRESS says {told}")
     way = bench.wave(3, duration=unit)
     begins(bench, link, [*way[:2], (way[1][0], 5.0), way[2]])
     bench.wait_until_at(way[1][0], 5)
@@ -329,7 +329,7 @@ def _halts(bench: Bench) -> None:
     link.stop(latest, "STOP in a stay is answered")
     told = _over_soon(bench, watcher, since, "STOP in a stay")
     if (told.planned, told.reached) != (3, 2):
-        raise Broken(f"STOP came in the stay behind two points, PROGRESS says {told}")
+        raise CheckFailed(f"STOP came in the stay behind two points, PROGRESS says {told}")
     for _ in range(2):
         begins(bench, link, bench.wave(5, duration=unit))
         bench.run(1.15 * unit)
@@ -340,9 +340,9 @@ def _halts(bench: Bench) -> None:
         bench.rests(1, 1, "it was stopped, and its path not cleared at once")
         told = _over_soon(bench, watcher, since, "a path that cannot be cleared at once")
         if (told.planned, told.reached) != (3, 1):
-            raise Broken(f"STOP came between points 1 and 2, PROGRESS says {told}")
+            raise CheckFailed(f"STOP came between points 1 and 2, PROGRESS says {told}")
     if _cycles(bench) != cycles:
-        raise Broken("main of the motion task began anew")
+        raise CheckFailed("main of the motion task began anew")
 
 
 @case("halted-twice", "another halt while main leaves a move", "R5, R7b")
@@ -397,13 +397,13 @@ def _gives_up(bench: Bench) -> None:
         # The axes come to rest behind what the controller plans.
         latest = 2 * unit + 0.1 + bench.setting.motion.servo_lag
         if bench.now - begun > latest or distance(bench.position, points[2][0]) < 5e-4:
-            raise Broken(f"{reason.name} on the way to point 2, and the robot went on to it")
+            raise CheckFailed(f"{reason.name} on the way to point 2, and the robot went on to it")
         bench.stays(1, "its trajectory has failed")
         planned = 4 if error else 3
         wanted = (number, RawTrajectoryState.FAILED, 6, planned, 2, reason, 2, 0)
         progress, status = bench.progress(watcher), bench.status(watcher)
         if progress != wanted or status != (1, 0, reason, 1, 0, RawMode.AUTO, 1):
-            raise Broken(f"{reason.name}, wanted {wanted}: {progress}, {status}")
+            raise CheckFailed(f"{reason.name}, wanted {wanted}: {progress}, {status}")
         # What has failed is over.
         points = bench.wave(2, duration=unit)
         link.send(bench.download(points))
@@ -416,4 +416,4 @@ def _gives_up(bench: Bench) -> None:
             messages.text_of(reason),
             f"At point {planned - 1}.",
         ):
-            raise Broken(f"{reason.name}, the event log says {[str(e) for e in said]}")
+            raise CheckFailed(f"{reason.name}, the event log says {[str(e) for e in said]}")

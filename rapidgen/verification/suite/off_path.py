@@ -3,12 +3,12 @@
 from dataclasses import replace
 from functools import partial
 
-from rapidgen.verification.case import Theme
-from rapidgen.verification.model import Broken
+from rapidgen.verification.case import SuiteGroup
+from rapidgen.verification.model import CheckFailed
 from rapidgen.verification.position_checks import Point, Position
 from rapidgen.verification.testbench import CEILING, Bench
 
-case = Theme("off the path")
+case = SuiteGroup("off the path")
 
 _FAST = 0.8
 """Share of an axis' speed at which the stop comes."""
@@ -72,7 +72,9 @@ def _stopped_at_speed(bench: Bench, action: str, quick: float, seconds: float) -
         if other.controller.task(other.group.task).state != "running":
             # Too far off for a start from where the program was.
             if off <= motion.regain_distance:
-                raise Broken(f"{1000 * off:.0f} mm off its path after {action} no program starts")
+                raise CheckFailed(
+                    f"{1000 * off:.0f} mm off its path after {action} no program starts"
+                )
             other.controller.perform("pp-to-main")
             other.start_again()
         told = f"after {action} at speed, {1000 * off:.0f} mm off the path"
@@ -80,10 +82,10 @@ def _stopped_at_speed(bench: Bench, action: str, quick: float, seconds: float) -
         said = [e for e in other.controller.log.since(last) if e.title == STAYS_STOPPED]
         held = off > motion.path_distance and motion.stop_move_reset == "keeps"
         if said and not held:
-            raise Broken(f"{told}, the event log says {said[0]}")
+            raise CheckFailed(f"{told}, the event log says {said[0]}")
         if other.motion_group.stop_reasons:
             if not (held and said):
-                raise Broken(f"{told}, the robot is held, and the event log does not say why")
+                raise CheckFailed(f"{told}, the robot is held, and the event log does not say why")
             # What the event tells to do.
             for step in ("stop", "pp-to-main", "start"):
                 other.controller.perform(step)
@@ -108,7 +110,7 @@ def _at_speed(bench: Bench, action: str) -> None:
     fast = bench.group.tcp_speed_limit >= CEILING
     told = by_brakes and fast and motion.cleared_distance == "counts"
     if told and bench.motion_group.kinematics is not None and max(found) < 0.05:
-        raise Broken(f"the robot never was far from its path: {[f'{d:.3f} m' for d in found]}")
+        raise CheckFailed(f"the robot never was far from its path: {[f'{d:.3f} m' for d in found]}")
 
 
 case("e-stop-at-speed", "an emergency stop at full speed")(partial(_at_speed, action="e-stop"))

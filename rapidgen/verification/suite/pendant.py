@@ -5,13 +5,13 @@ A burst of TPWrite blocks the next one for more than 75 s (41617, a virtual cont
 """
 
 from rapidgen.machine.event_log import Event, EventType
-from rapidgen.verification.case import Theme
+from rapidgen.verification.case import SuiteGroup
 from rapidgen.verification.messages import RawReason, text_of
-from rapidgen.verification.model import Broken
+from rapidgen.verification.model import CheckFailed
 from rapidgen.verification.raw_connection import STOP, RawLink, point_frame, raw_point
 from rapidgen.verification.testbench import Bench
 
-case = Theme("telling")
+case = SuiteGroup("telling")
 
 
 class _Pendant:
@@ -26,7 +26,7 @@ class _Pendant:
     def take(self) -> list[Event]:
         """What has come since the last call."""
         if self._lines:
-            raise Broken(f"the driver writes on the pendant: {self._lines}")
+            raise CheckFailed(f"the driver writes on the pendant: {self._lines}")
         events = [
             e
             for e in self._bench.controller.log.since(self._last)
@@ -41,10 +41,12 @@ class _Pendant:
         place = f"Point {point}. " if point >= 0 else ""
         place += f"Joint {joint}. " if joint else ""
         if len(events) != 1 or events[0].type is not EventType.WARNING:
-            raise Broken(f"{after}: the event log has {[str(e) for e in events]}")
+            raise CheckFailed(f"{after}: the event log has {[str(e) for e in events]}")
         said = " ".join(events[0].texts)
         if text not in said or place.strip() not in said or ("Joint" in said) != bool(joint):
-            raise Broken(f"{after}: the event log says {said!r}, wanted {text!r} and {place!r}")
+            raise CheckFailed(
+                f"{after}: the event log says {said!r}, wanted {text!r} and {place!r}"
+            )
 
 
 def _send_wrong(bench: Bench, link: RawLink, index: int, *, joint: int = 0) -> None:
@@ -101,17 +103,17 @@ def _lines_are_rationed(bench: Bench) -> None:
         bench.run(0.1)
     events = pendant.take()
     if len(events) != 1:
-        raise Broken(f"eight refusals in 0.8 s: {len(events)} events")
+        raise CheckFailed(f"eight refusals in 0.8 s: {len(events)} events")
     bench.run(1.5)
     if pendant.take():
-        raise Broken("events come later than what they tell")
+        raise CheckFailed("events come later than what they tell")
     for more in ("7 more like it.", ""):
         _send_wrong(bench, link, 1)
         bench.run(1.5)
         events = pendant.take()
         said = str(events[0]) if events else ""
         if len(events) != 1 or ((more or "more like") in said) != bool(more):
-            raise Broken(f"after eight refusals at once the next one is told as {said!r}")
+            raise CheckFailed(f"after eight refusals at once the next one is told as {said!r}")
 
 
 @case("quiet", "what is in order is not told", "R19")
@@ -131,4 +133,4 @@ def _peace_is_quiet(bench: Bench) -> None:
         state.close(abort=True, then=1.2)
     events = pendant.take()
     if events:
-        raise Broken(f"nothing was wrong, yet the operator reads {[str(e) for e in events]}")
+        raise CheckFailed(f"nothing was wrong, yet the operator reads {[str(e) for e in events]}")

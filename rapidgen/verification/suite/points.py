@@ -5,15 +5,15 @@ from collections.abc import Sequence
 
 from rapidgen.config.model import Joint
 from rapidgen.verification import messages
-from rapidgen.verification.case import Theme
+from rapidgen.verification.case import SuiteGroup
 from rapidgen.verification.messages import RawComm, RawReason, RawSpecial, RawTrajectoryState
-from rapidgen.verification.model import Broken
+from rapidgen.verification.model import CheckFailed
 from rapidgen.verification.position_checks import Position, changed, small_unit
 from rapidgen.verification.raw_connection import RawLink, raw_point
 from rapidgen.verification.suite.motion_task import datum
 from rapidgen.verification.testbench import Bench
 
-case = Theme("taking")
+case = SuiteGroup("taking")
 
 _BEGIN, _END = int(RawSpecial.BEGIN), int(RawSpecial.END)
 _TAKEN = messages.RawAcknowledged()
@@ -53,14 +53,14 @@ class Table:
         for _, wanted, what in self._rows:
             told = messages.decode(self.link.expect_reply(5, f"{what} is answered"))
             if type(told) is not type(wanted) or told != wanted:
-                raise Broken(f"{what}: wanted {wanted}, the reply is {told}")
+                raise CheckFailed(f"{what}: wanted {wanted}, the reply is {told}")
         self._rows.clear()
 
     def stop(self, link: RawLink | None = None) -> None:
         """STOP, here or over another connection, and its reply."""
         told = (link or self.link).stop()
         if not isinstance(told, messages.RawAcknowledged):
-            raise Broken(f"STOP is answered by {told}")
+            raise CheckFailed(f"STOP is answered by {told}")
 
     def shows(self, state: RawTrajectoryState, received: int, told: messages.RawRefused) -> None:
         """Broken unless PROGRESS says so of the newest trajectory."""
@@ -72,7 +72,7 @@ class Table:
             received,
             *told,
         ):
-            raise Broken(
+            raise CheckFailed(
                 f"trajectory {self.number}, {state.name} with {received} points and {told}: "
                 f"PROGRESS says {seen}"
             )
@@ -349,6 +349,6 @@ def _one_more(bench: Bench) -> None:
         said = [" ".join(e.texts).split() for e in bench.controller.log.since(before)]
         text = messages.text_of(reason)
         if said != [f"{text} Point 0. {place} {more}".split()]:
-            raise Broken(f"{at_once} refusals for {reason.name}, the event log says {said}")
+            raise CheckFailed(f"{at_once} refusals for {reason.name}, the event log says {said}")
         if lines:
-            raise Broken(f"{at_once} refusals for {reason.name}, the pendant says {lines}")
+            raise CheckFailed(f"{at_once} refusals for {reason.name}, the pendant says {lines}")

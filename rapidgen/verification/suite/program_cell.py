@@ -9,14 +9,14 @@ from rapidgen.config.model import ExposedSignal
 from rapidgen.motion.moves import Singularities
 from rapidgen.verification import messages
 from rapidgen.verification.batches import millionths
-from rapidgen.verification.case import Theme
+from rapidgen.verification.case import SuiteGroup
 from rapidgen.verification.messages import RawInstruction, RawReason, RawTrajectoryState
-from rapidgen.verification.model import Broken, NothingToProve
+from rapidgen.verification.model import CheckFailed, NotApplicable
 from rapidgen.verification.position_checks import Position
 from rapidgen.verification.raw_programs import (
     ALL,
     Programmer,
-    RawOrder,
+    RawMove,
     computes,
     kinds_with_marks,
     orders,
@@ -25,7 +25,7 @@ from rapidgen.verification.raw_programs import (
 from rapidgen.verification.suite.programs import corners_made
 from rapidgen.verification.testbench import Bench
 
-case = Theme("programs", needs="stream")
+case = SuiteGroup("programs", needs="stream")
 
 SET, WAIT_SIGNAL, SETTINGS = RawInstruction.SET, RawInstruction.WAIT_SIGNAL, RawInstruction.SETTINGS
 MOVES = (RawInstruction.MOVE_L, RawInstruction.MOVE_J)
@@ -47,7 +47,7 @@ def _signals(bench: Bench) -> None:
     if not written or not computes(bench):
         told = client.send([replace(first, marks=((0.0, 1.0, START, 0.01),))])
         if not isinstance(told, messages.RawPointsRefused):
-            raise Broken(f"no signal is set on the way here, the reply is {told}")
+            raise CheckFailed(f"no signal is set on the way here, the reply is {told}")
         return
     there = replace(last, kind=MOVES[0], pose=reached(bench, last.joints), speed=0.1)
     back = replace(there, joints=first.joints, pose=reached(bench, first.joints))
@@ -84,7 +84,7 @@ def _signals(bench: Bench) -> None:
 
 
 def _one_way(
-    bench: Bench, client: Programmer, order: RawOrder, start: Position, number: int
+    bench: Bench, client: Programmer, order: RawMove, start: Position, number: int
 ) -> None:
     """One signal at three places of a move from `start`."""
     signal = bench.controller.io[bench.config.signals[number].name]
@@ -102,18 +102,18 @@ def _one_way(
     ended = bench.track[-1][0]
     signal.changed.remove(note)
     if [value for value, _, _ in seen] != [1, 0, 1]:
-        raise Broken(f"{signal.name} was to be 1, 0, 1 on the way, and was {seen}")
+        raise CheckFailed(f"{signal.name} was to be 1, 0, 1 on the way, and was {seen}")
     begin, end = bench.tcp(start), bench.tcp(order.joints)
     (_, _, on), (_, _, off), (_, when, _) = seen
     straight = order.kind is RawInstruction.MOVE_L
     far = (math.dist(begin, bench.tcp(on)), math.dist(end, bench.tcp(off)))
     if straight and max(abs(far[0] - 0.01), abs(far[1] - 0.015)) > _AWAY:
-        raise Broken(f"{signal.name} was set {far} m from the ends, not 0.01 and 0.015")
+        raise CheckFailed(f"{signal.name} was set {far} m from the ends, not 0.01 and 0.015")
     if not 0 < ended - when < 0.3:
-        raise Broken(f"{signal.name} was set {ended - when:.3f} s before the end, not 0.05")
+        raise CheckFailed(f"{signal.name} was set {ended - when:.3f} s before the end, not 0.05")
 
 
-def _eight(bench: Bench, client: Programmer, order: RawOrder, number: int) -> None:
+def _eight(bench: Bench, client: Programmer, order: RawMove, number: int) -> None:
     """As many as one move has, and on four moves that follow each other."""
     signal = bench.controller.io[bench.config.signals[number].name]
     bench.controller.io.set(signal, 0)
@@ -135,10 +135,10 @@ def _eight(bench: Bench, client: Programmer, order: RawOrder, number: int) -> No
             break
     signal.changed.remove(note)
     if seen != [1, 0] * 4 * len(moves):
-        raise Broken(f"{signal.name} was to change 8 times on each move, and was {seen}")
+        raise CheckFailed(f"{signal.name} was to change 8 times on each move, and was {seen}")
 
 
-def _wrong_marks(bench: Bench, client: Programmer, order: RawOrder, number: int) -> None:
+def _wrong_marks(bench: Bench, client: Programmer, order: RawMove, number: int) -> None:
     """What cannot be set, or there, is refused, and nothing is executed."""
     exposed, n = bench.config.signals, float(number)
     wrong: list[tuple[Sequence[tuple[float, ...]], RawReason]] = [
@@ -194,7 +194,7 @@ def _sets(bench: Bench) -> None:
         bench.wait_until_at(there.joints, 60)
         bench.run(0.5)
         if bench.controller.signals[signal.name] != 1:
-            raise Broken(f"{signal.name} was to be set")
+            raise CheckFailed(f"{signal.name} was to be set")
     for index, signal in enumerate(exposed):
         if signal.kind[0] == "A":
             told = _sends(client, WAIT_SIGNAL, [float(index), 1.0, 1.0])
@@ -208,7 +208,7 @@ def _sets(bench: Bench) -> None:
             _waits(bench, client, index, signal.name)
             seen = bench.progress(watcher)
             if seen.reason != RawReason.STOPPED:
-                raise Broken(f"STOP has ended a wait for {signal.name}, PROGRESS says {seen}")
+                raise CheckFailed(f"STOP has ended a wait for {signal.name}, PROGRESS says {seen}")
         for value in (*_impossible(signal), -1.0):
             told = _sends(client, WAIT_SIGNAL, [float(index), value, 1.0])
             client.refused(told, RawReason.BAD_VALUE, 0, f"a wait for {signal.name} to be {value}")
@@ -227,7 +227,7 @@ def _without(bench: Bench) -> None:
     """Set, on the way and waited for; the others work."""
     exposed = bench.config.signals
     if not exposed:
-        raise NothingToProve("no signal is exposed")
+        raise NotApplicable("no signal is exposed")
     for index, signal in enumerate(exposed):
         there = tuple(s for s in bench.system.signals if s.name != signal.name)
         with bench.beside(replace(bench.system, signals=there)) as other:
@@ -261,17 +261,19 @@ def _one_without(bench: Bench, index: int, signal: ExposedSignal) -> None:
             bench.run(0.5)
             seen = bench.progress(watcher)
             if seen.state != RawTrajectoryState.DONE:
-                raise Broken(f"{signal.name} is not there; a wait for {other.name} ends so: {seen}")
+                raise CheckFailed(
+                    f"{signal.name} is not there; a wait for {other.name} ends so: {seen}"
+                )
         if number != index and other.access == "write":
             _accepted(_sends(client, SET, [float(number), 1.0]))
             bench.run(0.5)
             if bench.controller.signals[other.name] != 1:
-                raise Broken(f"{signal.name} is not there, and {other.name} is not set")
+                raise CheckFailed(f"{signal.name} is not there, and {other.name} is not set")
 
 
 def _no_signal(told: messages.RawProgress, signal: ExposedSignal) -> None:
     if (told.reason, told.reached) != (RawReason.NO_SIGNAL, 0):
-        raise Broken(f"{signal.name} is not there, PROGRESS says {told}")
+        raise CheckFailed(f"{signal.name} is not there, PROGRESS says {told}")
 
 
 def _waits(bench: Bench, client: Programmer, index: int, name: str) -> None:
@@ -288,7 +290,7 @@ def _waits(bench: Bench, client: Programmer, index: int, name: str) -> None:
     bench.stays(2, f"{name} does not come")
     seen = bench.progress(watcher)
     if (seen.reason, seen.reached) != (RawReason.WAITED, 0):
-        raise Broken(f"{name} did not come, PROGRESS says {seen}")
+        raise CheckFailed(f"{name} did not come, PROGRESS says {seen}")
     away = replace(there, joints=orders(bench, 1, random.Random(0))[0].joints)
     _accepted(_sends(client, WAIT_SIGNAL, [float(index), 1.0, 100.0], behind=away))
     bench.run(0.5)
@@ -302,8 +304,8 @@ def _sends(
     kind: RawInstruction,
     operands: list[float],
     *,
-    before: RawOrder | None = None,
-    behind: RawOrder | None = None,
+    before: RawMove | None = None,
+    behind: RawMove | None = None,
 ) -> messages.RawContent:
     """A program of one instruction, and a move before or behind it; the reply."""
     client.number += 1
@@ -314,7 +316,7 @@ def _sends(
 
 def _accepted(told: messages.RawContent) -> None:
     if not isinstance(told, messages.RawPointsAccepted):
-        raise Broken(f"a right program is answered by {told}")
+        raise CheckFailed(f"a right program is answered by {told}")
 
 
 @case("program-settings", "singularities and configurations are allowed on request alone")
@@ -341,10 +343,10 @@ def _settings(bench: Bench) -> None:
             client.takes("a program without settings", [there])
         bench.wait_until_moving()
         if not modal.check_joint:
-            raise Broken("ConfJ is off in a program that did not ask for it")
+            raise CheckFailed("ConfJ is off in a program that did not ask for it")
         now = (modal.singularities is Singularities.WRIST, not modal.check_linear)
         if now != (bool(bits & 1), bool(bits & 2)):
-            raise Broken(f"settings {bits}: SingArea Wrist and ConfL Off are {now}")
+            raise CheckFailed(f"settings {bits}: SingArea Wrist and ConfL Off are {now}")
         if bits == 3:
             client.link.stop()
         else:
@@ -352,5 +354,5 @@ def _settings(bench: Bench) -> None:
         bench.wait_until_standing(10)
         bench.run(0.5)
         if modal.singularities is not Singularities.OFF or not modal.check_linear:
-            raise Broken(f"a program with settings {bits} is over, and they are not")
+            raise CheckFailed(f"a program with settings {bits} is over, and they are not")
         there = start

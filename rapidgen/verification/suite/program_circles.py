@@ -7,14 +7,14 @@ from dataclasses import replace
 
 from rapidgen.axes import frames
 from rapidgen.axes.frames import Vector
-from rapidgen.verification.case import Theme
+from rapidgen.verification.case import SuiteGroup
 from rapidgen.verification.messages import RawInstruction, RawReason
-from rapidgen.verification.model import NothingToProve
+from rapidgen.verification.model import NotApplicable
 from rapidgen.verification.raw_programs import (
     BEGIN,
     END,
     Programmer,
-    RawOrder,
+    RawMove,
     computes,
     orders,
     reached,
@@ -22,7 +22,7 @@ from rapidgen.verification.raw_programs import (
 from rapidgen.verification.suite.program_frames import object_of, placement_of, says
 from rapidgen.verification.testbench import Bench
 
-case = Theme("programs", needs="stream")
+case = SuiteGroup("programs", needs="stream")
 
 _CHORD_BY_HEIGHT = {
     degrees: 2 * math.tan(math.radians((360 - degrees) / 4)) for degrees in (239, 241)
@@ -34,7 +34,7 @@ _CHORD_BY_HEIGHT = {
 def _circles(bench: Bench) -> None:
     """From the start, behind a move, behind one of the batch before [REF MoveC, Limitations]."""
     if not computes(bench):
-        raise NothingToProve("the driver computes no poses")
+        raise NotApplicable("the driver computes no poses")
     client = Programmer(bench)
     found = orders(bench, 3, random.Random(71))
     one, two, three = (replace(o, kind=RawInstruction.MOVE_ABSJ, pose=None) for o in found)
@@ -59,7 +59,7 @@ def _circles(bench: Bench) -> None:
     bench.stays(0.5, "no circle was right")
 
 
-def _in_other_frames(bench: Bench, client: Programmer, start: RawOrder, end: RawOrder) -> None:
+def _in_other_frames(bench: Bench, client: Programmer, start: RawMove, end: RawMove) -> None:
     """The pose before a circle is another one in the circle's work object."""
     given = object_of(0.1)
     frame, first = placement_of(given[1]), bench.group.work_object.user_frame
@@ -79,7 +79,7 @@ def _in_other_frames(bench: Bench, client: Programmer, start: RawOrder, end: Raw
         client.refused(told, reason, index, "a circle in another work object")
 
 
-def _with_end(bench: Bench, start: RawOrder, end: RawOrder) -> Iterator[tuple[bool, str, RawOrder]]:
+def _with_end(bench: Bench, start: RawMove, end: RawMove) -> Iterator[tuple[bool, str, RawMove]]:
     """Whether they are right, what they are, and circles from the end of one move to another's."""
     first, last = reached(bench, start.joints)[0], reached(bench, end.joints)[0]
     way = frames.subtract(last, first)
@@ -90,7 +90,7 @@ def _with_end(bench: Bench, start: RawOrder, end: RawOrder) -> Iterator[tuple[bo
         frames.cross(along, (0.0, 0.0, 1.0) if abs(along[2]) < 0.9 else (1.0, 0.0, 0.0))
     )
 
-    def at(share: float, height: float) -> RawOrder:
+    def at(share: float, height: float) -> RawMove:
         via = frames.add(frames.scale(way, share), frames.scale(across, height))
         return _circle(bench, start, end, via)
 
@@ -113,7 +113,7 @@ def _with_end(bench: Bench, start: RawOrder, end: RawOrder) -> Iterator[tuple[bo
         yield degrees <= 240, f"{degrees} degrees", at(0.5, chord / ratio)
 
 
-def _circle(bench: Bench, start: RawOrder, end: RawOrder, via: Vector) -> RawOrder:
+def _circle(bench: Bench, start: RawMove, end: RawMove, via: Vector) -> RawMove:
     """To where `end` goes; `via` is told from where `start` ends."""
     place, turned = reached(bench, start.joints)
     return replace(

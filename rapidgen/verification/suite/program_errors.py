@@ -7,15 +7,15 @@ from functools import partial
 
 from rapidgen.verification import messages
 from rapidgen.verification.batches import millionths, words_frame
-from rapidgen.verification.case import Theme
+from rapidgen.verification.case import SuiteGroup
 from rapidgen.verification.instruction_hooks import Instruction, fails, wrapped
 from rapidgen.verification.messages import PROGRAM, RawInstruction, RawReason, RawTrajectoryState
-from rapidgen.verification.model import Broken
+from rapidgen.verification.model import CheckFailed
 from rapidgen.verification.raw_connection import RawLink
 from rapidgen.verification.raw_programs import (
     ALL,
     Programmer,
-    RawOrder,
+    RawMove,
     computes,
     kinds_with_marks,
     orders,
@@ -25,7 +25,7 @@ from rapidgen.verification.suite.speed import aside
 from rapidgen.verification.suite.user_routines import knows_these, weld_words
 from rapidgen.verification.testbench import Bench
 
-case = Theme("programs", needs="stream")
+case = SuiteGroup("programs", needs="stream")
 
 _READS = ("UnpackRawBytes", "DnumToNum", "NOrient", "ByteToStr", "VectMagn", "CalcRobT")
 _NO_GEOMETRY = ("VectMagn", "CalcRobT")
@@ -51,7 +51,7 @@ def _reading_fails(bench: Bench) -> None:
                 if name in _NO_GEOMETRY:
                     allowed.add(RawReason.NO_GEOMETRY)
                 if not isinstance(told, messages.RawPointsRefused) or told.reason not in allowed:
-                    raise Broken(f"{name} number {after + 1} has failed, the reply is {told}")
+                    raise CheckFailed(f"{name} number {after + 1} has failed, the reply is {told}")
                 link.close()
             bench.run(0.3)
     bench.rests(1, 1, "no program could be read")
@@ -65,7 +65,7 @@ def _answered(link: RawLink) -> bool:
 def _everything(bench: Bench) -> tuple[list[int], int]:
     """A program of all that this driver reads, the last of it wrong: it is never executed."""
     here = bench.position
-    order = RawOrder(RawInstruction.MOVE_ABSJ, here, None, frames=(0, 0))
+    order = RawMove(RawInstruction.MOVE_ABSJ, here, None, frames=(0, 0))
     parts: list[list[int]] = [order.words, [RawInstruction.WAIT, *millionths([0.1])]]
     signals = bench.config.signals
     written = [n for n, s in enumerate(signals) if s.access == "write" and s.kind[1] == "O"]
@@ -140,14 +140,14 @@ def _instructions_fail(bench: Bench) -> None:
         own = [*millionths(bench.position), *place.words, *words, *then.words]
         told = client.say(own, 3, ALL)
         if not isinstance(told, messages.RawPointsAccepted):
-            raise Broken(f"{name} was right, the reply is {told}")
+            raise CheckFailed(f"{name} was right, the reply is {told}")
         for _ in range(200):
             seen = bench.progress(watcher)
             if seen.state == RawTrajectoryState.FAILED and seen.trajectory == told.trajectory:
                 break
         end()
         if (seen.reason, seen.reached) != (reason, 1):
-            raise Broken(f"{name} has failed with {error}, PROGRESS says {seen}")
+            raise CheckFailed(f"{name} has failed with {error}, PROGRESS says {seen}")
         if name not in _FAILING:
             bench.stays(0.5, f"{name} has failed")
     bench.rests(2, 1, "the programs have ended")
@@ -156,7 +156,7 @@ def _instructions_fail(bench: Bench) -> None:
 
 
 def _due(
-    bench: Bench, here: RawOrder, there: RawOrder
+    bench: Bench, here: RawMove, there: RawMove
 ) -> Iterator[tuple[str, str, RawReason, list[int]]]:
     """Which instruction fails with what, the reason of that, and the words for it."""
     moved = replace(there, zone=None)

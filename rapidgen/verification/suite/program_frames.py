@@ -11,14 +11,14 @@ from rapidgen.config.model import Placement
 from rapidgen.runtime.values import Value
 from rapidgen.verification import messages
 from rapidgen.verification.batches import millionths
-from rapidgen.verification.case import Theme
+from rapidgen.verification.case import SuiteGroup
 from rapidgen.verification.messages import RawInstruction, RawReason
-from rapidgen.verification.model import Broken
+from rapidgen.verification.model import CheckFailed
 from rapidgen.verification.position_checks import Position
-from rapidgen.verification.raw_programs import ALL, Programmer, RawOrder, computes, orders
+from rapidgen.verification.raw_programs import ALL, Programmer, RawMove, computes, orders
 from rapidgen.verification.testbench import Bench
 
-case = Theme("programs", needs="stream")
+case = SuiteGroup("programs", needs="stream")
 
 TOOL, WORK_OBJECT = RawInstruction.TOOL, RawInstruction.WORK_OBJECT
 Other: TypeAlias = tuple[RawInstruction, Sequence[float]]
@@ -75,7 +75,7 @@ def _stood_at(bench: Bench, joints: Position, since: float) -> None:
     """Broken unless the robot was there, in no zone."""
     track = [seen for when, seen in bench.track if when >= since]
     if not any(all(abs(a - b) < 1e-4 for a, b in zip(p, joints, strict=True)) for p in track):
-        raise Broken("the robot did not stop before another tool or work object")
+        raise CheckFailed("the robot did not stop before another tool or work object")
 
 
 def _seen(bench: Bench, joints: Position, tool: Placement, wobj: Placement) -> Pose:
@@ -111,7 +111,7 @@ def _own(bench: Bench) -> None:
         client.refused(told, RawReason.BAD_VALUE, 0, f"{kind.name} {values}")
     for kind, values in _largest():
         if not isinstance(says(client, (kind, values)), messages.RawPointsAccepted):
-            raise Broken(f"{kind.name} {values} is refused")
+            raise CheckFailed(f"{kind.name} {values} is refused")
         bench.run(0.5)
     own, their = (tools, 0), (0, objects)
     standing = replace(first, kind=RawInstruction.MOVE_ABSJ, pose=None, joints=bench.position)
@@ -143,7 +143,7 @@ def _own(bench: Bench) -> None:
         client, (TOOL, before), (WORK_OBJECT, right[1]), way[0], way[1], (TOOL, behind), way[2]
     )
     if not isinstance(told, messages.RawPointsAccepted):
-        raise Broken(f"tools by values are answered by {told}")
+        raise CheckFailed(f"tools by values are answered by {told}")
     bench.wait_until_moving()
     _is(bench, before, "of the moves under way")
     bench.wait_until_at(third.joints, 60)
@@ -159,13 +159,13 @@ def _own(bench: Bench) -> None:
     )
 
 
-def says(client: Programmer, *orders: RawOrder | Other) -> messages.RawContent:
+def says(client: Programmer, *orders: RawMove | Other) -> messages.RawContent:
     """A program of moves, and of instructions with their operands; the reply."""
     client.number += 1
     words = millionths(client.bench.position)
     for order in orders:
         words += (
-            order.words if isinstance(order, RawOrder) else [int(order[0]), *millionths(order[1])]
+            order.words if isinstance(order, RawMove) else [int(order[0]), *millionths(order[1])]
         )
     return client.say(words, len(orders), ALL)
 
@@ -236,4 +236,4 @@ def _is(bench: Bench, values: Sequence[float], what: str) -> None:
     has = (frame.trans.z, frame.rot.q2, load.cog.z, load.aom.q2, load.mass, *moments)
     wanted = (1000 * values[2], values[4], 1000 * values[9], values[11], *values[14:])
     if not all(abs(a - b) < _NEAR for a, b in zip(has, wanted, strict=True)):
-        raise Broken(f"{what} the tool is {has}, not {wanted}")
+        raise CheckFailed(f"{what} the tool is {has}, not {wanted}")

@@ -12,17 +12,17 @@ from rapidgen.runtime.builtins.motion.task_group import data_of
 from rapidgen.runtime.robot_data import NO_OFFSETS
 from rapidgen.verification import messages
 from rapidgen.verification.batches import millionths
-from rapidgen.verification.case import Theme
+from rapidgen.verification.case import SuiteGroup
 from rapidgen.verification.instruction_hooks import at_call
 from rapidgen.verification.messages import RawInstruction, RawReason, RawTrajectoryState
-from rapidgen.verification.model import Broken, NothingToProve
-from rapidgen.verification.raw_programs import ALL, Programmer, RawOrder, computes, orders, reached
+from rapidgen.verification.model import CheckFailed, NotApplicable
+from rapidgen.verification.raw_programs import ALL, Programmer, RawMove, computes, orders, reached
 from rapidgen.verification.suite.motion_task import patience
 from rapidgen.verification.suite.program_frames import Other, object_of, says, tool_of
 from rapidgen.verification.suite.speed import aside, asks_as_it_begins
 from rapidgen.verification.testbench import Bench
 
-case = Theme("programs", needs="stream")
+case = SuiteGroup("programs", needs="stream")
 
 _ABSJ = RawInstruction.MOVE_ABSJ
 
@@ -37,11 +37,11 @@ def _ordered(bench: Bench) -> Iterator[list[Move]]:
     listeners.remove(moves.append)
 
 
-def _by_joints(order: RawOrder, frames: tuple[int, int]) -> RawOrder:
+def _by_joints(order: RawMove, frames: tuple[int, int]) -> RawMove:
     return replace(order, kind=_ABSJ, pose=None, zone=0.002, frames=frames)
 
 
-def _stand_still(bench: Bench, client: Programmer) -> list[RawOrder]:
+def _stand_still(bench: Bench, client: Programmer) -> list[RawMove]:
     """Moves in the neighbourhood; the robot stands at the first one."""
     found = orders(bench, 9, random.Random(61))
     client.takes("a program", found[:1])
@@ -79,17 +79,17 @@ def _zones(bench: Bench) -> None:
         bench.wait_until_at(pose.joints, 60)
 
 
-def _stop_at(client: Programmer, program: Sequence[RawOrder | Other], stops: list[int]) -> None:
+def _stop_at(client: Programmer, program: Sequence[RawMove | Other], stops: list[int]) -> None:
     """Send a program; Broken unless its moves are ordered as stop points where it says."""
     bench = client.bench
     with _ordered(bench) as moves:
         told = says(client, *program)
         if not isinstance(told, messages.RawPointsAccepted):
-            raise Broken(f"the instructions are right, the reply is {told}")
+            raise CheckFailed(f"the instructions are right, the reply is {told}")
         bench.until(lambda: len(moves) == len(stops), 90, "all moves are ordered")
         bench.wait_until_standing(30)
     if [int(move.zone.fine) for move in moves] != stops:
-        raise Broken(f"stops at {[int(move.zone.fine) for move in moves]}, wanted at {stops}")
+        raise CheckFailed(f"stops at {[int(move.zone.fine) for move in moves]}, wanted at {stops}")
     bench.run(0.5)
 
 
@@ -97,7 +97,7 @@ def _stop_at(client: Programmer, program: Sequence[RawOrder | Other], stops: lis
 def _operands(bench: Bench) -> None:
     """What is wrong is refused with its reason and place; the smallest and the widest is right."""
     client, start = Programmer(bench), millionths(bench.position)
-    order = RawOrder(RawInstruction.MOVE_ABSJ, bench.position, None)
+    order = RawMove(RawInstruction.MOVE_ABSJ, bench.position, None)
     speeds, zones = range(1, 5), range(6, 12)
     slowest, widest = [1], millionths([1.0])
     for place, wrong, reason in (
@@ -137,7 +137,7 @@ def _speeds(bench: Bench) -> None:
             wanted = [percent / 100 * value for value in order.speeds]
             for one, other in zip(astuple(move.speed), wanted, strict=True):
                 if abs(one - other) > 0.002 * other:
-                    raise Broken(f"at SPEED {percent:g} {wanted} is wanted, not {move.speed}")
+                    raise CheckFailed(f"at SPEED {percent:g} {wanted} is wanted, not {move.speed}")
         bench.run(0.5)
 
 
@@ -156,7 +156,7 @@ _DISPLACED: tuple[Pose, ...] = (
 def _displaced_late(bench: Bench) -> None:
     """However small: the first pose ends the program, which has not moved; joints are no poses."""
     if not computes(bench):
-        raise NothingToProve("the driver computes no poses")
+        raise NotApplicable("the driver computes no poses")
     client, watcher, modal = Programmer(bench), bench.watcher(), bench.motion_group.modal
     data = data_of(bench.rapid_task("ROS_motion"), bench.motion_group)
     _, one, *_ = _stand_still(bench, client)
@@ -178,7 +178,7 @@ def _displaced_late(bench: Bench) -> None:
             told[:2] != (number, RawTrajectoryState.FAILED)
             or told.reason != RawReason.POSE_MISMATCH
         ):
-            raise Broken(f"poses are displaced by {displacement}, PROGRESS says {told}")
+            raise CheckFailed(f"poses are displaced by {displacement}, PROGRESS says {told}")
         if displacement is _DISPLACED[0]:
             client.takes("joints, which no displacement takes elsewhere", [joints])
             bench.wait_until_at(joints.joints, 60)
@@ -192,7 +192,7 @@ def _displaced_late(bench: Bench) -> None:
     bench.wait_until_at(line.joints, 60)
     bench.run(patience(bench))
     if (told := bench.progress(watcher)).state != RawTrajectoryState.DONE:
-        raise Broken(f"a pose is displaced no more, PROGRESS says {told}")
+        raise CheckFailed(f"a pose is displaced no more, PROGRESS says {told}")
 
 
 def _stand_joints(bench: Bench) -> tuple[float, ...]:

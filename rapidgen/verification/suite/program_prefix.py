@@ -5,16 +5,16 @@ from dataclasses import replace
 
 from rapidgen.verification import messages
 from rapidgen.verification.batches import millionths
-from rapidgen.verification.case import Theme
+from rapidgen.verification.case import SuiteGroup
 from rapidgen.verification.messages import RawInstruction, RawReason
-from rapidgen.verification.model import Broken
+from rapidgen.verification.model import CheckFailed
 from rapidgen.verification.raw_connection import RawLink
 from rapidgen.verification.raw_programs import ALL, Programmer, computes, orders, reached
 from rapidgen.verification.suite.control import done, stop
 from rapidgen.verification.suite.speed import aside
 from rapidgen.verification.testbench import Bench
 
-case = Theme("programs", needs="stream")
+case = SuiteGroup("programs", needs="stream")
 
 SET = RawInstruction.SET
 
@@ -70,14 +70,14 @@ def _kinds(bench: Bench) -> None:
             words = [*millionths(bench.position), *(w for part in program for w in part)]
             told = client.say(words, len(program), ALL)
             if not isinstance(told, messages.RawPointsAccepted):
-                raise Broken(f"a program of all kinds is right, the reply is {told}")
+                raise CheckFailed(f"a program of all kinds is right, the reply is {told}")
             seen = _ended(client, control, watcher, ending, at, len(program))
             bench.start_again()
             bench.stays(1, f"{ending} has ended a program")
             for name in outputs[:1]:
                 value = bench.controller.signals[name]
                 if value != (seen.reached > sets) and not seen.reached <= sets < seen.planned:
-                    raise Broken(
+                    raise CheckFailed(
                         f"{ending} behind {seen.reached}: {name}, set by {sets}, is {value}"
                     )
             client.link.close(then=1.5)
@@ -114,7 +114,7 @@ def _reaches(bench: Bench, watcher: RawLink, at: int) -> None:
     for _ in range(600):
         if bench.progress(watcher).reached >= at:
             return
-    raise Broken(f"{at} instructions are not reached")
+    raise CheckFailed(f"{at} instructions are not reached")
 
 
 _ENDINGS = {
@@ -144,7 +144,7 @@ def _ended(
     bench.run(0.5)
     told = bench.progress(watcher)
     if told.reason != _ENDINGS[ending] or not at <= told.reached < length:
-        raise Broken(f"{ending} behind instruction {at}: PROGRESS says {told}")
+        raise CheckFailed(f"{ending} behind instruction {at}: PROGRESS says {told}")
     return told
 
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 from rapidgen.machine.event_log import EventType
 from rapidgen.runtime.values import Value
 from rapidgen.verification import messages
-from rapidgen.verification.case import Theme
+from rapidgen.verification.case import SuiteGroup
 from rapidgen.verification.instruction_hooks import at_call
 from rapidgen.verification.messages import (
     JOINT_TRAJ_PT,
@@ -16,7 +16,7 @@ from rapidgen.verification.messages import (
     RawStreamFlag,
     RawTrajectoryState,
 )
-from rapidgen.verification.model import Broken
+from rapidgen.verification.model import CheckFailed
 from rapidgen.verification.raw_connection import STOP, RawLink
 from rapidgen.verification.raw_programs import BEGIN, Programmer, orders
 from rapidgen.verification.stream import FLUSH, Streamer
@@ -24,7 +24,7 @@ from rapidgen.verification.suite.motion_task import datum, patience
 from rapidgen.verification.suite.streams import way
 from rapidgen.verification.testbench import Bench
 
-case = Theme("programs", needs="stream")
+case = SuiteGroup("programs", needs="stream")
 
 
 def _ring(bench: Bench) -> list[Value]:
@@ -42,7 +42,9 @@ def _told(
     """PROGRESS; Broken unless it says that of the trajectory."""
     told = bench.progress(watcher)
     if (told.trajectory, told.state, told.reason) != (trajectory, state, reason):
-        raise Broken(f"{trajectory} {state.name} for {reason.name} is wanted, PROGRESS: {told}")
+        raise CheckFailed(
+            f"{trajectory} {state.name} for {reason.name} is wanted, PROGRESS: {told}"
+        )
     return told
 
 
@@ -71,10 +73,10 @@ def _late(bench: Bench) -> None:
     bench.stays(1, "an instruction is missing")
     told = _told(bench, watcher, number, RawTrajectoryState.FAILED, RawReason.INTERNAL)
     if (told.planned, told.reached) != (3, 3):
-        raise Broken(f"the fourth instruction is missing, PROGRESS says {told}")
+        raise CheckFailed(f"the fourth instruction is missing, PROGRESS says {told}")
     said = [e for e in bench.controller.log.since(last) if e.type is EventType.ERROR]
     if len(said) != 1:
-        raise Broken(f"an instruction is missing, the event log says {[str(e) for e in said]}")
+        raise CheckFailed(f"an instruction is missing, the event log says {[str(e) for e in said]}")
     client.takes("a program behind that", program)
     bench.wait_until_at(program[-1].joints, 60)
 
@@ -115,7 +117,7 @@ def _stop_starved(bench: Bench) -> None:
         # Where its motion task waits for more; longer than a server and two interrupts take.
         at_call(bench, "ROS_motion", "WaitTime", 1, ask)
         if client.link.reply(JOINT_TRAJ_PT) != messages.RawAcknowledged():
-            raise Broken("STOP is not confirmed while more is waited for")
+            raise CheckFailed("STOP is not confirmed while more is waited for")
         bench.stays(patience(bench), "it was stopped while it waited for more")
         _told(bench, watcher, number, RawTrajectoryState.STOPPED, RawReason.STOPPED)
         bench.healthy()

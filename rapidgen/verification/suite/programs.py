@@ -6,7 +6,7 @@ from dataclasses import replace
 from rapidgen.motion.settings import MotionSettings
 from rapidgen.verification import messages
 from rapidgen.verification.batches import millionths, words_frame
-from rapidgen.verification.case import Theme
+from rapidgen.verification.case import SuiteGroup
 from rapidgen.verification.messages import (
     PROGRAM,
     RawInstruction,
@@ -14,7 +14,7 @@ from rapidgen.verification.messages import (
     RawStreamFlag,
     RawTrajectoryState,
 )
-from rapidgen.verification.model import Broken, NothingToProve
+from rapidgen.verification.model import CheckFailed, NotApplicable
 from rapidgen.verification.path_deviation import farthest, movement, points
 from rapidgen.verification.position_checks import (
     SETTLED,
@@ -28,7 +28,7 @@ from rapidgen.verification.raw_programs import (
     ALL,
     BEGIN,
     Programmer,
-    RawOrder,
+    RawMove,
     bent,
     by_hand,
     called,
@@ -38,7 +38,7 @@ from rapidgen.verification.raw_programs import (
 )
 from rapidgen.verification.testbench import CORNER_FAILURE, Bench
 
-case = Theme("programs", needs="stream")
+case = SuiteGroup("programs", needs="stream")
 
 MOVE_ABSJ = RawInstruction.MOVE_ABSJ
 _LATER = 0.005
@@ -50,15 +50,15 @@ _SAME = 1e-5
 @case("program-like-rapid", "a program moves as the same one written in RAPID", once=True)
 def _like_rapid(bench: Bench) -> None:
     """On the same path, in the same time, with no stop point more."""
-    like_rapid(bench, 6, random.Random(7))
-    one_like_rapid(Programmer(bench), bench, _turning(bench))
+    matches_rapid(bench, 6, random.Random(7))
+    program_matches_rapid(Programmer(bench), bench, _turning(bench))
 
 
-def _turning(bench: Bench) -> list[RawOrder]:
+def _turning(bench: Bench) -> list[RawMove]:
     """Moves that take as long as the tool may turn, or external axes may move."""
     first = orders(bench, 1, random.Random(8))[0]
     speed = min(0.5, bench.group.tcp_speed_limit)
-    slow = RawOrder(
+    slow = RawMove(
         MOVE_ABSJ, turned_by(bench, first.joints, 0.4), None, speed=speed, turn=0.2, linear=0.03
     )
     if not computes(bench):
@@ -79,23 +79,23 @@ def turned_by(bench: Bench, place: Position, angle: float) -> Position:
     )
 
 
-def like_rapid(bench: Bench, count: int, chance: random.Random) -> None:
+def matches_rapid(bench: Bench, count: int, chance: random.Random) -> None:
     """So many programs by lot beside the same ones in RAPID (more: `rapidgen test --programs`)."""
     client = Programmer(bench)
     for _ in range(count):
-        one_like_rapid(client, bench, orders(bench, 8, chance))
+        program_matches_rapid(client, bench, orders(bench, 8, chance))
 
 
-class Unlike(Broken):
+class MotionDiffers(CheckFailed):
     """A program moved otherwise than the same one in RAPID."""
 
 
-def one_like_rapid(
+def program_matches_rapid(
     client: Programmer,
     bench: Bench,
-    program: list[RawOrder],
+    program: list[RawMove],
     other: Bench | None = None,
-    hand: list[RawOrder] | None = None,
+    hand: list[RawMove] | None = None,
 ) -> None:
     """A program beside the same one in RAPID. Raises Unlike, and Broken as an expectation does.
 
@@ -114,15 +114,19 @@ def one_like_rapid(
         # which the next one is ordered decides how it is made; a stop there would cost more.
         later, same = 4 * later, 200 * same
     if abs(mine[0] - theirs[0]) > later * theirs[0]:
-        raise Unlike(f"a program took {mine[0]:.3f} s, {theirs[0]:.3f} s when written in RAPID")
+        raise MotionDiffers(
+            f"a program took {mine[0]:.3f} s, {theirs[0]:.3f} s when written in RAPID"
+        )
     ways = points(bench, mine[1]), points(bench, theirs[1])
     for one, way in (ways, ways[::-1]):
         far = farthest(one, way)
         if far > same:
-            raise Unlike(f"a program is {far * 1000:.3f} mm off the way of the same in RAPID")
+            raise MotionDiffers(
+                f"a program is {far * 1000:.3f} mm off the way of the same in RAPID"
+            )
 
 
-def _moved(bench: Bench, program: list[RawOrder], since: float) -> tuple[float, list[Position]]:
+def _moved(bench: Bench, program: list[RawMove], since: float) -> tuple[float, list[Position]]:
     """s of movement and where the robot was, until it stands at the end."""
     bench.wait_until_at(program[-1].joints, 60)
     bench.run(0.3)
@@ -133,9 +137,9 @@ def _moved(bench: Bench, program: list[RawOrder], since: float) -> tuple[float, 
 def _configurations(bench: Bench) -> None:
     """From one configuration to another, whatever instruction was before."""
     if not computes(bench):
-        raise NothingToProve("the driver computes no poses")
+        raise NotApplicable("the driver computes no poses")
     client, middle = Programmer(bench), bent(bench)
-    there = RawOrder(MOVE_ABSJ, middle, None, zone=None)
+    there = RawMove(MOVE_ABSJ, middle, None, zone=None)
     client.takes("a program", [there])
     bench.wait_until_at(middle, 60)
     for n, joint in enumerate(bench.group.joints):
@@ -157,16 +161,16 @@ def _arm_side(bench: Bench) -> None:
     """Also where two postures of the pose have one configuration, and the other one is nearer."""
     geometry = bench.motion_group.kinematics
     if geometry is None or not computes(bench):
-        raise NothingToProve("the driver computes no poses")
+        raise NotApplicable("the driver computes no poses")
     middle = bent(bench)
     client, asked = Programmer(bench), (0.9, -middle[1], *middle[2:])
     alike = geometry.configuration(asked)
-    to_pose = RawOrder(RawInstruction.MOVE_J, asked, reached(bench, asked), zone=None)
+    to_pose = RawMove(RawInstruction.MOVE_J, asked, reached(bench, asked), zone=None)
     for other in geometry.solutions(geometry.forward(asked), asked):
         if distance(other, asked) < 0.1 or geometry.configuration(other) != alike:
             continue
         there = tuple(round(value, 6) for value in other)
-        for way in ([RawOrder(MOVE_ABSJ, there, None, zone=None)], [to_pose]):
+        for way in ([RawMove(MOVE_ABSJ, there, None, zone=None)], [to_pose]):
             client.takes("another posture of the pose", way)
             bench.wait_until_at(way[0].joints, 60)
             bench.run(0.5)
@@ -189,7 +193,7 @@ def _index_wraps(bench: Bench) -> None:
     motion["ROS_motion:expected"] = last - 2
     told = client.say([w for o in some[3:9] for w in o.words], 6, RawStreamFlag.END, first=last - 3)
     if not isinstance(told, messages.RawPointsAccepted) or told.accepted != 3:
-        raise Broken(f"six instructions from {last - 3} on, the reply is {told}")
+        raise CheckFailed(f"six instructions from {last - 3} on, the reply is {told}")
     bench.wait_until_at(some[8].joints, 60)
     bench.run(0.5)
     bench.healthy()
@@ -206,7 +210,7 @@ def _refused(bench: Bench) -> None:
             told = client.send([*right[:3], replace(outside, kind=MOVE_ABSJ), *right[3:]])
             wanted = (RawReason.JOINT_LIMIT, 3, n + 1)
             if told[-3:] != wanted:
-                raise Broken(f"joint {n + 1} at {value}: the reply is {told}")
+                raise CheckFailed(f"joint {n + 1} at {value}: the reply is {told}")
         for value in (own.lower + small_unit(own), own.upper - small_unit(own)):
             inside = replace(right[3], joints=changed(right[3].joints, n, value), pose=None)
             # What is behind it is wrong.
@@ -217,7 +221,7 @@ def _refused(bench: Bench) -> None:
     for zone in (0.0, 2 / 3):
         told = client.send([*right[:3], replace(right[3], zone=zone), replace(right[3], speed=0.0)])
         client.refused(told, RawReason.BAD_SPEED, 4, f"a zone of {zone:g} m")
-    wrong: list[tuple[RawOrder, RawReason]] = [
+    wrong: list[tuple[RawMove, RawReason]] = [
         (replace(right[3], speed=0.0), RawReason.BAD_SPEED),
         (replace(right[3], speed=-1.0), RawReason.BAD_SPEED),
         (replace(right[3], speed=2000.0), RawReason.BAD_SPEED),
@@ -272,11 +276,11 @@ def _refused(bench: Bench) -> None:
         there = changed(bench.position, n, inward(own, bench.position[n], 0.1))
         told = client.send(right, start=there)
         if told[-3:] != (RawReason.START_TOO_FAR, 0, n + 1):
-            raise Broken(f"another beginning for joint {n + 1}, the reply is {told}")
+            raise CheckFailed(f"another beginning for joint {n + 1}, the reply is {told}")
     many = [right[0]] * (bench.config.trajectory.ring + 3)
     told = client.send(many)
     if not isinstance(told, messages.RawPointsRefused) or told.reason != RawReason.OVERRUN:
-        raise Broken(f"more instructions than the ring holds: the reply is {told}")
+        raise CheckFailed(f"more instructions than the ring holds: the reply is {told}")
     if bench.motion_group.kinematics is not None and not computes(bench):
         pose = reached(bench, right[3].joints)
         untold = replace(right[3], kind=RawInstruction.MOVE_L, pose=pose)
@@ -285,7 +289,7 @@ def _refused(bench: Bench) -> None:
     bench.stays(1, "no program was right")
     told = bench.progress(watcher)
     if (told.state, told.planned) != (RawTrajectoryState.REFUSED, 0):
-        raise Broken(f"a program was refused, PROGRESS says {told}")
+        raise CheckFailed(f"a program was refused, PROGRESS says {told}")
     client.takes("a right program", right)
     bench.wait_until_at(right[-1].joints, 60)
 
@@ -299,7 +303,7 @@ def _stream(bench: Bench) -> None:
     some = [*millionths(bench.position), *(word for o in program[:8] for word in o.words)]
     told = client.say(some, 8, BEGIN)
     if not isinstance(told, messages.RawPointsAccepted):
-        raise Broken(f"the first instructions are right, the reply is {told}")
+        raise CheckFailed(f"the first instructions are right, the reply is {told}")
     bench.wait_until_moving()
     wrong = replace(program[12], speed=0.0)
     rest = [word for o in (*program[8:12], wrong, *program[13:]) for word in o.words]
@@ -310,7 +314,7 @@ def _stream(bench: Bench) -> None:
     seen = bench.progress(watcher)
     wanted = (RawTrajectoryState.FAILED, 12, RawReason.BAD_SPEED)
     if (seen.state, seen.reached, seen.reason) != wanted:
-        raise Broken(f"a program was cut behind 12 instructions, PROGRESS says {seen}")
+        raise CheckFailed(f"a program was cut behind 12 instructions, PROGRESS says {seen}")
     bench.stays(1, "a program was cut")
 
 
@@ -329,7 +333,7 @@ def _superseded(bench: Bench) -> None:
         if told.trajectory == 2 and told.state in over:
             break
     else:
-        raise Broken(f"a trajectory has come into a program, PROGRESS says {told}")
+        raise CheckFailed(f"a trajectory has come into a program, PROGRESS says {told}")
     bench.stays(1, "the program has ended")
     points = bench.wave(20)
     bench.sets_off(client.link, points, 0.5)
@@ -360,7 +364,7 @@ def _waits(bench: Bench) -> None:
 
     for seconds in (1.5, 0.5, 0.0):
         if not isinstance(sends(seconds), messages.RawPointsAccepted):
-            raise Broken(f"a program with a wait of {seconds} s is refused")
+            raise CheckFailed(f"a program with a wait of {seconds} s is refused")
         if seconds:
             bench.wait_until_at(there.joints, 60)
         else:  # Axes that lag go on before they have come to rest.
@@ -386,7 +390,7 @@ def _waits(bench: Bench) -> None:
         start = millionths(bench.position)
         told = client.say([*start, *words, *start], 1, ALL)
         if not isinstance(told, messages.RawPointsRefused) or told.point != 0:
-            raise Broken(f"the instruction {words} is answered by {told}")
+            raise CheckFailed(f"the instruction {words} is answered by {told}")
         if reason is not None:
             client.refused(told, reason, 0, f"the instruction {words}")
     bench.stays(1, "no instruction was right")
@@ -396,10 +400,10 @@ def corners_made(bench: Bench) -> None:
     """Broken when the controller has found a corner that no move follows: a stop point was due."""
     failed = [event for event in bench.controller.log if event.code == CORNER_FAILURE]
     if failed:
-        raise Broken(f"the robot was to stop where it passes: {failed[0]}")
+        raise CheckFailed(f"the robot was to stop where it passes: {failed[0]}")
 
 
-plain = Theme("programs")
+plain = SuiteGroup("programs")
 
 
 @plain("program-basic", "a driver of the basic profile says that it takes no programs")
@@ -408,11 +412,11 @@ def _basic(bench: Bench) -> None:
     link = bench.motion()
     told = bench.says_hello(bench.state())
     if bool(told.features & messages.RawFeature.PROGRAMS) is not bench.streams:
-        raise Broken(f"HELLO tells the features {told.features}")
+        raise CheckFailed(f"HELLO tells the features {told.features}")
     if bench.streams:
         return
     place = millionths(bench.position)
     link.send(words_frame(1, 0, 1, [*place, MOVE_ABSJ, *place], ALL, number=PROGRAM))
     if not isinstance(link.reply(PROGRAM), messages.RawFailure):
-        raise Broken("a driver of the basic profile takes a program")
+        raise CheckFailed("a driver of the basic profile takes a program")
     bench.stays(1, "nothing was taken")

@@ -4,14 +4,14 @@ import math
 from collections.abc import Sequence
 
 from rapidgen.verification import messages
-from rapidgen.verification.case import Theme
+from rapidgen.verification.case import SuiteGroup
 from rapidgen.verification.messages import RawComm, RawReason, RawTrajectoryState
-from rapidgen.verification.model import Broken, NothingToProve
+from rapidgen.verification.model import CheckFailed, NotApplicable
 from rapidgen.verification.position_checks import Point
 from rapidgen.verification.raw_connection import point_frame, raw_point
 from rapidgen.verification.testbench import Bench
 
-case = Theme("refused")
+case = SuiteGroup("refused")
 
 
 def refused(
@@ -33,21 +33,21 @@ def refused(
     reason, wrong = messages.split_error_code(status.error_code)
     if status.in_error != 1 or reason not in reasons or (joint and wrong != joint):
         names = " or ".join(r.name for r in reasons)
-        raise Broken(
+        raise CheckFailed(
             f"wanted in_error with {names}{f' of joint {joint}' if joint else ''}, STATUS says "
             f"in_error {status.in_error}, error_code {status.error_code}"
         )
     if (told.state, told.reason, told.joint) != (RawTrajectoryState.REFUSED, reason, wrong):
-        raise Broken(f"STATUS says error_code {status.error_code}, PROGRESS {told}")
+        raise CheckFailed(f"STATUS says error_code {status.error_code}, PROGRESS {told}")
     if point == 0 and reason != RawReason.START_TOO_FAR and told.received:
-        raise Broken(f"the first point had to be refused, PROGRESS says {told}")
+        raise CheckFailed(f"the first point had to be refused, PROGRESS says {told}")
     if point is not None and told.point != point:
-        raise Broken(f"point {point} had to be blamed, PROGRESS says {told}")
+        raise CheckFailed(f"point {point} had to be blamed, PROGRESS says {told}")
     # A refusal is over with the next good trajectory.
     bench.moves_through(link, bench.wave(3))
     bench.run(0.5)
     if bench.status(state).in_error != 0:
-        raise Broken("in_error stays after a good trajectory")
+        raise CheckFailed("in_error stays after a good trajectory")
     state.close()
     link.close(then=0.5)
 
@@ -134,7 +134,7 @@ def _start_too_far(bench: Bench) -> None:
 @case("too-fast", "a duration that an axis cannot meet", "R10")
 def _too_fast(bench: Bench) -> None:
     if bench.config.trajectory.too_fast != "refuse":
-        raise NothingToProve("`too_fast` slows down")
+        raise NotApplicable("`too_fast` slows down")
     for axis, joint in enumerate(bench.group.joints):
         here = bench.position
         seconds = max(0.2, bench.config.trajectory.min_segment)
@@ -154,7 +154,7 @@ def _too_fast(bench: Bench) -> None:
 def _segment_too_short(bench: Bench) -> None:
     shortest = bench.config.trajectory.min_segment
     if bench.config.trajectory.too_fast != "refuse" or shortest < 0.005:
-        raise NothingToProve("`min_segment` refuses no segment")
+        raise NotApplicable("`min_segment` refuses no segment")
     points = bench.wave(5, size=0.001)
     points[2] = (points[2][0], shortest / 2)
     refused(bench, bench.download(points), [RawReason.SEGMENT_TOO_SHORT], point=2)
@@ -192,7 +192,7 @@ def _requests_are_told_why(bench: Bench) -> None:
         replies.append(link.expect_reply(2, f"point {number} is answered"))
     content = messages.decode(replies[-1])
     if not isinstance(content, messages.RawRefused) or content.reason != RawReason.JOINT_LIMIT:
-        raise Broken(f"the reply to the end frame is {content}")
+        raise CheckFailed(f"the reply to the end frame is {content}")
     if (content.point, content.joint) != (2, 1):
-        raise Broken(f"the reply blames point {content.point}, joint {content.joint}")
+        raise CheckFailed(f"the reply blames point {content.point}, joint {content.joint}")
     bench.stays(2, "it was refused")

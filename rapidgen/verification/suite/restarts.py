@@ -1,10 +1,10 @@
 """What was sent while the program did not execute is nothing, whoever finds it on Start."""
 
-from rapidgen.verification.case import Theme
+from rapidgen.verification.case import SuiteGroup
 from rapidgen.verification.stream import BEGIN, END, Streamer
 from rapidgen.verification.testbench import Bench
 
-case = Theme("restarts")
+case = SuiteGroup("restarts")
 
 _STOPS = ("stop", "e-stop", "motors-off")
 

@@ -1,7 +1,7 @@
 """What the unmodified ROS-Industrial nodes send and expect."""
 
 from rapidgen.verification import messages
-from rapidgen.verification.case import Theme
+from rapidgen.verification.case import SuiteGroup
 from rapidgen.verification.messages import (
     JOINT_POSITION,
     STATUS,
@@ -10,13 +10,13 @@ from rapidgen.verification.messages import (
     RawReplyCode,
     decode,
 )
-from rapidgen.verification.model import Broken
+from rapidgen.verification.model import CheckFailed
 from rapidgen.verification.position_checks import Point, Position, distance, inward
 from rapidgen.verification.raw_connection import STOP, point_frame, raw_point
 from rapidgen.verification.suite.refusals import refused
 from rapidgen.verification.testbench import Bench
 
-case = Theme("compatible")
+case = SuiteGroup("compatible")
 
 _REPLY = 2.0
 
@@ -27,7 +27,7 @@ def _whole_trajectory(bench: Bench) -> None:
     link = bench.motion()
     bench.moves_through(link, points)
     if link.read():
-        raise Broken("points sent as topics were answered")
+        raise CheckFailed("points sent as topics were answered")
 
 
 @case("first-point-10s", "the 10 s that the node gives the first point are not waited for", "R8")
@@ -39,7 +39,9 @@ def _first_point_of_ten_seconds(bench: Bench) -> None:
     bench.wait_until_at(points[-1][0], 30)
     taken, asked = bench.now - started, sum(d for _, d in points[1:])
     if taken > asked + 3:
-        raise Broken(f"{asked:.1f} s of motion took {taken:.1f} s: the first 10 s were waited for")
+        raise CheckFailed(
+            f"{asked:.1f} s of motion took {taken:.1f} s: the first 10 s were waited for"
+        )
 
 
 @case("single-point", "a single point, sent as -1 and -3, begins where the robot stands", "R8")
@@ -97,14 +99,14 @@ def _state_stream(bench: Bench) -> None:
             for _, f in frames
             if f.number == number
         ):
-            raise Broken(f"a message {number} is no plain topic of {size} bytes")
+            raise CheckFailed(f"a message {number} is no plain topic of {size} bytes")
         if abs(len(stamps) - 20 / period) > 2:
-            raise Broken(f"{len(stamps)} messages {number} in 20 s, wanted {20 / period:.0f}")
+            raise CheckFailed(f"{len(stamps)} messages {number} in 20 s, wanted {20 / period:.0f}")
         for i, when in enumerate(stamps):
             if abs(when - (stamps[0] + i * period)) > period:
-                raise Broken(f"message {number} at {when:.3f} s is more than a period off")
+                raise CheckFailed(f"message {number} at {when:.3f} s is more than a period off")
     if {f.number for _, f in frames} != {JOINT_POSITION, STATUS}:
-        raise Broken("a client that did not say hello gets messages of ours")
+        raise CheckFailed("a client that did not say hello gets messages of ours")
 
 
 @case("state-true", "JOINT and STATUS tell what the robot does")
@@ -113,21 +115,21 @@ def _state_is_true(bench: Bench) -> None:
     bench.run(1)
     idle = bench.status(link)
     if (idle.drives_powered, idle.e_stopped, idle.in_error, idle.in_motion) != (1, 0, 0, 0):
-        raise Broken(f"an idle robot says {idle}")
+        raise CheckFailed(f"an idle robot says {idle}")
     if (idle.mode, idle.motion_possible) != (2, 1):
-        raise Broken(f"a robot in automatic mode with its program running says {idle}")
+        raise CheckFailed(f"a robot in automatic mode with its program running says {idle}")
     points = bench.wave(6)
     bench.sets_off(motion, points)
     if bench.status(link).in_motion != 1:
-        raise Broken("a moving robot says that it is not in motion")
+        raise CheckFailed("a moving robot says that it is not in motion")
     bench.wait_until_at(points[-1][0])
     bench.run(1)
     _, last = link.told(messages.RawJointPosition)[-1]
     here = bench.position
     if distance(last.joints[: len(here)], here) > 1e-4 or any(last.joints[len(here) :]):
-        raise Broken(f"JOINT says {last.joints}, the robot stands at {here}")
+        raise CheckFailed(f"JOINT says {last.joints}, the robot stands at {here}")
     if bench.status(link).in_motion != 0:
-        raise Broken("a standing robot says that it is in motion")
+        raise CheckFailed("a standing robot says that it is in motion")
 
 
 @case("short-movements", "every movement is in at least one STATUS", "R16")
@@ -146,7 +148,7 @@ def _short_movements_show(bench: Bench) -> None:
         bench.run(1.0)
         seen = [decode(f) for _, f in link.frames[before:] if f.number == STATUS]
         if not any(isinstance(s, messages.RawStatus) and s.in_motion == 1 for s in seen):
-            raise Broken("a movement between two STATUS messages was in none of them")
+            raise CheckFailed("a movement between two STATUS messages was in none of them")
 
 
 @case("stop-answered", "STOP is answered at once, in the node's bytes")
@@ -155,7 +157,7 @@ def _stop_is_answered(bench: Bench) -> None:
     link.send(STOP)
     frame = link.expect_reply(_REPLY, "STOP is answered by an idle driver")
     if frame != (11, RawComm.REPLY, RawReplyCode.SUCCESS, b""):
-        raise Broken(f"the reply to STOP is {frame}")
+        raise CheckFailed(f"the reply to STOP is {frame}")
 
 
 @case("at-the-limits", "every limit of every joint can be reached")
@@ -208,7 +210,7 @@ def _ping(bench: Bench) -> None:
     link = bench.motion()
     link.send(b"\x0c\0\0\0\x01\0\0\0\x02\0\0\0\0\0\0\0")
     if link.expect_reply(_REPLY, "PING is answered").comm != RawComm.REPLY:
-        raise Broken("PING was not answered by a reply")
+        raise CheckFailed("PING was not answered by a reply")
 
 
 @case("requests", "points sent as requests are answered")
@@ -219,7 +221,7 @@ def _requests_are_answered(bench: Bench) -> None:
         link.send(point_frame(number, len(points), joints, duration, RawComm.REQUEST))
         frame = link.expect_reply(_REPLY, f"point {number} sent as a request is answered")
         if frame.reply != RawReplyCode.SUCCESS:
-            raise Broken(f"point {number} of a good trajectory was refused: {decode(frame)}")
+            raise CheckFailed(f"point {number} of a good trajectory was refused: {decode(frame)}")
     bench.wait_until_at(points[-1][0])
 
 

@@ -4,20 +4,20 @@ import struct
 from itertools import product
 
 from rapidgen.verification import messages
-from rapidgen.verification.case import Theme
+from rapidgen.verification.case import SuiteGroup
 from rapidgen.verification.messages import JOINT_TRAJ_PT, PING, RawComm, encode
-from rapidgen.verification.model import Broken
+from rapidgen.verification.model import CheckFailed
 from rapidgen.verification.raw_connection import RawLink
 from rapidgen.verification.testbench import Bench
 
-case = Theme("framing")
+case = SuiteGroup("framing")
 
 _PING = encode(messages.RawPing(), RawComm.REQUEST)
 
 
 def _pings(link: RawLink, what: str) -> None:
     if not isinstance(link.reply(PING, 0.3), messages.RawAcknowledged):
-        raise Broken(f"{what}: PING is not confirmed")
+        raise CheckFailed(f"{what}: PING is not confirmed")
 
 
 @case("whole-headers", "lengths at their bounds and beyond, in whole headers", "R3")
@@ -34,7 +34,7 @@ def _whole_headers(bench: Bench) -> None:
                 _pings(link, f"in front of {what}")
             link.wait_until_lost(0.2, f"{what} breaks the link")
             if link.read():
-                raise Broken(f"{what} is answered")
+                raise CheckFailed(f"{what} is answered")
         link = bench.motion()
         link.send(head[:4])
         link.wait_until_lost(0.2, f"{length} as a length breaks the link")
@@ -76,12 +76,12 @@ def _ports_open(bench: Bench) -> None:
     bench.run(2.5)
     share = 1 - (scheduler.idle - idle) / (scheduler.now - since)
     if share > 0.1 * len(bench.config.groups):
-        raise Broken(f"while ports are taken the driver takes {share:.0%} of the processor")
+        raise CheckFailed(f"while ports are taken the driver takes {share:.0%} of the processor")
     for port in wanted:
         title = f"ROS: port {port} cannot be opened"
         said = [e for e in bench.controller.log.since(last) if e.title == title]
         if len(said) != 1:
-            raise Broken(f"port {port} is taken, the event log says so {len(said)} times")
+            raise CheckFailed(f"port {port} is taken, the event log says so {len(said)} times")
     changes: list[float] = []
     for endpoint in taken:
         network.close(endpoint)
@@ -89,7 +89,7 @@ def _ports_open(bench: Bench) -> None:
     # A virtual controller has no LAN port; an address of the configuration is bound as it is.
     hosts = {network.listeners[port][0] for port in wanted}
     if bench.config.bind == "lan" and hosts != {"127.0.0.1"}:
-        raise Broken(f"the virtual controller listens at {hosts}")
+        raise CheckFailed(f"the virtual controller listens at {hosts}")
     network.listening.add(lambda: changes.append(bench.now))
     for _ in range(3):
         links = [bench.motion(), bench.state()]
@@ -100,4 +100,4 @@ def _ports_open(bench: Bench) -> None:
             link.close()
         bench.run(0.2)
     if changes:
-        raise Broken(f"clients came and went, ports were opened or closed at {changes}")
+        raise CheckFailed(f"clients came and went, ports were opened or closed at {changes}")

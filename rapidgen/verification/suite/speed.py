@@ -13,20 +13,20 @@ import numpy as np
 
 from rapidgen.axes.frames import Pose, slerp
 from rapidgen.verification import messages
-from rapidgen.verification.case import Theme
+from rapidgen.verification.case import SuiteGroup
 from rapidgen.verification.instruction_hooks import at_call
 from rapidgen.verification.messages import RawComm, RawInstruction, RawReason
-from rapidgen.verification.model import Broken, NothingToProve
+from rapidgen.verification.model import CheckFailed, NotApplicable
 from rapidgen.verification.path_deviation import farthest, points
 from rapidgen.verification.position_checks import Point, Position, changed, distance, inward
 from rapidgen.verification.raw_connection import RawLink
-from rapidgen.verification.raw_programs import Programmer, RawOrder, computes, orders, reached
+from rapidgen.verification.raw_programs import Programmer, RawMove, computes, orders, reached
 from rapidgen.verification.stream import BEGIN, END, Streamer
 from rapidgen.verification.suite.control import done, not_done
 from rapidgen.verification.suite.motion_task import begins, soon, unit_of
 from rapidgen.verification.testbench import Bench
 
-case = Theme("speed", needs="control")
+case = SuiteGroup("speed", needs="control")
 
 RATE = 0.08
 """rad/s or m/s of the axis that is looked at."""
@@ -92,14 +92,14 @@ def as_asked(
     for when, then, pace in seen:
         fast = fast + then - when if pace > _PEAK * asked else 0.0
         if fast > most or (fast > _MOMENT and then > last):
-            raise Broken(
+            raise CheckFailed(
                 f"{then - since:.2f} s behind SPEED {percent:g} the robot is at {100 * pace:.0f} % "
                 f"of its speed, for {fast:.2f} s"
             )
     slow = sum(then - when for when, then, pace in seen if pace < 0.75 * asked)
     at_rest = _RAMPS + _slow(bench) + _TICK + bench.setting.motion.settle + lag
     if slow > stops * at_rest:
-        raise Broken(f"at SPEED {percent:g} the robot is slower than that for {slow:.2f} s")
+        raise CheckFailed(f"at SPEED {percent:g} the robot is slower than that for {slow:.2f} s")
 
 
 def asks_as_it_begins(bench: Bench, control: RawLink, percent: float) -> None:
@@ -144,7 +144,7 @@ def _kept(bench: Bench) -> None:
                 since = bench.now
                 done(control.ask(messages.RawSpeed(percent)), f"SPEED {percent:g}")
                 if bench.now - since > soon(bench):
-                    raise Broken(f"SPEED is answered after {bench.now - since:.3f} s")
+                    raise CheckFailed(f"SPEED is answered after {bench.now - since:.3f} s")
                 if percent == percents[-1]:
                     bench.wait_until_at(points[-1][0], 10 + 8 * count * seconds)
                     # What was ordered for less keeps that.
@@ -212,7 +212,7 @@ def _speed(bench: Bench) -> None:
         taken.append(bench.now - since)
         bench.run(0.5)
     if not 1.5 * taken[0] < taken[1] < 2.5 * taken[0] or abs(taken[2] - taken[0]) > 0.5:
-        raise Broken(f"at 100, 50 and again 100 % a trajectory took {taken} s")
+        raise CheckFailed(f"at 100, 50 and again 100 % a trajectory took {taken} s")
     bench.sets_off(link, bench.wave(12))
     done(control.ask(messages.RawSpeed(1)), "the smallest SPEED")
     link.stop()
@@ -240,10 +240,12 @@ def _at_the_start(bench: Bench) -> None:
     begun = bench.now
     told = control.reply(messages.SPEED, soon(bench))
     if told != messages.RawAcknowledged():
-        raise Broken(f"SPEED at the beginning of a trajectory is answered by {told}")
+        raise CheckFailed(f"SPEED at the beginning of a trajectory is answered by {told}")
     bench.wait_until_at(points[2][0], 10 * unit)
     if bench.now - begun < 3.0 * unit:
-        raise Broken(f"{2 * unit:.2f} s of motion at half the speed took {bench.now - begun:.2f} s")
+        raise CheckFailed(
+            f"{2 * unit:.2f} s of motion at half the speed took {bench.now - begun:.2f} s"
+        )
 
 
 @case("program-speed", "a program is never faster than asked, nor slowed down twice")
@@ -287,7 +289,7 @@ def _circle(bench: Bench) -> None:
     """Its end is ordered anew, and is no circle through where the robot was before."""
     # The tool turns with the circle, which a palletizer's does not.
     if not computes(bench) or len(bench.group.joints) < 6:
-        raise NothingToProve("no poses are computed, or the tool does not turn with a circle")
+        raise NotApplicable("no poses are computed, or the tool does not turn with a circle")
     control, client = bench.control(), Programmer(bench)
     first, *_, last = orders(bench, 4, random.Random(31))
     client.takes("a program", [first])
@@ -296,7 +298,7 @@ def _circle(bench: Bench) -> None:
     via = aside(reached(bench, first.joints), pose)
     circle = replace(last, kind=RawInstruction.MOVE_C, pose=pose, via=via)
     circle = replace(circle, speed=0.03, zone=0.002)
-    back = RawOrder(RawInstruction.MOVE_ABSJ, first.joints, None, zone=None)
+    back = RawMove(RawInstruction.MOVE_ABSJ, first.joints, None, zone=None)
     ways: list[list[Position]] = []
     seconds = 0.0
     for share in (None, 0.3, 0.6):
@@ -311,7 +313,7 @@ def _circle(bench: Bench) -> None:
         seconds = seconds or taken
         # What is left of it takes more than three times as long; but it may be short.
         if share is not None and seconds > 1 and taken < (1 + (1 - share)) * seconds:
-            raise Broken(
+            raise CheckFailed(
                 f"a circle of {seconds:.1f} s, {share:.0%} on the way SPEED 30: {taken:.1f} s"
             )
         ways.append([place for at, place in bench.track if at >= since])
@@ -319,7 +321,7 @@ def _circle(bench: Bench) -> None:
         bench.run(0.3)
     for way in ways[1:]:
         if (far := farthest(points(bench, way), points(bench, ways[0]))) > 0.004:
-            raise Broken(f"a circle that was slowed down is left by {far * 1000:.1f} mm")
+            raise CheckFailed(f"a circle that was slowed down is left by {far * 1000:.1f} mm")
 
 
 def aside(one: Pose, other: Pose, share: float = 0.2) -> Pose:
@@ -330,7 +332,7 @@ def aside(one: Pose, other: Pose, share: float = 0.2) -> Pose:
     return (x, y, z), slerp(one[1], other[1], 0.5)
 
 
-def straight_moves(bench: Bench, count: int, step: float) -> list[RawOrder]:
+def straight_moves(bench: Bench, count: int, step: float) -> list[RawMove]:
     """Moves on a straight way of the first axis, each in about 0.6 s, the last a stop point."""
     here, joint = bench.position, bench.group.joints[0]
     step = inward(joint, here[0], step) - here[0]
@@ -339,6 +341,6 @@ def straight_moves(bench: Bench, count: int, step: float) -> list[RawOrder]:
     if bench.motion_group.kinematics is not None:
         speed = max(0.02, math.dist(bench.tcp(places[0]), bench.tcp(places[1])) / 0.6)
     return [
-        RawOrder(RawInstruction.MOVE_ABSJ, place, None, speed=speed, zone=zone)
+        RawMove(RawInstruction.MOVE_ABSJ, place, None, speed=speed, zone=zone)
         for place, zone in zip(places[1:], [*[0.002] * (count - 1), None], strict=True)
     ]

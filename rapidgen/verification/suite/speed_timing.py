@@ -6,10 +6,10 @@ from itertools import product
 from rapidgen.motion.moves import Move
 from rapidgen.runtime.task.task import Task
 from rapidgen.verification import messages
-from rapidgen.verification.case import Theme
+from rapidgen.verification.case import SuiteGroup
 from rapidgen.verification.instruction_hooks import Instruction, at_call, fails, wrapped
 from rapidgen.verification.messages import RawComm
-from rapidgen.verification.model import Broken, NothingToProve
+from rapidgen.verification.model import CheckFailed, NotApplicable
 from rapidgen.verification.position_checks import changed, distance, inward
 from rapidgen.verification.raw_connection import RawLink
 from rapidgen.verification.raw_programs import Programmer
@@ -25,7 +25,7 @@ from rapidgen.verification.suite.speed import (
 )
 from rapidgen.verification.testbench import Bench
 
-case = Theme("speed", needs="control")
+case = SuiteGroup("speed", needs="control")
 
 
 @case("speed-before-order", "a speed that comes just before a long move is ordered holds for it")
@@ -77,7 +77,9 @@ def _between(bench: Bench) -> None:
     bench.arrives(points, since, 30)
     group.listeners.remove(heard)
     if refreshed != [1.0] * (len(points) - 1):
-        raise Broken(f"{len(points) - 1} moves with their time for SPEED 50, held to {refreshed}")
+        raise CheckFailed(
+            f"{len(points) - 1} moves with their time for SPEED 50, held to {refreshed}"
+        )
     as_asked(bench, since, 50, 1.0)
 
 
@@ -85,11 +87,11 @@ def _between(bench: Bench) -> None:
 def _of_short(bench: Bench) -> None:
     """No SpeedRefresh slows them down, which would end in a stop."""
     if not bench.setting.corners_in_time:
-        raise NothingToProve("tasks by lot are not in time for a corner")
+        raise NotApplicable("tasks by lot are not in time for a corner")
     control, link = bench.control(), bench.motion()
     short = max(0.12, 1.05 * bench.config.trajectory.min_segment)
     if short > LONG:
-        raise NothingToProve("`min_segment` allows no short moves")
+        raise NotApplicable("`min_segment` allows no short moves")
     line = straight(bench, 26, short)
     # A long one before them counts no more.
     points = [line[0], (line[6][0], 6 * short), *line[7:]]
@@ -98,7 +100,7 @@ def _of_short(bench: Bench) -> None:
     since = bench.now
     bench.until(lambda: distance(bench.position, points[-3][0]) < 5e-3, 30, "the last but two")
     if any(pace < 0.05 for *_, pace in paces(bench, since, RATE)):
-        raise Broken("short moves are slower, and the robot stops between them")
+        raise CheckFailed("short moves are slower, and the robot stops between them")
     bench.wait_until_at(points[-1][0], 10)
 
 
@@ -133,7 +135,9 @@ def _reached_first(bench: Bench) -> None:
             bench.rests(5, 0.5, f"the end of a slower move of {what} has failed")
         told = bench.progress(watcher)
         if (told.planned, told.reached) != ((count + 1, count) if is_good else (count, count - 1)):
-            raise Broken(f"the end of a slower move of {what}, which {is_good=}, is told as {told}")
+            raise CheckFailed(
+                f"the end of a slower move of {what}, which {is_good=}, is told as {told}"
+            )
         if is_good:
             bench.wait_until_at(last, 20)
         bench.run(0.3)
@@ -146,7 +150,7 @@ def _is_over(bench: Bench) -> None:
     here, said = bench.position, _refreshes(bench)
     link = _asked_in_a_stay(bench, bench.motion())
     if any(value < 100 for _, value in said) or bench.motion_group.refresh < 1:
-        raise Broken(f"nothing is left to be slowed down, SpeedRefresh: {said}")
+        raise CheckFailed(f"nothing is left to be slowed down, SpeedRefresh: {said}")
     bench.controller.perform("stop")
     bench.run(0.5)
     # By hand.
@@ -192,18 +196,20 @@ def _said_enough(bench: Bench) -> None:
     bench.sets_off(link, points, 0.3)
     done(control.ask(messages.RawSpeed(50)), "SPEED 50")
     if {value for _, value in said} != {50.0}:
-        raise Broken(f"SPEED 50 of a move that is under way is confirmed, SpeedRefresh: {said}")
+        raise CheckFailed(
+            f"SPEED 50 of a move that is under way is confirmed, SpeedRefresh: {said}"
+        )
     bench.wait_until_at(points[-1][0], 20)
     bench.run(0.5)
     since, points = bench.now, straight(bench, 5, 1.0)
     bench.sets_off(link, points, 2.0)
     if not any(when > since for when, _ in said):
-        raise Broken("a speed is over, and SpeedRefresh has not said so while the robot moves")
+        raise CheckFailed("a speed is over, and SpeedRefresh has not said so while the robot moves")
     enough = bench.now
     bench.wait_until_at(points[-1][0], 20)
     late = [when for when, _ in said if enough < when < bench.now - 0.5]
     if late:
-        raise Broken(f"SpeedRefresh is said again at {late}, 2 s behind the beginning")
+        raise CheckFailed(f"SpeedRefresh is said again at {late}, 2 s behind the beginning")
 
 
 @case("speed-keeps-own", "SPEED multiplies the SpeedRefresh of the program, which is there again")
@@ -220,13 +226,15 @@ def _keeps_own(bench: Bench) -> None:
             other.sets_off(link, points, 0.3)
             done(control.ask(messages.RawSpeed(percent)), "SPEED")
             if abs(group.refresh - 0.5 * percent / 100) > 1e-3:
-                raise Broken(f"SPEED {percent}, SpeedRefresh was 0.5 and is {group.refresh}")
+                raise CheckFailed(f"SPEED {percent}, SpeedRefresh was 0.5 and is {group.refresh}")
             other.arrives(points, since, 100)
             other.run(1)
             other.sets_off(link, straight(other, 2, 0.5), 0.6)
             other.wait_until_standing(30)
             if (round(group.refresh, 3), group.override) != (0.5, 0.8):
-                raise Broken(f"after SPEED the speeds are {group.refresh} and {group.override}")
+                raise CheckFailed(
+                    f"after SPEED the speeds are {group.refresh} and {group.override}"
+                )
 
 
 def _refreshes(bench: Bench) -> list[tuple[float, float]]:

@@ -1,13 +1,13 @@
 """What a driver finds at its start: modules of other builds, and what was under way before."""
 
-from rapidgen.verification.case import Theme
+from rapidgen.verification.case import SuiteGroup
 from rapidgen.verification.messages import POINT_BYTES, RawReason, RawTrajectoryState
-from rapidgen.verification.model import Broken
+from rapidgen.verification.model import CheckFailed
 from rapidgen.verification.raw_connection import raw_point
 from rapidgen.verification.stream import BEGIN, Streamer
 from rapidgen.verification.testbench import Bench, with_module
 
-case = Theme("controller")
+case = SuiteGroup("controller")
 
 
 @case("one-module-of-another", "a module of another build that several tasks load")
@@ -25,14 +25,14 @@ def _one_other(bench: Bench) -> None:
         events = [" ".join(e.texts) for e in other.controller.log if "different builds" in str(e)]
         wanted = [f"Task {t.name}," for t in tasks if any(m.path == path for m in t.modules)]
         if len(events) != len(wanted) or not all(any(w in e for e in events) for w in wanted):
-            raise Broken(f"{path} is of another build, the event log says {events}")
+            raise CheckFailed(f"{path} is of another build, the event log says {events}")
         link.send(raw_point(-1, other.position, 1.0))
         other.run(0.3)
         told = other.progress(watcher)
         if (told.state, told.reason) != (RawTrajectoryState.REFUSED, RawReason.BUILD_MISMATCH):
-            raise Broken(f"{path} is of another build, PROGRESS says {told}")
+            raise CheckFailed(f"{path} is of another build, PROGRESS says {told}")
         if other.status(watcher).motion_possible:
-            raise Broken("modules of several builds: STATUS says that motion is possible")
+            raise CheckFailed("modules of several builds: STATUS says that motion is possible")
 
 
 @case("power-returns", "a power failure while a trajectory is received", needs="stream")
@@ -57,9 +57,9 @@ def _power_returns(bench: Bench) -> None:
             RawTrajectoryState.RECEIVING,
             RawTrajectoryState.MOVING,
         ):
-            raise Broken(f"trajectory {number} was there when the power failed: {told}")
+            raise CheckFailed(f"trajectory {number} was there when the power failed: {told}")
         if status.motion_possible != 1 or status.in_motion:
-            raise Broken(f"the power came back, STATUS says {status}")
+            raise CheckFailed(f"the power came back, STATUS says {status}")
         link.send(bench.download(bench.wave(5))[3 * (POINT_BYTES) :])
         bench.stays(0.5, "half of it came before the power failed")
         bench.moves_through(link, bench.wave(2))

@@ -11,17 +11,17 @@ from rapidgen.machine.event_log import EventType
 from rapidgen.machine.network.interface import BUFFER, NetworkFault
 from rapidgen.machine.network.memory import MemoryEndpoint
 from rapidgen.verification import messages
-from rapidgen.verification.case import Theme
+from rapidgen.verification.case import SuiteGroup
 from rapidgen.verification.instruction_hooks import fails
 from rapidgen.verification.messages import RawComm, RawFeature, RawReason
-from rapidgen.verification.model import Broken, NothingToProve
+from rapidgen.verification.model import CheckFailed, NotApplicable
 from rapidgen.verification.position_checks import Point
 from rapidgen.verification.raw_connection import RawLink
 from rapidgen.verification.suite.refusals import refused
 from rapidgen.verification.suite.state_port import PLAIN, on_turn, rounds, subscribe
 from rapidgen.verification.testbench import Bench
 
-case = Theme("watching")
+case = SuiteGroup("watching")
 
 _CLIENTS = 3
 """Clients that the state port serves at a time, as docs/use/driver.md promises."""
@@ -43,7 +43,7 @@ def _several_watch(bench: Bench) -> None:
         if number >= _CLIENTS:
             lost[-1] = True
         if [link.lost for link in links[:-1]] != lost:
-            raise Broken(f"client {number + 1} came, lost are {[link.lost for link in links]}")
+            raise CheckFailed(f"client {number + 1} came, lost are {[link.lost for link in links]}")
         on_turn(bench, rounds(links[0], came - 1), f"client {number + 1} came")
     for leaves, abort in ((1, False), (0, True)):
         served = [link for link in links if not link.lost]
@@ -54,15 +54,17 @@ def _several_watch(bench: Bench) -> None:
         bench.run(1)
         served = [link for link in links if not link.lost]
         if len(served) != _CLIENTS:
-            raise Broken(f"one of {_CLIENTS} clients left, another came, {len(served)} are served")
+            raise CheckFailed(
+                f"one of {_CLIENTS} clients left, another came, {len(served)} are served"
+            )
         on_turn(bench, rounds(served[0], since), "one left, another came")
         if any(one.numbers != PLAIN for one in rounds(links[-1], since)):
-            raise Broken("who takes the place of another is told what that had asked for")
+            raise CheckFailed("who takes the place of another is told what that had asked for")
     since = bench.now
     bench.run(1)
     tails = [[f for _, f in link.frames[-10:]] for link in links if not link.lost]
     if tails[1:] != tails[:-1]:
-        raise Broken("clients at one time are told different things")
+        raise CheckFailed("clients at one time are told different things")
 
 
 def _fill(bench: Bench, link: RawLink, room: int = 0) -> None:
@@ -81,7 +83,7 @@ def _fill(bench: Bench, link: RawLink, room: int = 0) -> None:
         try:
             left -= network.send(pipe.sender, frame + bytes(size - 16))
         except NetworkFault as fault:
-            raise Broken(f"a client was not served any more: {fault}") from fault
+            raise CheckFailed(f"a client was not served any more: {fault}") from fault
 
 
 def _held(bench: Bench) -> bool:
@@ -110,12 +112,12 @@ def _is_dropped(bench: Bench, link: RawLink, reader: RawLink) -> None:
     # The trap of the pulse may come between the alarm and the send.
     least = 0.1 - 0.005 * bench.setting.slowness
     if bench.setting.dialect.send_attends and not least <= held < 0.35:
-        raise Broken(f"a client that does not read has held up others for {held:.3f} s")
+        raise CheckFailed(f"a client that does not read has held up others for {held:.3f} s")
     bench.run(1)
     found = rounds(reader, since)
     gaps = [b.time - a.time for a, b in pairwise(found)]
     if any(a + b < 0.8 * bench.config.state_period for a, b in pairwise(gaps)):
-        raise Broken("what could not be sent in time comes in a burst")
+        raise CheckFailed("what could not be sent in time comes in a burst")
     on_turn(bench, found[1:], "behind a client that did not read")
     link.read_on()
     link.wait_until_lost(5, "a client that does not read is dropped")
@@ -142,7 +144,7 @@ def _does_not_read(bench: Bench) -> None:
         since = bench.now + bench.config.state_period
         bench.run(0.8)
         if slow.lost:
-            raise Broken("a client that was slow for 0.15 s is dropped")
+            raise CheckFailed("a client that was slow for 0.15 s is dropped")
         on_turn(bench, rounds(slow, since), "a client that was slow")
     # It has room for all rounds until the next event, and for no event behind them.
     slow.close(then=0.5)
@@ -195,13 +197,13 @@ def _feedback(bench: Bench) -> None:
     for one in (first, link):
         told = one.told(messages.RawJointFeedback)
         if len(told) < 20:
-            raise Broken(f"{len(told)} JOINT_FEEDBACK came")
+            raise CheckFailed(f"{len(told)} JOINT_FEEDBACK came")
         _is_motion(bench, told[2:])
     seen = {told.joints for _, told in link.told(messages.RawJointPosition)}
     if any(told.positions not in seen for _, told in link.told(messages.RawJointFeedback)):
-        raise Broken("JOINT_FEEDBACK tells other joints than JOINT")
+        raise CheckFailed("JOINT_FEEDBACK tells other joints than JOINT")
     if bench.state().told(messages.RawJointFeedback):
-        raise Broken("JOINT_FEEDBACK comes to a client that did not ask for it")
+        raise CheckFailed("JOINT_FEEDBACK comes to a client that did not ask for it")
 
 
 def _is_motion(bench: Bench, told: Sequence[tuple[float, messages.RawJointFeedback]]) -> None:
@@ -211,21 +213,23 @@ def _is_motion(bench: Bench, told: Sequence[tuple[float, messages.RawJointFeedba
     for (_, before), (when, now) in pairwise(told):
         seconds = now.time - before.time
         if abs(seconds - bench.config.state_period) > 0.5 * bench.config.state_period:
-            raise Broken(f"time stamps of JOINT_FEEDBACK are {seconds:.3f} s apart at {when:.2f} s")
+            raise CheckFailed(
+                f"time stamps of JOINT_FEEDBACK are {seconds:.3f} s apart at {when:.2f} s"
+            )
         if now.valid_fields != 0b111:
-            raise Broken(f"JOINT_FEEDBACK holds fields {now.valid_fields:#b}")
+            raise CheckFailed(f"JOINT_FEEDBACK holds fields {now.valid_fields:#b}")
         for joint in range(count):
             gone = (now.positions[joint] - before.positions[joint]) / seconds
             if abs(gone - now.velocities[joint]) > 1e-3 + 0.01 * abs(gone):
-                raise Broken(
+                raise CheckFailed(
                     f"joint {joint + 1} moved with {gone:.4f}/s, JOINT_FEEDBACK says "
                     f"{now.velocities[joint]:.4f}"
                 )
             moved = moved or abs(gone) > 0.01
         if any(now.positions[count:]) or any(now.velocities[count:]) or any(now.accelerations):
-            raise Broken(f"JOINT_FEEDBACK tells what the robot does not have: {now}")
+            raise CheckFailed(f"JOINT_FEEDBACK tells what the robot does not have: {now}")
     if not moved:
-        raise Broken("no JOINT_FEEDBACK shows the motion")
+        raise CheckFailed("no JOINT_FEEDBACK shows the motion")
 
 
 _Event: TypeAlias = tuple[int, int, int, str, str, str]
@@ -246,12 +250,12 @@ def _are_told(link: RawLink, since: float, wanted: Sequence[_Event]) -> None:
     found = link.told(messages.RawEvent, since)
     told = [(e.domain, e.number, e.type, e.title.rstrip(), e.first, e.second) for _, e in found]
     if told != list(wanted):
-        raise Broken(f"wanted are events {wanted}, EVENT told {told}")
+        raise CheckFailed(f"wanted are events {wanted}, EVENT told {told}")
     # One is late, and the next one in time: nearer than they were sent, but ten take their second.
     times = [when for when, _ in found]
     near = any(b - a < 0.05 for a, b in pairwise(times))
     if near or any(b - a < 0.95 for a, b in zip(times, times[10:], strict=False)):
-        raise Broken(f"events come at {times}")
+        raise CheckFailed(f"events come at {times}")
 
 
 def _burst(bench: Bench, link: RawLink, count: int) -> tuple[float, list[_Event]]:
@@ -287,7 +291,7 @@ def _events(bench: Bench) -> None:
         for link in (links[0], links[2]):
             _are_told(link, since, wanted)
         if links[1].told(messages.RawEvent):
-            raise Broken("EVENT comes to a client that did not ask for it")
+            raise CheckFailed("EVENT comes to a client that did not ask for it")
     # Nobody wants those that still wait, nor the number of the others.
     since, wanted = _burst(bench, links[0], 20)
     subscribe(bench, RawFeature.PROGRESS, links[2])
@@ -306,7 +310,7 @@ def _events(bench: Bench) -> None:
         or len(links[0].told(messages.RawEvent, begun)) > seen
         or links[2].told(messages.RawEvent, since)
     ):
-        raise Broken("events from before HELLO are told")
+        raise CheckFailed("events from before HELLO are told")
     since, wanted = _burst(bench, links[2], 2)
     bench.run(0.5)
     _are_told(links[2], since, wanted)
@@ -320,7 +324,7 @@ def _events(bench: Bench) -> None:
 def _limits_of_the_controller(bench: Bench) -> None:
     """A joint that the controller lets move less has those limits."""
     if not bench.setting.dialect.axis_limits_told:
-        raise NothingToProve("the controller does not tell limits of axes")
+        raise NotApplicable("the controller does not tell limits of axes")
     group = bench.group
     joint = group.joints[0]
     middle, half = (joint.lower + joint.upper) / 2, (joint.upper - joint.lower) / 2
@@ -333,13 +337,15 @@ def _limits_of_the_controller(bench: Bench) -> None:
         link = other.state()
         told = other.says_hello(link)
         if abs(told.lower[0] - narrow.lower) + abs(told.upper[0] - narrow.upper) > 1e-4:
-            raise Broken(
+            raise CheckFailed(
                 f"joint 1 may move from {narrow.lower:.4f} to {narrow.upper:.4f}, HELLO says "
                 f"{told.lower[0]:.4f} to {told.upper[0]:.4f}"
             )
         said = [e for e in other.controller.log if "joint 1 are narrower" in str(e)]
         if len(said) != 1:
-            raise Broken(f"limits differ from the controller's, the event log says {len(said)}")
+            raise CheckFailed(
+                f"limits differ from the controller's, the event log says {len(said)}"
+            )
         for value in (narrow.lower - 0.05 * half, narrow.upper + 0.05 * half):
             points = [(p, 60.0) for p, _ in other.wave(4)]
             points[2] = ((value, *points[2][0][1:]), 60.0)

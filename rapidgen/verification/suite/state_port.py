@@ -8,7 +8,7 @@ from rapidgen.generate.layout import signal_name
 from rapidgen.generate.status import STATUS_SIGNALS
 from rapidgen.runtime.builtins.clocks import StopWatch
 from rapidgen.verification import messages
-from rapidgen.verification.case import Theme
+from rapidgen.verification.case import SuiteGroup
 from rapidgen.verification.instruction_hooks import fails
 from rapidgen.verification.messages import (
     RawComm,
@@ -17,13 +17,13 @@ from rapidgen.verification.messages import (
     RawReason,
     RawTrajectoryState,
 )
-from rapidgen.verification.model import Broken
+from rapidgen.verification.model import CheckFailed
 from rapidgen.verification.position_checks import distance, small_unit
 from rapidgen.verification.raw_connection import STOP, RawLink
 from rapidgen.verification.suite.motion_task import patience
 from rapidgen.verification.testbench import Bench
 
-case = Theme("reading")
+case = SuiteGroup("reading")
 
 C = TypeVar("C")
 _NONE = RawFeature(0)
@@ -45,7 +45,7 @@ def content(one: Round, kind: type[C]) -> C:
     """The first message of a kind in a round."""
     found = next((c for frame in one.frames if isinstance(c := messages.decode(frame), kind)), None)
     if found is None:
-        raise Broken(f"at {one.time:.3f} s a client is told {one.numbers}: no {kind.__name__}")
+        raise CheckFailed(f"at {one.time:.3f} s a client is told {one.numbers}: no {kind.__name__}")
     return found
 
 
@@ -78,10 +78,12 @@ def on_turn(bench: Bench, found: Sequence[Round], what: str) -> None:
     """Broken unless rounds came a period apart, none missed, whatever each of them took."""
     period = bench.config.state_period
     if len(found) < 3:
-        raise Broken(f"{what}: {len(found)} rounds")
+        raise CheckFailed(f"{what}: {len(found)} rounds")
     offs = [r.time - found[0].time - n * period for n, r in enumerate(found)]
     if max(offs) - min(offs) > 2 * _late(bench):
-        raise Broken(f"{what}: rounds are {min(offs):.4f} to {max(offs):.4f} s off their turns")
+        raise CheckFailed(
+            f"{what}: rounds are {min(offs):.4f} to {max(offs):.4f} s off their turns"
+        )
 
 
 def _pause(bench: Bench, link: RawLink) -> float:
@@ -109,17 +111,19 @@ def _all_alike(
         wanted = [*PLAIN, *(n for f, n in _FOLLOW.items() if f in features)]
         for one in own:
             if one.numbers != wanted:
-                raise Broken(f"who asked for {features!r} is told messages {one.numbers}")
+                raise CheckFailed(f"who asked for {features!r} is told messages {one.numbers}")
     counts = [len(own) for own in told]
     if max(counts) - min(counts) > 1:
-        raise Broken(f"clients of one server are told {counts} rounds")
+        raise CheckFailed(f"clients of one server are told {counts} rounds")
     # The last round may be under way to the others.
     for moment in zip(*told, strict=False):
         seen: dict[int, messages.RawFrame] = {}
         for one in moment:
             for frame in one.frames:
                 if seen.setdefault(frame.number, frame) != frame:
-                    raise Broken(f"at {one.time:.3f} s clients are told different {frame.number}")
+                    raise CheckFailed(
+                        f"at {one.time:.3f} s clients are told different {frame.number}"
+                    )
     return told[0]
 
 
@@ -136,22 +140,22 @@ def _is_true(bench: Bench, told: Sequence[Round]) -> set[int]:
         progress = content(one, messages.RawProgress)
         count, here = len(before), bench.track_at(one.time)
         if distance(joints.joints[:count], here) > 0.03 or any(joints.joints[count:]):
-            raise Broken(f"at {one.time:.3f} s the robot is at {here}, {joints}")
+            raise CheckFailed(f"at {one.time:.3f} s the robot is at {here}, {joints}")
         seen.add(progress.state)
         wrong = progress.state in (RawTrajectoryState.REFUSED, RawTrajectoryState.FAILED)
         code = progress.reason + 100 * progress.joint if wrong else 0
         if (status.in_error, status.error_code) != (int(wrong), code):
-            raise Broken(f"{progress} is told with {status}")
+            raise CheckFailed(f"{progress} is told with {status}")
         moving = progress.state == RawTrajectoryState.MOVING
         if slow and following is not None and status.in_motion != moving:
             then = content(following, messages.RawProgress)
             moving = then.state == RawTrajectoryState.MOVING
         stood = stood + 1 if here == before else 0
         if status.in_motion != moving and (moving or stood > late):
-            raise Broken(f"{progress} is told with {status}")
+            raise CheckFailed(f"{progress} is told with {status}")
         plain = (status.drives_powered, status.e_stopped, status.mode, status.motion_possible)
         if plain != (1, 0, RawMode.AUTO, 1):
-            raise Broken(f"all is well, STATUS says {status}")
+            raise CheckFailed(f"all is well, STATUS says {status}")
         before = here
     return seen
 
@@ -181,17 +185,19 @@ def _each_round(bench: Bench) -> None:
         told = _all_alike(bench, list(zip(links, wishes, strict=True)), since)
         states = _is_true(bench, told)
         if not states >= {2, 3, 4, 6}:
-            raise Broken(f"a trajectory, a refusal and a STOP: PROGRESS tells states {states}")
+            raise CheckFailed(f"a trajectory, a refusal and a STOP: PROGRESS tells states {states}")
         progress = [content(one, messages.RawProgress) for one in told]
         numbers = list(dict.fromkeys(p.trajectory for p in progress))
         if numbers[-2:] != [number + 1, number + 2] or not number <= numbers[0]:
-            raise Broken(f"two trajectories came after {number}, PROGRESS tells of {numbers}")
+            raise CheckFailed(f"two trajectories came after {number}, PROGRESS tells of {numbers}")
         done = (RawTrajectoryState.DONE, len(points), len(points), len(points), 0, -1, 0)
         if done not in [p[1:] for p in progress]:
-            raise Broken(f"{len(points)} points were executed, no PROGRESS says so: {progress}")
+            raise CheckFailed(
+                f"{len(points)} points were executed, no PROGRESS says so: {progress}"
+            )
         refusal = (RawTrajectoryState.REFUSED, 1, 0, 0, RawReason.JOINT_LIMIT, 1, len(joints))
         if refusal not in [p[1:] for p in progress]:
-            raise Broken(f"joint {len(joints)} of point 1 is wrong, no PROGRESS says so")
+            raise CheckFailed(f"joint {len(joints)} of point 1 is wrong, no PROGRESS says so")
 
 
 _WRAP = 1000
@@ -207,14 +213,14 @@ def _is_measured(bench: Bench, told: Sequence[Round], what: str) -> None:
     period, count = bench.config.state_period, len(bench.position)
     for before, now in pairwise(content(one, messages.RawJointFeedback) for one in told):
         if not (0 <= now.time < _WRAP and now.valid_fields == 0b111):
-            raise Broken(f"{what}: {now}")
+            raise CheckFailed(f"{what}: {now}")
         seconds = (now.time - before.time) % _WRAP
         if abs(seconds - period) > 2 * _late(bench):
-            raise Broken(f"{what}: stamps {before.time} and {now.time} are of two rounds")
+            raise CheckFailed(f"{what}: stamps {before.time} and {now.time} are of two rounds")
         for joint in range(count):
             gone = (now.positions[joint] - before.positions[joint]) / seconds
             if abs(gone - now.velocities[joint]) > 1e-5 + 1e-3 * abs(gone):
-                raise Broken(f"{what}: joint {joint + 1} moves with {gone}, told is {now}")
+                raise CheckFailed(f"{what}: joint {joint + 1} moves with {gone}, told is {now}")
 
 
 def _clocks(bench: Bench) -> list[StopWatch]:
@@ -262,7 +268,7 @@ def _over_the_ends(bench: Bench) -> None:
         stamps = _stamps(found)
         lost = found[-1].time - found[0].time - (stamps[-1] - stamps[0]) % _WRAP
         if abs(lost) > _late(bench):
-            raise Broken(f"{what}: the stamps have lost {lost:.4f} s")
+            raise CheckFailed(f"{what}: the stamps have lost {lost:.4f} s")
     _late_by_half(bench, link)
 
 
@@ -275,7 +281,7 @@ def _late_by_half(bench: Bench, link: RawLink) -> None:
     gaps = [b - a for a, b in pairwise(times)]
     wanted = (0.0, 0.5 * period, period)
     if any(abs(gap - w) > 2 * _late(bench) for gap, w in zip(gaps, wanted, strict=False)):
-        raise Broken(f"a round was late by half a period, rounds came at {times}")
+        raise CheckFailed(f"a round was late by half a period, rounds came at {times}")
 
 
 def _advance(bench: Bench, seconds: float) -> None:
@@ -306,13 +312,17 @@ def _not_over_yet(bench: Bench) -> None:
         for one in rounds(link, since):
             status, told = content(one, messages.RawStatus), content(one, messages.RawProgress)
             if (told.state, told.reason, told.point) != (state, reason, told.reached):
-                raise Broken(f"{ending} came, its path is not cleared yet, PROGRESS says {told}")
+                raise CheckFailed(
+                    f"{ending} came, its path is not cleared yet, PROGRESS says {told}"
+                )
             if (status.in_motion, status.motion_possible) != (0, 0):
-                raise Broken(f"{ending} came, its path is not cleared yet, STATUS says {status}")
+                raise CheckFailed(
+                    f"{ending} came, its path is not cleared yet, STATUS says {status}"
+                )
         end()
         bench.run(1)
         if not bench.status(link).motion_possible:
-            raise Broken(f"{ending} came, the path is cleared, no motion is possible")
+            raise CheckFailed(f"{ending} came, the path is cleared, no motion is possible")
         motion = bench.motion()
 
 
@@ -337,9 +347,11 @@ def _first_of_all(bench: Bench) -> None:
         on_turn(bench, found, f"visit {visit + 1}")
         first = content(found[0], messages.RawStatus)
         if first.in_motion:
-            raise Broken(f"the robot has moved while nobody looked, the first STATUS is {first}")
+            raise CheckFailed(
+                f"the robot has moved while nobody looked, the first STATUS is {first}"
+            )
         if first.in_error != visit % 2:
-            raise Broken(f"signal {error} is {visit % 2}, the first STATUS is {first}")
+            raise CheckFailed(f"signal {error} is {visit % 2}, the first STATUS is {first}")
         for name, value in ((standing, 0), (stop, 1), (standing, 1), (stop, 0)):
             bench.controller.signals[name] = value
             since = _pause(bench, link)
@@ -347,7 +359,7 @@ def _first_of_all(bench: Bench) -> None:
             status = content(rounds(link, since)[-1], messages.RawStatus)
             wanted = tuple(bench.controller.signals[n] for n in (standing, stop))
             if (1 - status.in_motion, status.e_stopped) != wanted:
-                raise Broken(f"signals {standing}, {stop} are {wanted}, STATUS says {status}")
+                raise CheckFailed(f"signals {standing}, {stop} are {wanted}, STATUS says {status}")
         subscribe(bench, RawFeature.FEEDBACK | RawFeature.PROGRESS, link)
         _pause(bench, link)
         _advance(bench, 0.3)
@@ -355,7 +367,9 @@ def _first_of_all(bench: Bench) -> None:
         bench.run(2 * period)
         stamp = _stamps(rounds(link, since))[-1]
         if abs(stamp - (bench.now - found[0].time) - 0.3) > period:
-            raise Broken(f"the first client has come {bench.now - came:.2f} s ago, told is {stamp}")
+            raise CheckFailed(
+                f"the first client has come {bench.now - came:.2f} s ago, told is {stamp}"
+            )
         link.close(abort=visit == 1, then=2 * period + 0.1)
         bench.moves_through(motion, bench.wave(3, duration=0.2))
         # Its last hair's breadth belongs to the motion.
@@ -379,4 +393,6 @@ def _moved_by_others(bench: Bench, link: RawLink) -> None:
             told = [content(one, messages.RawStatus) for one in rounds(link, since)]
             seen = sum(status.in_motion == 1 for status in told)
             if seen != times:
-                raise Broken(f"joint {axis + 1} was moved by {size} deg (mm), {seen} STATUS say so")
+                raise CheckFailed(
+                    f"joint {axis + 1} was moved by {size} deg (mm), {seen} STATUS say so"
+                )

@@ -1,14 +1,14 @@
 """STOP, and trajectories that take each other's place."""
 
 from rapidgen.verification import messages
-from rapidgen.verification.case import Theme
+from rapidgen.verification.case import SuiteGroup
 from rapidgen.verification.messages import JOINT_POSITION, decode
-from rapidgen.verification.model import Broken
+from rapidgen.verification.model import CheckFailed
 from rapidgen.verification.position_checks import distance
 from rapidgen.verification.raw_connection import STOP
 from rapidgen.verification.testbench import Bench
 
-case = Theme("stopping")
+case = SuiteGroup("stopping")
 
 
 @case("stop-on-path", "STOP ends the motion on the path and nothing follows")
@@ -23,7 +23,7 @@ def _stops_on_the_path(bench: Bench) -> None:
         link.expect_reply(1, "STOP is answered while the robot moves")
         bench.wait_until_standing(5)
         if bench.now - asked > 1.5:
-            raise Broken(f"the robot stood {bench.now - asked:.2f} s after STOP")
+            raise CheckFailed(f"the robot stood {bench.now - asked:.2f} s after STOP")
         bench.followed([p for p, _ in points], since=since)
         bench.stays(3, "it was stopped")
 
@@ -92,7 +92,7 @@ def _new_trajectory_while_moving(bench: Bench) -> None:
     reached = distance(bench.position, second[-1][0]) < 1e-4
     old = distance(bench.position, first[-1][0]) < 1e-4
     if old and not reached:
-        raise Broken("the old trajectory went on after a new one was sent")
+        raise CheckFailed("the old trajectory went on after a new one was sent")
     if reached:
         bench.followed([bench.track_at(since), *(p for p, _ in second)], since=since, corner=0.1)
     bench.stays(2, "nothing is left to execute")
@@ -129,7 +129,7 @@ def _state_tells_of_the_stop(bench: Bench) -> None:
     bench.run(1)
     status = bench.status(state)
     if (status.in_error, status.in_motion, status.motion_possible) != (0, 0, 1):
-        raise Broken(f"after a STOP STATUS says {status}")
+        raise CheckFailed(f"after a STOP STATUS says {status}")
     joints = [decode(f) for f in state.read() if f.number == JOINT_POSITION]
     if any(not isinstance(j, messages.RawJointPosition) for j in joints):
-        raise Broken("JOINT cannot be read")
+        raise CheckFailed("JOINT cannot be read")

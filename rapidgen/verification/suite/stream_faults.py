@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from rapidgen.generate.context import WRAP
 from rapidgen.verification import batches, messages
-from rapidgen.verification.case import Theme
+from rapidgen.verification.case import SuiteGroup
 from rapidgen.verification.instruction_hooks import fails
 from rapidgen.verification.messages import (
     RawComm,
@@ -13,7 +13,7 @@ from rapidgen.verification.messages import (
     RawStreamFlag,
     RawTrajectoryState,
 )
-from rapidgen.verification.model import Broken
+from rapidgen.verification.model import CheckFailed
 from rapidgen.verification.position_checks import Point, changed, inward, small_unit
 from rapidgen.verification.raw_connection import raw_point
 from rapidgen.verification.stream import BEGIN, END, FLUSH, Streamer
@@ -21,7 +21,7 @@ from rapidgen.verification.suite.points import fast_ends
 from rapidgen.verification.suite.streams import way
 from rapidgen.verification.testbench import Bench
 
-case = Theme("streaming", needs="stream")
+case = SuiteGroup("streaming", needs="stream")
 
 _NONE = RawStreamFlag(0)
 _SLOW = 30.0
@@ -51,7 +51,7 @@ class _Streams:
         """The last reply; Broken unless all is well with so many points."""
         told = self.stream.accepted(what)
         if told[:3] != (self.stream.number, self.trajectory, count):
-            raise Broken(f"{what}: {count} points of {self.trajectory}, the reply is {told}")
+            raise CheckFailed(f"{what}: {count} points of {self.trajectory}, the reply is {told}")
         return told
 
     def refused(
@@ -63,13 +63,13 @@ class _Streams:
             self.stream.number, self.trajectory, taken, reason, at, joint
         )
         if self.stream.last != wanted:
-            raise Broken(f"{what}: wanted {wanted}, the reply is {self.stream.last}")
+            raise CheckFailed(f"{what}: wanted {wanted}, the reply is {self.stream.last}")
 
     def strange(self, number: int, reason: RawReason, what: str) -> None:
         """Broken unless the last reply refuses a batch that is of no stream."""
         wanted = messages.RawPointsRefused(number, 0, 0, reason, -1, 0)
         if self.stream.last != wanted:
-            raise Broken(f"{what}: wanted {wanted}, the reply is {self.stream.last}")
+            raise CheckFailed(f"{what}: wanted {wanted}, the reply is {self.stream.last}")
 
     def alone(self, sequence: int, what: str) -> None:
         """A point that comes alone, which is refused for that."""
@@ -77,7 +77,7 @@ class _Streams:
         self.link.send(raw_point(sequence, self._bench.position, 1.0, RawComm.REQUEST))
         told = messages.decode(self.link.expect_reply(2, "a point alone is answered"))
         if told != messages.RawRefused(RawReason.NO_START, 0, 0):
-            raise Broken(f"{what}: a point alone is answered by {told}")
+            raise CheckFailed(f"{what}: a point alone is answered by {told}")
 
     def stop(self) -> None:
         """STOP, and its reply."""
@@ -90,7 +90,7 @@ class _Streams:
         if (told.trajectory, told.state, told.reason) != (self.trajectory, state, reason) or (
             told[2 : 2 + len(counts)] != counts
         ):
-            raise Broken(
+            raise CheckFailed(
                 f"trajectory {self.trajectory}, {state.name} with {counts} points for "
                 f"{reason}: PROGRESS says {told}"
             )
@@ -165,7 +165,7 @@ def _said(bench: Bench, reason: RawReason) -> None:
     bench.run(0.05)
     text = messages.text_of(reason)
     if not any(text in " ".join(event.texts) for event in bench.controller.log):
-        raise Broken(f"the event log does not say: {text}")
+        raise CheckFailed(f"the event log does not say: {text}")
 
 
 def _no_business_of_it(bench: Bench, streams: _Streams) -> None:
@@ -180,7 +180,7 @@ def _no_business_of_it(bench: Bench, streams: _Streams) -> None:
     head = stream.frame(points, _NONE)
     stream.say(head[:16] + b"\xff" * 8 + head[24:])
     if not isinstance(stream.last, messages.RawPointsRefused) or stream.last.stream:
-        raise Broken(f"a damaged head is answered by {stream.last}")
+        raise CheckFailed(f"a damaged head is answered by {stream.last}")
     # Nor does a beginning that cannot be read end anything.
     last = _HEAD + 4 + 2 * (1 + len(bench.position))
     for after in (_HEAD + 4, _HEAD + 5, last):
@@ -256,7 +256,7 @@ def _early_ends(bench: Bench) -> None:
     streams.shows(RawTrajectoryState.DONE, (1, 1, 1), 0)
     streams.stream.put(())
     if streams.taken(1, "a question behind the end").state != RawTrajectoryState.DONE:
-        raise Broken(f"a stream is done, the reply is {streams.stream.last}")
+        raise CheckFailed(f"a stream is done, the reply is {streams.stream.last}")
     streams.stream.put([(here, 1.0)])
     streams.refused(RawReason.SEQUENCE_GAP, 1, "a single point behind the end")
     streams.begin((), END)
@@ -340,7 +340,7 @@ def _room(bench: Bench) -> None:
     while room := streams.taken(sent, "points that there is room for").room:
         planned = stream.accepted("room").planned
         if room != ring - 1 - sent + planned:
-            raise Broken(f"{sent} of {ring - 1} points sent, {planned} planned, room {room}")
+            raise CheckFailed(f"{sent} of {ring - 1} points sent, {planned} planned, room {room}")
         stream.put(goal[sent : sent + min(room, most)])
         sent += min(room, most)
     streams.shows(RawTrajectoryState.MOVING, (sent,), 0)
@@ -385,5 +385,5 @@ def _move_fails(bench: Bench) -> None:
     streams.stream.put(points[10:14])
     told = streams.stream.refused(RawReason.COLLISION, "a batch behind a collision")
     if told.trajectory != streams.trajectory or told.accepted != 10 or not 0 <= told.point < 10:
-        raise Broken(f"a batch behind a collision is answered by {told}")
+        raise CheckFailed(f"a batch behind a collision is answered by {told}")
     bench.moves_through(streams.link, bench.way_to(points[0][0]))

@@ -1,16 +1,16 @@
 """Trajectories without end: batches, credits, starvation, and what cuts a stream."""
 
 from rapidgen.verification import messages
-from rapidgen.verification.case import Theme
+from rapidgen.verification.case import SuiteGroup
 from rapidgen.verification.messages import RawReason, RawStreamFlag, RawTrajectoryState
-from rapidgen.verification.model import Broken, NothingToProve
+from rapidgen.verification.model import CheckFailed, NotApplicable
 from rapidgen.verification.position_checks import Point, distance
 from rapidgen.verification.raw_connection import RawLink
 from rapidgen.verification.stream import BEGIN, END, FLUSH, Streamer
 from rapidgen.verification.suite.motion_task import patience
 from rapidgen.verification.testbench import Bench
 
-case = Theme("streaming", needs="stream")
+case = SuiteGroup("streaming", needs="stream")
 
 _NONE = RawStreamFlag(0)
 
@@ -40,11 +40,11 @@ def _whole_stream(bench: Bench) -> None:
         stream.all(points, size=size)
         bench.arrives(points, since, 30 + asked)
         if bench.now - since > 1.3 * asked + 3:
-            raise Broken(f"{asked:.1f} s of a stream took {bench.now - since:.1f} s")
+            raise CheckFailed(f"{asked:.1f} s of a stream took {bench.now - since:.1f} s")
         told = _progress(bench, watcher)
         count = len(points)
         if told[1:] != (RawTrajectoryState.DONE, count, count, count, 0, -1, 0):
-            raise Broken(f"a stream of {count} points is done, PROGRESS says {told}")
+            raise CheckFailed(f"a stream of {count} points is done, PROGRESS says {told}")
         points = [*reversed(points)]
 
 
@@ -55,7 +55,7 @@ def _preload(bench: Bench) -> None:
     points = way(bench, 40, 0.2)
     few = max(2, int(0.6 * seconds / points[1][1]))
     if few * points[1][1] >= seconds:
-        raise NothingToProve("`preload` is shorter than a few points")
+        raise NotApplicable("`preload` is shorter than a few points")
     for flags in (END, FLUSH, _NONE):
         stream = Streamer(bench)
         own = [(p, points[1][1]) for p, _ in way(bench, 40, 0.2)]
@@ -83,10 +83,10 @@ def _starves(bench: Bench) -> None:
     bench.stays(2, "the stream has starved")
     told = _progress(bench, watcher)
     if (told.state, told.reached, told.reason) != (RawTrajectoryState.STARVED, 15, 0):
-        raise Broken(f"a stream has starved behind 15 points, PROGRESS says {told}")
+        raise CheckFailed(f"a stream has starved behind 15 points, PROGRESS says {told}")
     status = bench.status(watcher)
     if (status.in_motion, status.in_error) != (0, 0):
-        raise Broken(f"a stream has starved, STATUS says {status}")
+        raise CheckFailed(f"a stream has starved, STATUS says {status}")
     stream.put(points[15:17])
     if bench.config.trajectory.preload > 3 * points[1][1]:
         bench.stays(2, "two points are too few to go on with")
@@ -97,7 +97,7 @@ def _starves(bench: Bench) -> None:
     bench.arrives(points, since, 20)
     told = _progress(bench, watcher)
     if (told.state, told.reached) != (RawTrajectoryState.DONE, 45):
-        raise Broken(f"a stream that starved twice is done, PROGRESS says {told}")
+        raise CheckFailed(f"a stream that starved twice is done, PROGRESS says {told}")
 
 
 def _cut(bench: Bench, data: bytes, reason: RawReason, what: str, taken: int = 0) -> None:
@@ -110,19 +110,19 @@ def _cut(bench: Bench, data: bytes, reason: RawReason, what: str, taken: int = 0
     stream.say(data)
     told = stream.refused(reason, what)
     if told.accepted != 20 + taken:
-        raise Broken(f"{what}: {20 + taken} points are right, the reply is {told}")
+        raise CheckFailed(f"{what}: {20 + taken} points are right, the reply is {told}")
     stream.sent = 20
     stream.refuses(reason, f"a batch behind {what}", points[20:24])
     bench.wait_until_standing(20)
     bench.executed(points[: 20 + taken], since)
     if not taken and distance(bench.position, points[19][0]) > 1e-3:
-        raise Broken(f"{what}: the points before it are not executed")
+        raise CheckFailed(f"{what}: the points before it are not executed")
     bench.stays(2, what)
     progress, status = _progress(bench, watcher), bench.status(watcher)
     if (progress.state, progress.reason) != (RawTrajectoryState.FAILED, reason):
-        raise Broken(f"{what}: PROGRESS says {progress}")
+        raise CheckFailed(f"{what}: PROGRESS says {progress}")
     if status.in_error != 1 or status.error_code % 100 != reason:
-        raise Broken(f"{what}: STATUS says {status}")
+        raise CheckFailed(f"{what}: STATUS says {status}")
     fresh = Streamer(bench, stream.link, number=4)
     fresh.all(way(bench, 12))
     bench.wait_until_at(fresh.points[-1][0], 20)
@@ -189,7 +189,7 @@ def _names_the_point(bench: Bench) -> None:
     stream.put(points, BEGIN | END)
     told = stream.refused(RawReason.JOINT_LIMIT, "joint 2 of point 4 is outside its limits")
     if (told.accepted, told.point, told.joint) != (4, 4, 2):
-        raise Broken(f"joint 2 of point 4 is outside its limits, the reply is {told}")
+        raise CheckFailed(f"joint 2 of point 4 is outside its limits, the reply is {told}")
 
 
 @case("stream-begins-wrong", "a wrong beginning moves nothing", "R8")
@@ -236,13 +236,13 @@ def _overrun(bench: Bench) -> None:
         stream.reply()
     told = stream.refused(RawReason.OVERRUN, "more points than there is room for")
     if not before <= told.accepted <= before + 20:
-        raise Broken(f"{before} points were sent with room for them, the reply is {told}")
+        raise CheckFailed(f"{before} points were sent with room for them, the reply is {told}")
     bench.wait_until_standing(60)
     bench.executed(points[: told.accepted], since)
     if distance(bench.position, points[told.accepted - 1][0]) > 1e-3:
-        raise Broken("points that were accepted before an overrun are not executed")
+        raise CheckFailed("points that were accepted before an overrun are not executed")
     if _progress(bench, watcher).reason != RawReason.OVERRUN:
-        raise Broken(f"after an overrun PROGRESS says {bench.progress(watcher)}")
+        raise CheckFailed(f"after an overrun PROGRESS says {bench.progress(watcher)}")
 
 
 @case("behind-the-end", "nothing follows the end of a stream")
@@ -287,7 +287,7 @@ def _early_end(bench: Bench) -> None:
             stream.put(points[25:30])
             told = stream.last
             if not isinstance(told, messages.RawPointsRefused) or told.reason not in reasons:
-                raise Broken(f"a stream was ended by {action}, a batch is answered by {told}")
+                raise CheckFailed(f"a stream was ended by {action}, a batch is answered by {told}")
         bench.stays(2, f"the stream was ended by {action}")
         bench.start_again()
         bench.stays(3, f"the stream was ended by {action}, then the program was started")
@@ -313,14 +313,14 @@ def _client_lost(bench: Bench) -> None:
             stream.link.close(abort=abort)
             bench.wait_until_standing(5)
             if not starved and distance(bench.position, points[24][0]) < 1e-4:
-                raise Broken("a stream went on to its last point for a client that had left")
+                raise CheckFailed("a stream went on to its last point for a client that had left")
             bench.stays(3, "the client of the stream has left")
             told = _progress(bench, watcher)
             reasons = (
                 [RawReason.CLIENT_LOST] if begun else [RawReason.CLIENT_LOST, RawReason.INCOMPLETE]
             )
             if told.reason not in reasons:
-                raise Broken(f"the client of a stream has left, PROGRESS says {told}")
+                raise CheckFailed(f"the client of a stream has left, PROGRESS says {told}")
             watcher.close()
             bench.moves_through(bench.motion(), bench.wave(3))
             bench.run(1.5)

@@ -2,10 +2,10 @@
 
 from rapidgen.machine.event_log import Event, EventType
 from rapidgen.verification import messages
-from rapidgen.verification.case import Theme
+from rapidgen.verification.case import SuiteGroup
 from rapidgen.verification.instruction_hooks import at_call, fails
 from rapidgen.verification.messages import RawComm, RawMode, RawReason, RawTrajectoryState
-from rapidgen.verification.model import Broken
+from rapidgen.verification.model import CheckFailed
 from rapidgen.verification.raw_connection import STOP, RawLink, point_frame
 from rapidgen.verification.stream import BEGIN, Streamer
 from rapidgen.verification.suite.motion_task import (
@@ -18,7 +18,7 @@ from rapidgen.verification.suite.motion_task import (
 )
 from rapidgen.verification.testbench import Bench
 
-case = Theme("halting")
+case = SuiteGroup("halting")
 
 _TRAJ = messages.JOINT_TRAJ_PT
 
@@ -32,7 +32,7 @@ def _prompt(bench: Bench, asked: float, what: str) -> None:
     late = bench.now - asked
     # Some controllers let a program go on behind StopMove only when the robot stands.
     if late > _at_once(bench) + (0.3 if bench.setting.motion.stop_waits else 0):
-        raise Broken(f"{what} is answered after {late:.3f} s")
+        raise CheckFailed(f"{what} is answered after {late:.3f} s")
 
 
 def end_as_request(bench: Bench, count: int, duration: float) -> bytes:
@@ -55,14 +55,14 @@ def _answers_soon(bench: Bench) -> None:
         asked = bench.now
         content = messages.decode(link.expect_reply(2, "the end frame is answered"))
         if not isinstance(content, messages.RawAccepted):
-            raise Broken(f"a good trajectory is answered by {content}")
+            raise CheckFailed(f"a good trajectory is answered by {content}")
         _prompt(bench, asked, "the end frame of a trajectory")
         begins_soon(bench, asked)
         if control is not None:
             for paused in (1, 0):
                 asked = bench.now
                 if control.ask(messages.RawPause(paused)) != messages.RawAcknowledged():
-                    raise Broken(f"PAUSE {paused} is refused")
+                    raise CheckFailed(f"PAUSE {paused} is refused")
                 _prompt(bench, asked, f"PAUSE {paused}")
                 bench.run(0.1)
         # The reply comes just before a STATUS, which then tells of the stop.
@@ -75,13 +75,13 @@ def _answers_soon(bench: Bench) -> None:
         port.send(STOP)
         asked = bench.now
         if port.reply(_TRAJ) != messages.RawAcknowledged():
-            raise Broken("STOP is not confirmed")
+            raise CheckFailed("STOP is not confirmed")
         _prompt(bench, asked, "STOP")
         # One that was measured before is on its way for no longer than this.
         bench.run(0.01)
         status = bench.status(watcher)
         if bench.now - asked < 0.06 and status.motion_possible:
-            raise Broken(f"STOP came {bench.now - asked:.3f} s ago, STATUS says {status}")
+            raise CheckFailed(f"STOP came {bench.now - asked:.3f} s ago, STATUS says {status}")
         bench.wait_until_standing(0.3)
         for other in (link, control):
             if other is not None:
@@ -95,7 +95,9 @@ def _answers_soon(bench: Bench) -> None:
         link.send(end_as_request(bench, 3, unit))
         content = messages.decode(link.expect_reply(2, "the end frame is answered"))
         if content != messages.RawRefused(RawReason.NOT_EXECUTING, -1, 0):
-            raise Broken(f"right behind a stop of the program a trajectory is answered: {content}")
+            raise CheckFailed(
+                f"right behind a stop of the program a trajectory is answered: {content}"
+            )
         bench.controller.perform("start")
 
 
@@ -133,16 +135,16 @@ def _why_it_ended(bench: Bench) -> None:
         bench.run(patience(bench))
         told, seen = bench.progress(watcher), bench.status(watcher)
         if told != (number, failed, 5, 3, 1, reason, 1, 0):
-            raise Broken(f"{action} came between points 1 and 2, PROGRESS says {told}")
+            raise CheckFailed(f"{action} came between points 1 and 2, PROGRESS says {told}")
         powered, e_stopped, mode = status
         possible = int(action == "leaves")
         wanted = messages.RawStatus(powered, e_stopped, reason, 1, 0, mode, possible)
         # An emergency stop is an error of the controller's own, too.
         if seen != wanted:
-            raise Broken(f"after {action} STATUS says {seen}, wanted {wanted}")
+            raise CheckFailed(f"after {action} STATUS says {seen}, wanted {wanted}")
         said = [e.texts[0] for e in _warnings(bench, last)]
         if said != ([messages.text_of(reason)] if action == "leaves" else []):
-            raise Broken(f"after {action} the event log says {said}")
+            raise CheckFailed(f"after {action} the event log says {said}")
         if action == "leaves":
             bench.run(0.3)
             link = bench.motion()
@@ -151,7 +153,7 @@ def _why_it_ended(bench: Bench) -> None:
         content = messages.decode(link.expect_reply(2, "the end frame is answered"))
         number += 1
         if content != messages.RawRefused(later, -1, 0):
-            raise Broken(f"after {action} a trajectory is answered by {content}")
+            raise CheckFailed(f"after {action} a trajectory is answered by {content}")
         # What is received meanwhile is for nothing, although its end comes when all is well again.
         frames = end_as_request(bench, 3, unit)
         link.send(frames[:68])
@@ -160,13 +162,15 @@ def _why_it_ended(bench: Bench) -> None:
         bench.start_again()
         bench.stays(patience(bench), f"the program was started again after {action}")
         if bench.status(watcher).motion_possible != 1:
-            raise Broken(f"after {action} and a start of the program no motion is possible")
+            raise CheckFailed(f"after {action} and a start of the program no motion is possible")
         link.send(frames[68:])
         content = messages.decode(link.expect_reply(2, "the end frame is answered"))
         # The way back to automatic mode is a change of mode, too.
         noted = RawReason.MODE_CHANGED if action == "manual" else reason
         if content != messages.RawRefused(noted, -1, 0):
-            raise Broken(f"what began behind {action}, and ended later, is answered by {content}")
+            raise CheckFailed(
+                f"what began behind {action}, and ended later, is answered by {content}"
+            )
 
 
 def _is_paused(bench: Bench, watcher: RawLink, planned: int, reached: int) -> None:
@@ -179,9 +183,9 @@ def _is_paused(bench: Bench, watcher: RawLink, planned: int, reached: int) -> No
         reached,
         0,
     ):
-        raise Broken(f"a trajectory is paused, PROGRESS says {told}")
+        raise CheckFailed(f"a trajectory is paused, PROGRESS says {told}")
     if status != (1, 0, 0, 0, 0, RawMode.AUTO, 0):
-        raise Broken(f"a trajectory is paused, STATUS says {status}")
+        raise CheckFailed(f"a trajectory is paused, STATUS says {status}")
     bench.stays(0.3, "it is paused")
 
 
@@ -193,7 +197,7 @@ def _pause_by_step(bench: Bench) -> None:
     def ask(paused: int, reason: RawReason = RawReason.NONE) -> None:
         told = control.ask(messages.RawPause(paused))
         if told != (messages.RawNotDone(reason) if reason else messages.RawAcknowledged()):
-            raise Broken(f"PAUSE {paused} is answered by {told}")
+            raise CheckFailed(f"PAUSE {paused} is answered by {told}")
 
     def goes_on() -> None:
         ask(0)
@@ -216,7 +220,7 @@ def _pause_by_step(bench: Bench) -> None:
     ask(0)
     bench.run(soon(bench) + 2 * bench.config.state_period)
     if bench.standing or bench.status(watcher)[3:] != (0, 1, RawMode.AUTO, 1):
-        raise Broken("a pause that was refused, and the end of none, stop the robot")
+        raise CheckFailed("a pause that was refused, and the end of none, stop the robot")
     bench.wait_until_at(way[3][0], 5)
     bench.followed([p for p, _ in way], since=begun)
     # The stay at its end goes on in a pause, and then there is nothing left to be paused.
@@ -226,7 +230,7 @@ def _pause_by_step(bench: Bench) -> None:
     bench.run(3 * unit)
     told, status = bench.progress(watcher), bench.status(watcher)
     if (told.state, status.motion_possible) != (RawTrajectoryState.DONE, 1):
-        raise Broken(f"a paused trajectory has come to its end: {told}, {status}")
+        raise CheckFailed(f"a paused trajectory has come to its end: {told}, {status}")
     ask(0, RawReason.IDLE)
     for stopped in (True, False):
         begins(bench, link, bench.wave(3, duration=unit))
@@ -262,7 +266,7 @@ def _stop_in_the_end_of_a_pause(bench: Bench) -> None:
         control.send(messages.encode(messages.RawPause(0), RawComm.REQUEST))
         bench.stays(patience(bench), "STOP came at the end of a pause")
         if link.reply(_TRAJ) != messages.RawAcknowledged():
-            raise Broken("STOP at the end of a pause is not confirmed")
+            raise CheckFailed("STOP at the end of a pause is not confirmed")
 
 
 @case("builds-differ", "a task that shows another build, at a time", background=True)
@@ -284,17 +288,17 @@ def _builds_differ(bench: Bench) -> None:
         link.send(end_as_request(bench, 3, unit))
         content = messages.decode(link.expect_reply(2, "the end frame is answered"))
         if content != messages.RawRefused(RawReason.BUILD_MISMATCH, -1, 0):
-            raise Broken(f"tasks show different builds, a trajectory is answered by {content}")
+            raise CheckFailed(f"tasks show different builds, a trajectory is answered by {content}")
         bench.run(seconds)
         if bench.status(watcher).motion_possible:
-            raise Broken("tasks show different builds, STATUS says that motion is possible")
+            raise CheckFailed("tasks show different builds, STATUS says that motion is possible")
         task[shown] = good
         bench.run(patience(bench))
         if not bench.status(watcher).motion_possible:
-            raise Broken("tasks show one build again, STATUS says that no motion is possible")
+            raise CheckFailed("tasks show one build again, STATUS says that no motion is possible")
         said = [e for e in _warnings(bench, last) if "different builds" in e.title]
         if len(said) != times or (said and not 1.95 < said[-1].time - mixed < 2.08):
-            raise Broken(
+            raise CheckFailed(
                 f"builds differed for {seconds} s from {mixed:.3f} s on, the event log says "
                 f"{[str(e) for e in said]}"
             )
@@ -307,7 +311,9 @@ def _builds_differ(bench: Bench) -> None:
         link.send(end_as_request(bench, 3, unit))
         content = messages.decode(link.expect_reply(2, "the end frame is answered"))
         if content != messages.RawRefused(RawReason.BUILD_MISMATCH, -1, 0):
-            raise Broken(f"the {role} shows another build, a trajectory is answered by {content}")
+            raise CheckFailed(
+                f"the {role} shows another build, a trajectory is answered by {content}"
+            )
         if bench.streams:
             stream.number, stream.sent = number, 0
             stream.put(bench.wave(3, duration=unit), BEGIN)
@@ -326,7 +332,9 @@ def _builds_differ(bench: Bench) -> None:
         link.send(end_as_request(bench, 3, unit))
         content = messages.decode(link.expect_reply(2, "the end frame is answered"))
         if not isinstance(content, messages.RawRefused) or content.reason != reason:
-            raise Broken(f"the motion task shows {text!r}, a trajectory is answered by {content}")
+            raise CheckFailed(
+                f"the motion task shows {text!r}, a trajectory is answered by {content}"
+            )
         task[shown] = good
         if stopped:
             bench.controller.perform("start")

@@ -7,7 +7,7 @@ from dataclasses import fields, replace
 from rapidgen.rapid import parse
 from rapidgen.rapid.syntax.nodes import Node
 from rapidgen.verification import messages
-from rapidgen.verification.case import Theme
+from rapidgen.verification.case import SuiteGroup
 from rapidgen.verification.messages import (
     JOINT_TRAJ_PT,
     POINTS,
@@ -15,7 +15,7 @@ from rapidgen.verification.messages import (
     RawTrajectoryState,
     decode,
 )
-from rapidgen.verification.model import Broken
+from rapidgen.verification.model import CheckFailed
 from rapidgen.verification.raw_connection import STOP, RawLink
 from rapidgen.verification.stream import BEGIN, END, FLUSH, Streamer
 from rapidgen.verification.suite.control import done
@@ -23,7 +23,7 @@ from rapidgen.verification.suite.motion_task import patience
 from rapidgen.verification.suite.state_port import rounds
 from rapidgen.verification.testbench import Bench
 
-case = Theme("faults")
+case = SuiteGroup("faults")
 
 
 @contextmanager
@@ -268,7 +268,7 @@ def _held_at(
     watcher.read()
     before = bench.progress(watcher)
     if before[1:] != (RawTrajectoryState.DONE, 3, 3, 3, 0, -1, 0):
-        raise Broken(f"three points are executed, PROGRESS says {before}")
+        raise CheckFailed(f"three points are executed, PROGRESS says {before}")
     there = bench.position
     beyond = [] if far is None else [((far, *here[1:]), 0.5)]
     second = bench.download([(there, 9.0), (here, 0.5), *beyond])
@@ -313,7 +313,7 @@ def _fits(
     if refused:
         last = (number, RawTrajectoryState.REFUSED, 2, 0, 0, RawReason.JOINT_LIMIT, 2, 1)
     if not told or told[-1] != last:
-        raise Broken(f"{where}: wanted {last}, PROGRESS says {told[-1:]}")
+        raise CheckFailed(f"{where}: wanted {last}, PROGRESS says {told[-1:]}")
     for one in told:
         if one in (before, last):
             continue
@@ -325,4 +325,4 @@ def _fits(
             and one[5:] == (0, -1, 0)
         )
         if not good or (refused and one.state != RawTrajectoryState.RECEIVING):
-            raise Broken(f"{where}: PROGRESS says {one}")
+            raise CheckFailed(f"{where}: PROGRESS says {one}")

@@ -4,15 +4,15 @@ import math
 import random
 from itertools import pairwise
 
-from rapidgen.verification.case import Theme
+from rapidgen.verification.case import SuiteGroup
 from rapidgen.verification.messages import RawPointsAccepted, RawReason
-from rapidgen.verification.model import Broken, NothingToProve
+from rapidgen.verification.model import CheckFailed, NotApplicable
 from rapidgen.verification.position_checks import Point, Position, changed
 from rapidgen.verification.stream import BEGIN, END, Streamer
 from rapidgen.verification.suite.refusals import refused
 from rapidgen.verification.testbench import CEILING, Bench
 
-case = Theme("edges")
+case = SuiteGroup("edges")
 
 ROUNDS = 4
 """Random trajectories of one run; a benchmark has more."""
@@ -32,13 +32,13 @@ def _asked(bench: Bench) -> bool:
 def _tcp_too_fast(bench: Bench) -> None:
     """No axis is too fast: the TCP alone is."""
     if not _asked(bench):
-        raise NothingToProve("the TCP has no ceiling of its own")
+        raise NotApplicable("the TCP has no ceiling of its own")
     seconds = max(0.2, bench.config.trajectory.min_segment)
     step = 0.5 * seconds * bench.group.joints[0].speed
     here = bench.position
     away = changed(here, 0, here[0] + step)
     if bench.tcp_seconds(here, away) < 1.2 * seconds:
-        raise NothingToProve("no axis can make the TCP too fast")
+        raise NotApplicable("no axis can make the TCP too fast")
     points = [(here, 1.0), (away, seconds), (here, 9.0)]
     refused(bench, bench.download(points), [RawReason.TCP_TOO_FAST], point=1)
     if not bench.streams:
@@ -50,7 +50,7 @@ def _tcp_too_fast(bench: Bench) -> None:
     stream.put([(changed(end, 0, end[0] + step), seconds)], END)
     told = stream.refused(RawReason.TCP_TOO_FAST, "a TCP that is too fast")
     if (told.accepted, told.point, told.joint) != (8, 8, 0):
-        raise Broken(f"eight points were right, the reply is {told}")
+        raise CheckFailed(f"eight points were right, the reply is {told}")
     bench.wait_until_at(end, 20)
 
 
@@ -61,7 +61,7 @@ def _long_turn(bench: Bench) -> None:
     low, high = (changed(here, 0, v) for v in (joint.lower + 0.01, joint.upper - 0.01))
     seconds = 0.5 * bench.tcp_seconds(low, high)
     if not _asked(bench) or seconds < 1.1 * (joint.upper - joint.lower) / joint.speed:
-        raise NothingToProve("axis 1 can make no TCP too fast")
+        raise NotApplicable("axis 1 can make no TCP too fast")
     bench.moves_through(bench.motion(), [(here, 1.0), (low, bench.seconds_to(low))])
     points = [(low, 1.0), (high, seconds)]
     refused(bench, bench.download(points), [RawReason.TCP_TOO_FAST], point=1)
@@ -73,7 +73,7 @@ def _long_turn(bench: Bench) -> None:
     stream.put(points, BEGIN | END)
     told = stream.refused(RawReason.TCP_TOO_FAST, "a long turn that is too fast")
     if told.point != 1:
-        raise Broken(f"the first point was right, the reply is {told}")
+        raise CheckFailed(f"the first point was right, the reply is {told}")
 
 
 def random_way(bench: Bench, chance: random.Random, margin: float) -> list[Point]:
@@ -132,7 +132,7 @@ def is_taken(bench: Bench, points: list[Point], *, streaming: bool) -> bool:
 def _turns(bench: Bench) -> None:
     """There and back on axis 1, where the robot has to turn round, at once and after a while."""
     if not _asked(bench):
-        raise NothingToProve("the TCP has no ceiling of its own")
+        raise NotApplicable("the TCP has no ceiling of its own")
     joint, here, limit = bench.group.joints[0], bench.position, bench.group.tcp_speed_limit
     for seconds in (0.2, 0.3, 0.5):
         wanted = max(seconds, 1.2 * bench.config.trajectory.min_segment)
@@ -144,22 +144,26 @@ def _turns(bench: Bench) -> None:
         since, way = bench.now, [here, *[there, here] * 3]
         points = [(place, wanted) for place in way]
         if not is_taken(bench, points, streaming=False):
-            raise Broken(f"{points} is refused, its ways have {_MARGIN} of the time they need")
+            raise CheckFailed(f"{points} is refused, its ways have {_MARGIN} of the time they need")
         speed = fastest(bench, since)
         if speed > ALLOWED * limit:
-            raise Broken(f"the TCP went at {speed:.3f} m/s, the ceiling is {limit} m/s: {points}")
+            raise CheckFailed(
+                f"the TCP went at {speed:.3f} m/s, the ceiling is {limit} m/s: {points}"
+            )
 
 
 @case("tcp-recorded", "the TCP is never faster than its ceiling", "R10")
 def _recorded(bench: Bench) -> None:
     """On random ways, near the ceiling, as a whole and streamed, from rest to rest."""
     if not _asked(bench):
-        raise NothingToProve("the TCP has no ceiling of its own")
+        raise NotApplicable("the TCP has no ceiling of its own")
     chance, limit = random.Random(bench.setting.seed), bench.group.tcp_speed_limit
     for number in range(ROUNDS):
         since, points = bench.now, random_way(bench, chance, _MARGIN)
         if not is_taken(bench, points, streaming=bench.streams and number % 2 == 0):
-            raise Broken(f"{points} is refused, its ways have {_MARGIN} of the time they need")
+            raise CheckFailed(f"{points} is refused, its ways have {_MARGIN} of the time they need")
         speed = fastest(bench, since)
         if speed > ALLOWED * limit:
-            raise Broken(f"the TCP went at {speed:.3f} m/s, the ceiling is {limit} m/s: {points}")
+            raise CheckFailed(
+                f"the TCP went at {speed:.3f} m/s, the ceiling is {limit} m/s: {points}"
+            )

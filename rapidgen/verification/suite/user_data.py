@@ -4,18 +4,18 @@ import math
 import struct
 from dataclasses import replace
 
-from rapidgen.config.model import OwnDatum
+from rapidgen.config.model import UserDatum
 from rapidgen.system.model import ModuleFile, System
 from rapidgen.verification import messages
-from rapidgen.verification.case import Theme
+from rapidgen.verification.case import SuiteGroup
 from rapidgen.verification.instruction_hooks import fails
 from rapidgen.verification.messages import RawComm, RawContent, RawReason
-from rapidgen.verification.model import Broken, NothingToProve
+from rapidgen.verification.model import CheckFailed, NotApplicable
 from rapidgen.verification.raw_connection import RawLink
 from rapidgen.verification.suite.control import not_done
 from rapidgen.verification.testbench import Bench
 
-case = Theme("own data", needs="control")
+case = SuiteGroup("own data", needs="control")
 
 _BEGIN = {"num": "3", "bool": "FALSE", "string": '"begin"'}
 _FIRST = {"num": (3.0, ""), "bool": (0.0, ""), "string": (0.0, "begin")}
@@ -43,7 +43,7 @@ def _data(bench: Bench) -> None:
         if listed:
             not_done(told, RawReason.NO_DATUM, f"datum {index} of {len(listed)}")
         elif not isinstance(told, messages.RawFailure):
-            raise Broken("a driver without data answers DATA")
+            raise CheckFailed("a driver without data answers DATA")
     for index in range(len(listed)):
         told = _asks(control, index)
         not_done(told, RawReason.NO_DATUM, f"datum {index} is not in the robot's program")
@@ -84,7 +84,7 @@ def _reading_fails(bench: Bench) -> None:
     listed = bench.group.data
     texts = [n for n, d in enumerate(listed) if (d.type, d.access) == ("string", "write")]
     if not texts:
-        raise NothingToProve("no text of the program may be written")
+        raise NotApplicable("no text of the program may be written")
     with bench.beside(_with(bench, listed)) as other:
         # Three of its head, three of what is asked, and two characters with their end.
         for name, count in (("UnpackRawBytes", 9), ("ByteToStr", 2)):
@@ -103,7 +103,7 @@ def _reading_fails(bench: Bench) -> None:
                 other.healthy()
 
 
-def _one(control: RawLink, index: int, datum: OwnDatum) -> None:
+def _one(control: RawLink, index: int, datum: UserDatum) -> None:
     kind, reply = datum.type, messages.RawDatumReply
     _says(_asks(control, index), reply(index, *_FIRST[kind]))
     if datum.access == "read":
@@ -133,10 +133,10 @@ def _asks(
 
 def _says(told: RawContent, wanted: messages.RawDatumReply) -> None:
     if told != wanted:
-        raise Broken(f"DATA is answered by {told}, not {wanted}")
+        raise CheckFailed(f"DATA is answered by {told}, not {wanted}")
 
 
-def _with(bench: Bench, listed: tuple[OwnDatum, ...]) -> System:
+def _with(bench: Bench, listed: tuple[UserDatum, ...]) -> System:
     """The system with modules that have these data in the motion task."""
     texts: dict[str, list[str]] = {}
     for datum in listed:

@@ -6,10 +6,10 @@ from rapidgen.controller.cell import in_its_cell
 from rapidgen.generate import build, make_system
 from rapidgen.system.model import ModuleFile, SignalSpec, System
 from rapidgen.verification import messages
-from rapidgen.verification.case import Theme
+from rapidgen.verification.case import SuiteGroup
 from rapidgen.verification.instruction_hooks import fails
 from rapidgen.verification.messages import RawReason
-from rapidgen.verification.model import Broken
+from rapidgen.verification.model import CheckFailed
 from rapidgen.verification.position_checks import distance
 from rapidgen.verification.raw_connection import RawLink
 from rapidgen.verification.suite.control import done
@@ -17,7 +17,7 @@ from rapidgen.verification.suite.motion_task import patience
 from rapidgen.verification.suite.supervisor import end_as_request
 from rapidgen.verification.testbench import Bench
 
-case = Theme("own program")
+case = SuiteGroup("own program")
 
 _OUTSIDE = "ROS: STOP is not for this program"
 _MAIN = b"""MODULE cell
@@ -85,7 +85,7 @@ def _refused(bench: Bench, link: RawLink, when: str) -> None:
     link.send(end_as_request(bench, 3, 0.5))
     told = messages.decode(link.expect_reply(3, "the end frame is answered"))
     if told != messages.RawRefused(RawReason.NOT_SERVING, -1, 0):
-        raise Broken(f"{when} a trajectory is answered by {told}")
+        raise CheckFailed(f"{when} a trajectory is answered by {told}")
 
 
 @case("own-main", "ROS_run returns to a program that moves by itself, and main starts once", "R7b")
@@ -117,7 +117,7 @@ def _own_main(bench: Bench) -> None:
             other.run(patience(other) + 0.3)
             other.moves_through(link, other.wave(3))
         if view["cell:starts"] != 1:
-            raise Broken(f"the customer's main was started {view['cell:starts']} times")
+            raise CheckFailed(f"the customer's main was started {view['cell:starts']} times")
         _begun_anew(other, link)
         other.healthy()
 
@@ -132,12 +132,12 @@ def _moves_by_itself(bench: Bench, link: RawLink, state: RawLink) -> None:
     for port in ports:
         port.stop()
     if bench.standing or bench.motion_group.stop_reasons:
-        raise Broken(f"the program's own move is held: {bench.motion_group.stop_reasons}")
+        raise CheckFailed(f"the program's own move is held: {bench.motion_group.stop_reasons}")
     said = [e for e in bench.controller.log.since(last) if e.title == _OUTSIDE]
     if len(said) != len(ports):
-        raise Broken(f"{len(ports)} STOPs for a program of its own: the event log says {said}")
+        raise CheckFailed(f"{len(ports)} STOPs for a program of its own: the event log says {said}")
     if bench.status(state).motion_possible:
-        raise Broken("the program moves by itself, STATUS says that a trajectory may come")
+        raise CheckFailed("the program moves by itself, STATUS says that a trajectory may come")
     for port in ports[1:]:
         port.close()
     stage = bench.controller.task(bench.group.task)
@@ -157,7 +157,7 @@ def _until_a_signal(bench: Bench) -> None:
             ends = fails(other, "cell", "DInput", "ERR_NORUNUNIT", 1000)
             other.run(1.5)
             if view["cell:stage"] != 1:
-                raise Broken("ROS_run returns at a signal whose unit is not there")
+                raise CheckFailed("ROS_run returns at a signal whose unit is not there")
             points, since = other.wave(6), other.now
             other.sets_off(link, points, 0.4)
             if control is not None:
@@ -170,7 +170,7 @@ def _until_a_signal(bench: Bench) -> None:
             other.until(lambda: view["cell:stage"] == 2, 2, "ROS_run returns")
             _refused(other, link, "behind ROS_run")
             if (group.modal.speed_override, group.refresh) != (0.5, 1.0):
-                raise Broken(
+                raise CheckFailed(
                     f"VelSet is {group.modal.speed_override}, SpeedRefresh {group.refresh}"
                 )
             other.controller.signals["diLeave"] = 0
@@ -192,9 +192,9 @@ def _begun_anew(bench: Bench, link: RawLink) -> None:
     bench.until(lambda: view["cell:stage"] == 3, 12, "a program that was begun anew moves")
     bench.run(0.2)
     if distance(before, bench.position) > 1e-3:
-        raise Broken("the program has come back to where it stood, the robot has not")
+        raise CheckFailed("the program has come back to where it stood, the robot has not")
     if view["cell:starts"] != 2 or bench.motion_group.stop_reasons:
-        raise Broken(f"begun {view['cell:starts']} times, {bench.motion_group.stop_reasons}")
+        raise CheckFailed(f"begun {view['cell:starts']} times, {bench.motion_group.stop_reasons}")
     view["cell:leave"] = False
     bench.run(patience(bench) + 0.3)
     bench.moves_through(_served(bench, link), bench.wave(3))
@@ -239,7 +239,9 @@ def _another_program(bench: Bench) -> None:
                 if event.task == other.group.task:
                     routines = other.rapid_task("ROS_events").program.modules["ros_events"].routines
                     if event.routine.casefold() not in routines:
-                        raise Broken(f"the event routine {event.routine} went with the program")
+                        raise CheckFailed(
+                            f"the event routine {event.routine} went with the program"
+                        )
             for actions in (("stop",), ("e-stop",), ("stop", "pp-to-main"), ("power-loss",)):
                 _turns(other)
                 link = other.motion()
@@ -281,11 +283,11 @@ def _replaced(bench: Bench) -> None:
     bench.start_again()
     _turns(bench)
     if bench.motion_group.stop_reasons:
-        raise Broken(f"another program is held: {bench.motion_group.stop_reasons}")
+        raise CheckFailed(f"another program is held: {bench.motion_group.stop_reasons}")
     _told_of_stop(bench, link, 1)
     _refused(bench, link, "in another program")
     if bench.status(state).motion_possible:
-        raise Broken("another program runs, STATUS says that a trajectory may come")
+        raise CheckFailed("another program runs, STATUS says that a trajectory may come")
     _turns(bench)
 
 
@@ -295,7 +297,7 @@ def _told_of_stop(bench: Bench, link: RawLink, times: int) -> None:
     link.stop()
     said = [e for e in bench.controller.log.since(last) if e.title == _OUTSIDE]
     if len(said) != times:
-        raise Broken(f"STOP comes to another program, the event log says {said}")
+        raise CheckFailed(f"STOP comes to another program, the event log says {said}")
 
 
 def _turns(bench: Bench) -> None:

@@ -7,21 +7,21 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from rapidgen.axes.frames import IDENTITY
-from rapidgen.config.model import OwnRoutine
+from rapidgen.config.model import UserRoutine
 from rapidgen.runtime.builtins.motion.task_group import data_of
 from rapidgen.runtime.robot_data import NO_OFFSETS
 from rapidgen.system.model import ModuleFile, System
 from rapidgen.verification import messages
 from rapidgen.verification.batches import millionths
-from rapidgen.verification.case import Theme
+from rapidgen.verification.case import SuiteGroup
 from rapidgen.verification.messages import RawInstruction, RawReason, RawTrajectoryState
-from rapidgen.verification.model import Broken, NothingToProve
+from rapidgen.verification.model import CheckFailed, NotApplicable
 from rapidgen.verification.raw_connection import RawLink
 from rapidgen.verification.raw_programs import ALL, Programmer, computes, orders, reached
 from rapidgen.verification.suite.control import not_done, stop
 from rapidgen.verification.testbench import Bench
 
-case = Theme("own routines", needs="stream")
+case = SuiteGroup("own routines", needs="stream")
 
 _CALL = RawInstruction.CALL
 _MODULE = b"""MODULE cell
@@ -128,7 +128,7 @@ def _absent(bench: Bench) -> None:
 def _missing(bench: Bench) -> None:
     """With that reason, what was before it is executed, and nothing of another one is called."""
     if not _has_these(bench):
-        raise NothingToProve("the routines that are tried are not in the configuration")
+        raise NotApplicable("the routines that are tried are not in the configuration")
     system = _with_module(bench, ModuleFile("nocell", "nocell.mod", b"MODULE nocell\nENDMODULE\n"))
     with bench.beside(system) as other:
         client, watcher = Programmer(other), other.watcher()
@@ -140,10 +140,10 @@ def _missing(bench: Bench) -> None:
         seen = other.progress(watcher)
         wanted = (RawTrajectoryState.FAILED, RawReason.NO_ROUTINE, 1)
         if (seen.state, seen.reason, seen.reached) != wanted:
-            raise Broken(f"a procedure is missing, PROGRESS says {seen}")
+            raise CheckFailed(f"a procedure is missing, PROGRESS says {seen}")
         _taken(_calls(client, WELD, weld_words(1.0)))
         if _ended(other, client, 4).values[0] != 2:
-            raise Broken("a routine behind one that is missing has not run")
+            raise CheckFailed("a routine behind one that is missing has not run")
     empty = tuple(ModuleFile(n, f"{n}.mod", f"MODULE {n}\nENDMODULE\n".encode()) for n in _HOLDERS)
     with bench.beside(_beside(bench, *empty)) as other:
         client, watcher = Programmer(other), other.watcher()
@@ -154,14 +154,14 @@ def _missing(bench: Bench) -> None:
             other.stays(0.5, f"there is no {routine.call}")
             seen = other.progress(watcher)
             if (seen.reason, seen.reached) != (RawReason.NO_ROUTINE, 0):
-                raise Broken(f"{routine.call} is missing, PROGRESS says {seen}")
+                raise CheckFailed(f"{routine.call} is missing, PROGRESS says {seen}")
 
 
 @case("routine-results", "a routine's parameters and its error come back")
 def _results(bench: Bench) -> None:
     """Numbers, texts, number and name of an error; the program behind it goes on, or ends."""
     if not _has_these(bench):
-        raise NothingToProve("the routines that are tried are not in the configuration")
+        raise NotApplicable("the routines that are tried are not in the configuration")
     with bench.beside(_with_module(bench)) as other:
         client, watcher = Programmer(other), other.watcher()
         for seam, dry, good in ((1.5, 0, 0), (2.0**100, 1, 1), (-0.0, 0, 1), (1.5, 1, 0)):
@@ -169,31 +169,31 @@ def _results(bench: Bench) -> None:
             told = _ended(other, client, 4)
             same = float(dry == good)
             if (told.error, told.values[:3], told.text) != (0, (2 * seam, dry, same), "abab"):
-                raise Broken(f"weld({seam}, {dry}) is told as {told}")
+                raise CheckFailed(f"weld({seam}, {dry}) is told as {told}")
             if _asks(client, 1).text or _asks(client, 9).text or _asks(client, -1).text:
-                raise Broken("a parameter that is no string has a text")
+                raise CheckFailed("a parameter that is no string has a text")
         for text in ("", "x" * 40, "12345"):
             _taken(_calls(client, WELD, weld_words(1.0, text=text)))
             told = _ended(other, client, 4)
             if (told.values[0], told.text) != (2.0, 2 * text):
-                raise Broken(f"a text is to come back twice: {told}")
+                raise CheckFailed(f"a text is to come back twice: {told}")
         _taken(_calls(client, WELD, weld_words(-1.0)))
         told = _ended(other, client, 0)
         if told.error == 0 or told.text != "weld_failed":
-            raise Broken(f"weld has raised weld_failed, RESULT says {told}")
+            raise CheckFailed(f"weld has raised weld_failed, RESULT says {told}")
         other.run(0.5)
         seen = other.progress(watcher)
         if (seen.state, seen.reason) != (RawTrajectoryState.FAILED, RawReason.ROUTINE):
-            raise Broken(f"a routine has raised an error, PROGRESS says {seen}")
+            raise CheckFailed(f"a routine has raised an error, PROGRESS says {seen}")
         if other.controller.task(other.group.task)["cell:calls"] != 8:
-            raise Broken("weld was not called eight times")
+            raise CheckFailed("weld was not called eight times")
 
 
 @case("routine-alone", "nothing else begins while a routine runs", needs="control")
 def _alone(bench: Bench) -> None:
     """Not by its own client, nor by another one; STOP and the time-out end it, UNDO runs."""
     if not _has_these(bench):
-        raise NothingToProve("the routines that are tried are not in the configuration")
+        raise NotApplicable("the routines that are tried are not in the configuration")
     with bench.beside(_with_module(bench)) as other:
         client, watcher = Programmer(other), other.watcher()
         own = other.controller.task(other.group.task)
@@ -210,11 +210,11 @@ def _alone(bench: Bench) -> None:
         newer.wait_until_lost(3, "a newer client's motion into a routine")
         seen = other.progress(watcher)
         if (seen.trajectory, seen.state) != (trajectory, RawTrajectoryState.MOVING):
-            raise Broken(f"a routine runs, PROGRESS says {seen}")
+            raise CheckFailed(f"a routine runs, PROGRESS says {seen}")
         other.until(lambda: own["cell:calls"] == 1, 10, "the routine comes to its end")
         other.run(0.5)
         if own["cell:undone"] or other.progress(watcher).state != RawTrajectoryState.DONE:
-            raise Broken("the routine did not end by itself")
+            raise CheckFailed("the routine did not end by itself")
         other.stays(1, "a trajectory was turned away")
         for reason, seconds in ((RawReason.OVERTIME, 1.0), (RawReason.STOPPED, 0.0)):
             _taken(_calls(client, LONG, seconds=seconds))
@@ -224,7 +224,7 @@ def _alone(bench: Bench) -> None:
             other.run(1)
             seen = other.progress(watcher)
             if (seen.reason, own["cell:undone"], own["cell:calls"]) != (reason, True, 1):
-                raise Broken(f"{reason.name} of a routine: PROGRESS says {seen}")
+                raise CheckFailed(f"{reason.name} of a routine: PROGRESS says {seen}")
         # The way that was turned away is taken now. At its second corner the looks of the state and
         # the control server for clients fall together: where tasks run by lot it may be a stop.
         other.moves_through(client.link, points)
@@ -237,7 +237,7 @@ def _alone(bench: Bench) -> None:
 def _displaced(bench: Bench) -> None:
     """PDispOn and EOffsOn would take it elsewhere than was checked: it ends before it does."""
     if not computes(bench):
-        raise NothingToProve("the driver computes no poses")
+        raise NotApplicable("the driver computes no poses")
     _displaced_before(bench)
     if not _has_these(bench):
         return
@@ -267,7 +267,7 @@ def _displaced(bench: Bench) -> None:
             other.stays(7, "a routine has displaced the poses behind it")
             seen = other.progress(watcher)
             if (seen.reason, seen.reached) != (RawReason.POSE_MISMATCH, 1):
-                raise Broken(f"poses are displaced, PROGRESS says {seen}")
+                raise CheckFailed(f"poses are displaced, PROGRESS says {seen}")
 
 
 def _displaced_before(bench: Bench) -> None:
@@ -297,7 +297,7 @@ def _displaced_before(bench: Bench) -> None:
 def _targets(bench: Bench) -> None:
     """Each with its own number, in m and rad; where there is none, none is told."""
     if not _has_these(bench) or not computes(bench):
-        raise NothingToProve("the routines that are tried are not there, or no poses are computed")
+        raise NotApplicable("the routines that are tried are not there, or no poses are computed")
     with bench.beside(_with_module(bench)) as other:
         client = Programmer(other)
         first, second = (order.joints for order in orders(other, 3, random.Random(29))[1:])
@@ -315,27 +315,27 @@ def _targets(bench: Bench) -> None:
             told = _asks_target(client, 1, number)
             _near(f"jointtarget {number}", told.joints[: len(joints)], joints)
             if any(told.joints[len(joints) :]) or any(told.position) or any(told.orientation):
-                raise Broken(f"TARGET of a jointtarget is answered by {told}")
+                raise CheckFailed(f"TARGET of a jointtarget is answered by {told}")
         for kind, number in ((0, 0), (0, 2), (1, 0), (1, 3), (2, 1), (-1, 1), (1, -1)):
             asked = messages.RawTarget(kind, number)
             if not isinstance(client.link.ask(asked), messages.RawFailure):
-                raise Broken(f"a routine has no target {asked}")
+                raise CheckFailed(f"a routine has no target {asked}")
 
 
 def _asks_target(client: Programmer, joints: int, parameter: int) -> messages.RawTargetReply:
     told = client.link.ask(messages.RawTarget(joints, parameter))
     if not isinstance(told, messages.RawTargetReply):
-        raise Broken(f"TARGET is answered by {told}")
+        raise CheckFailed(f"TARGET is answered by {told}")
     return told
 
 
 def _near(what: str, told: Sequence[float], wanted: Sequence[float]) -> None:
     """Broken unless numbers are those that were sent, as far as the wire tells them."""
     if not all(abs(a - b) < 1e-5 for a, b in zip(told, wanted, strict=True)):
-        raise Broken(f"the {what} has come back as {told}, not {wanted}")
+        raise CheckFailed(f"the {what} has come back as {told}, not {wanted}")
 
 
-def _zeros(bench: Bench, routine: OwnRoutine) -> list[int]:
+def _zeros(bench: Bench, routine: UserRoutine) -> list[int]:
     """Words of arguments that any routine takes: nothing, and where the robot is."""
     here = bench.position
     values: dict[str, list[float]] = {
@@ -372,14 +372,14 @@ def _calls(
 
 def _taken(told: messages.RawContent) -> int:
     if not isinstance(told, messages.RawPointsAccepted):
-        raise Broken(f"a call is right, the reply is {told}")
+        raise CheckFailed(f"a call is right, the reply is {told}")
     return told.trajectory
 
 
 def _asks(client: Programmer, parameter: int) -> messages.RawResultReply:
     told = client.link.ask(messages.RawResult(parameter))
     if not isinstance(told, messages.RawResultReply):
-        raise Broken(f"RESULT is answered by {told}")
+        raise CheckFailed(f"RESULT is answered by {told}")
     return told
 
 
@@ -391,7 +391,7 @@ def _ended(bench: Bench, client: Programmer, parameter: int) -> messages.RawResu
         if told.trajectory == newest:
             return told
         bench.run(0.02)
-    raise Broken("RESULT does not tell the newest call")
+    raise CheckFailed("RESULT does not tell the newest call")
 
 
 def _with_module(bench: Bench, *more: ModuleFile) -> System:

@@ -27,7 +27,7 @@ MOST: Final = 64_000_000
 _MESH = re.compile(r"mesh-([0-9a-f]{20})(\.stl|\.obj|\.dae)", re.ASCII)
 
 
-class RecordedLook(Recorded):
+class RecordedAppearance(Recorded):
     """`Appearance` without the meshes."""
 
     drawings: dict[str, Drawing]
@@ -58,7 +58,7 @@ def carried(look: Appearance, most: int = MOST) -> Appearance:
 
 def written(look: Appearance) -> bytes:
     """All but the meshes, JSON."""
-    found = RecordedLook(
+    found = RecordedAppearance(
         drawings=dict(look.drawings), things=look.things, bases=dict(look.bases), faults=look.faults
     )
     return found.model_dump_json().encode()
@@ -67,7 +67,7 @@ def written(look: Appearance) -> bytes:
 def read(data: bytes, meshes: Mapping[str, bytes], groups: Iterable[GroupConfig]) -> Appearance:
     """What was written. ValueError: it cannot be read."""
     try:
-        found = RecordedLook.model_validate_json(data)
+        found = RecordedAppearance.model_validate_json(data)
     except ValidationError as error:
         fault = error.errors(include_url=False, include_input=False)[0]
         raise ValueError(fault["msg"]) from error

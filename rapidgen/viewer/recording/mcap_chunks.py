@@ -48,7 +48,7 @@ BROKEN: Final = (
 """What a file that is none raises: lengths and places that no file has, other bytes than text."""
 
 
-class Damaged(Exception):
+class RecordingDamaged(Exception):
     """The file is no recording, or a part of it cannot be read; the text says which."""
 
 
@@ -78,14 +78,16 @@ class Contents:
 def look(stream: BinaryIO, size: int) -> Contents:
     """What is in a file. Damaged: it is no MCAP file, or something in it has been changed."""
     if stream.read(len(_MAGIC)) != _MAGIC:
-        raise Damaged("it does not begin as an MCAP file does")
+        raise RecordingDamaged("it does not begin as an MCAP file does")
     stream.seek(max(0, size - len(_MAGIC)))
     if stream.read(len(_MAGIC)) != _MAGIC:
         return _scanned(stream, size)
     try:
         return _indexed(stream, size)
     except BROKEN as error:
-        raise Damaged(f"its index cannot be read: {error or type(error).__name__}") from error
+        raise RecordingDamaged(
+            f"its index cannot be read: {error or type(error).__name__}"
+        ) from error
 
 
 def _indexed(stream: BinaryIO, size: int) -> Contents:
@@ -93,12 +95,12 @@ def _indexed(stream: BinaryIO, size: int) -> Contents:
     stream.seek(0)
     summary = SeekingReader(stream, record_size_limit=LARGEST_SUMMARY).get_summary()
     if summary is None:
-        raise Damaged("there is no index")
+        raise RecordingDamaged("there is no index")
     found = Contents()
     for index in summary.chunk_indexes:
         offset = index.chunk_start_offset
         if not 0 < offset < size:
-            raise Damaged("a chunk is not in the file")
+            raise RecordingDamaged("a chunk is not in the file")
         found.pieces.append(StoredChunk(offset, index.message_start_time, index.message_end_time))
     found.channels = {number: channel.topic for number, channel in summary.channels.items()}
     for place in summary.attachment_indexes:
@@ -113,17 +115,17 @@ def _check_summary(stream: BinaryIO, size: int) -> None:
     """Compare the checksum over the summary and the footer up to itself. Damaged."""
     at = size - len(_MAGIC) - _FOOTER.size
     if at < len(_MAGIC):
-        raise Damaged("there is no index")
+        raise RecordingDamaged("there is no index")
     stream.seek(at)
     footer = stream.read(_FOOTER.size)
     opcode, length, start, _, checksum = _FOOTER.unpack(footer)
     if opcode != Opcode.FOOTER or length != _FOOTER.size - _RECORD.size:
-        raise Damaged("there is no footer")
+        raise RecordingDamaged("there is no footer")
     if not len(_MAGIC) <= start <= at or at - start > LARGEST_SUMMARY:
-        raise Damaged("its index has no place, or is too large")
+        raise RecordingDamaged("its index has no place, or is too large")
     stream.seek(start)
     if zlib.crc32(footer[:-4], zlib.crc32(stream.read(at - start))) != checksum:
-        raise Damaged("its index has been changed: its checksum is wrong")
+        raise RecordingDamaged("its index has been changed: its checksum is wrong")
 
 
 def _body(stream: BinaryIO, offset: int, expected: Opcode, limit: int) -> bytes:
@@ -131,22 +133,22 @@ def _body(stream: BinaryIO, offset: int, expected: Opcode, limit: int) -> bytes:
     stream.seek(offset)
     opcode, length = _RECORD.unpack(stream.read(_RECORD.size))
     if opcode != expected:
-        raise Damaged(f"{expected.name.lower()} is not where the index says")
+        raise RecordingDamaged(f"{expected.name.lower()} is not where the index says")
     if length > limit:
-        raise Damaged(f"{expected.name.lower()} of {length:,} bytes")
+        raise RecordingDamaged(f"{expected.name.lower()} of {length:,} bytes")
     data = stream.read(length)
     if len(data) != length:
-        raise Damaged(f"{expected.name.lower()} is longer than the file")
+        raise RecordingDamaged(f"{expected.name.lower()} is longer than the file")
     return data
 
 
 def _take_attachment(found: Contents, body: bytes) -> None:
     if zlib.crc32(body[:-4]) != int.from_bytes(body[-4:], "little"):
-        raise Damaged("an attachment has been changed: its checksum is wrong")
+        raise RecordingDamaged("an attachment has been changed: its checksum is wrong")
     one = Attachment.read(_stream(body))
     found.attachments.append((one.name, one.log_time, one.data))
     if sum(len(data) for _, _, data in found.attachments) > MOST_ATTACHED:
-        raise Damaged(f"attachments of more than {MOST_ATTACHED:,} bytes")
+        raise RecordingDamaged(f"attachments of more than {MOST_ATTACHED:,} bytes")
 
 
 def _take_metadata(found: Contents, body: bytes) -> None:
@@ -174,7 +176,7 @@ def _scanned(stream: BinaryIO, size: int) -> Contents:
         try:
             if not _take(found, stream, opcode, at, length):
                 break
-        except (*BROKEN, Damaged):
+        except (*BROKEN, RecordingDamaged):
             break
         at = behind
     found.pieces.sort(key=lambda piece: (piece.begin, piece.offset))
@@ -218,7 +220,7 @@ def _unpacked(stream: BinaryIO, piece: StoredChunk) -> bytes:
     body = _body(stream, piece.offset, Opcode.CHUNK, LARGEST_CHUNK)
     _, _, size, _ = _CHUNK_HEAD.unpack_from(body)
     if size > LARGEST_CHUNK:
-        raise Damaged(f"a chunk of {size} bytes")
+        raise RecordingDamaged(f"a chunk of {size} bytes")
     chunk = Chunk.read(_stream(body))
     match chunk.compression:
         case "":
@@ -226,12 +228,12 @@ def _unpacked(stream: BinaryIO, piece: StoredChunk) -> bytes:
         case "zstd":
             told = zstandard.frame_content_size(chunk.data)
             if told != size:
-                raise Damaged("a chunk is not as large as it says")
+                raise RecordingDamaged("a chunk is not as large as it says")
             data = zstandard.ZstdDecompressor().decompress(chunk.data, max_output_size=size)
         case other:
-            raise Damaged(f"compression {other!r} is not that of rapidgen's recordings")
+            raise RecordingDamaged(f"compression {other!r} is not that of rapidgen's recordings")
     if zlib.crc32(data) != chunk.uncompressed_crc:
-        raise Damaged("a chunk has been changed: its checksum is wrong")
+        raise RecordingDamaged("a chunk has been changed: its checksum is wrong")
     return data
 
 
@@ -243,7 +245,7 @@ def _records(data: bytes) -> Iterator[tuple[int, int, int]]:
         begin = at + _RECORD.size
         at = begin + length
         if at > size:
-            raise Damaged("a record is longer than its chunk")
+            raise RecordingDamaged("a record is longer than its chunk")
         yield opcode, begin, at
 
 
@@ -271,7 +273,7 @@ class Chunks:
             try:
                 found = self._read(piece)
             except BROKEN as error:
-                raise Damaged(str(error) or type(error).__name__) from error
+                raise RecordingDamaged(str(error) or type(error).__name__) from error
             self._kept[piece.offset] = found
             if len(self._kept) > _KEPT:
                 self._kept.popitem(last=False)

@@ -16,10 +16,10 @@ from rapidgen.viewer import network_messages as n
 from rapidgen.viewer import program_messages as p
 from rapidgen.viewer.messages import Request, ToPage
 from rapidgen.viewer.primitive_urdf import Drawing
-from rapidgen.viewer.provider import Aspect, Declined, Handler
+from rapidgen.viewer.provider import Handler, RequestRejected, StateProvider
 from rapidgen.viewer.recording import messages as m
 from rapidgen.viewer.recording.reader import Moment, RecordingFile
-from rapidgen.viewer.robots import Carried, pose_of, side_by_side
+from rapidgen.viewer.robots import ToolAndWorkObject, pose_of, side_by_side
 from rapidgen.viewer.socket_log import Interpreter, SocketPiece
 
 _CURVES = 1500
@@ -33,7 +33,7 @@ class RecordingSubject:
     at a time, whichever that is."""
 
     def __init__(self, file: RecordingFile) -> None:
-        self._aspect = RecordedAspect(file)
+        self._aspect = RecordedProvider(file)
         self._lock = threading.Lock()
 
     def post(self, function: Callable[[], None]) -> bool:
@@ -42,7 +42,7 @@ class RecordingSubject:
             function()
         return True
 
-    def aspects(self) -> tuple[Aspect, ...]:
+    def aspects(self) -> tuple[StateProvider, ...]:
         """The one."""
         return (self._aspect,)
 
@@ -63,7 +63,7 @@ class _Seen:
         actual = joints.actual if joints else rest
         commanded = joints.commanded if joints else rest
         told = moment.carried.get(self.config.name)
-        carried = _carried(told) if told is not None else Carried.configured(self.config)
+        carried = _carried(told) if told is not None else ToolAndWorkObject.configured(self.config)
         tcp = carried.tcp(self._kinematics, actual)
         return v.RobotPlace(
             joints=self.drawing.values(self._map.to_urdf(actual)),
@@ -77,7 +77,7 @@ class _Seen:
         )
 
 
-class RecordedAspect:
+class RecordedProvider:
     """All of a recording, at a moment."""
 
     def __init__(self, file: RecordingFile) -> None:
@@ -184,14 +184,14 @@ class RecordedAspect:
             }
         )
 
-    def _values(self, moment: Moment) -> p.HeldValues:
+    def _values(self, moment: Moment) -> p.FrameValues:
         """Of values only the watch list is recorded."""
         watch = (
             p.SeenValue(name=x.expression, kind=x.type, text=x.text, settable=False)
             for x in moment.watch.values()
             if x.task == self._task
         )
-        return p.HeldValues(task=self._task, level=-1, variables=(), watch=tuple(watch))
+        return p.FrameValues(task=self._task, level=-1, variables=(), watch=tuple(watch))
 
     def _loaded(self, moment: Moment) -> p.LoadedPrograms:
         tasks: dict[str, dict[str, int]] = {name: {} for name in moment.tasks}
@@ -211,7 +211,7 @@ class RecordedAspect:
             p.Play: _read(self._play),
             p.ReadCurves: _read(self._curves),
             p.ReadSource: _read(self._source),
-            p.LookAt: _read(self._look),
+            p.SelectFrame: _read(self._look),
             n.Listen: _read(self._listen),
         }
 
@@ -221,7 +221,7 @@ class RecordedAspect:
         return ""
 
     def _look(self, request: Request) -> str:
-        assert isinstance(request, p.LookAt)
+        assert isinstance(request, p.SelectFrame)
         self._task = request.task
         return ""
 
@@ -242,7 +242,7 @@ class RecordedAspect:
         assert isinstance(request, p.ReadSource)
         found = next((t for t, number in self._sources.items() if number == request.number), None)
         if found is None:
-            raise Declined("it is not in the recording")
+            raise RequestRejected("it is not in the recording")
         return found
 
     def _curves(self, request: Request) -> str:
@@ -268,7 +268,7 @@ class RecordedAspect:
             curves = [{"name": request.signal, "values": values}]
             charts = [{"title": request.signal, "curves": curves}]
         else:
-            raise Declined("there is nothing of that name in the recording")
+            raise RequestRejected("there is nothing of that name in the recording")
         return json.dumps({"time": times, "charts": charts})
 
 
@@ -279,14 +279,14 @@ def _read(handler: Handler) -> Handler:
         try:
             return handler(request)
         except DiagnosticError as error:
-            raise Declined(error.diagnostics[0].message) from error
+            raise RequestRejected(error.diagnostics[0].message) from error
 
     return carried_out
 
 
-def _carried(told: m.CarriedFrames) -> Carried:
+def _carried(told: m.CarriedFrames) -> ToolAndWorkObject:
     tool, placed = told.tool, told.work_object
-    return Carried(
+    return ToolAndWorkObject(
         (tool.position, tool.orientation), told.held, (placed.position, placed.orientation)
     )
 
@@ -309,7 +309,7 @@ def _pointers(moment: Moment) -> p.Pointers:
     return p.Pointers(
         time=moment.time,
         tasks=tuple(
-            p.SeenTask(
+            p.TaskPosition(
                 name=name,
                 state=task.state,
                 stack=tuple(map(_place, task.stack)),

@@ -21,7 +21,7 @@ from rapidgen.viewer.recording import messages as m
 from rapidgen.viewer.recording.mcap_chunks import (
     Chunks,
     Contents,
-    Damaged,
+    RecordingDamaged,
     StoredChunk,
     StoredMessage,
     look,
@@ -76,7 +76,7 @@ class RecordingFile:
         size = self.path.stat().st_size
         try:
             self._contents: Contents = look(self._file, size)
-        except Damaged as error:
+        except RecordingDamaged as error:
             raise self._refused(str(error)) from error
         known = self._contents.metadata.get(m.METADATA)
         if known is None:
@@ -289,7 +289,7 @@ class RecordingFile:
     def _read(self, piece: StoredChunk) -> tuple[StoredMessage, ...]:
         try:
             return self._chunks.messages(piece)
-        except Damaged as error:
+        except RecordingDamaged as error:
             raise self._refused(f"damaged at byte {piece.offset}: {error}") from error
 
     def _decoded(self, kind: type[_M], message: StoredMessage) -> _M:

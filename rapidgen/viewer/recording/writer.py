@@ -21,7 +21,7 @@ from rapidgen.config.manifest import group_to_manifest
 from rapidgen.controller.controller import VirtualController
 from rapidgen.controller.debugger.pointers import motion_pointer
 from rapidgen.controller.debugger.stack import StackFrame, frames_of, where_it_looks
-from rapidgen.controller.debugger.values import NotNow, evaluate
+from rapidgen.controller.debugger.values import NotPaused, evaluate
 from rapidgen.machine.event_log import Event
 from rapidgen.machine.io import Signal
 from rapidgen.machine.network.sockets import SocketNews
@@ -33,7 +33,7 @@ from rapidgen.viewer.appearance import PLAIN, Appearance
 from rapidgen.viewer.recording import appearance
 from rapidgen.viewer.recording import messages as m
 from rapidgen.viewer.recording.schemas import plain_schema
-from rapidgen.viewer.robots import Carried
+from rapidgen.viewer.robots import ToolAndWorkObject
 
 TICK_NS = 16_666_667
 """Between two looks at pointers and values: 60 a second."""
@@ -190,7 +190,7 @@ class RecordingWriter:
                 try:
                     shown = evaluate(task.program, frame, expression)
                     kind, text = shown.type, shown.text
-                except NotNow as reason:
+                except NotPaused as reason:
                     text = f"({reason})"
             yield m.WatchedValue(task=name, expression=expression, type=kind, text=text)
 
@@ -350,7 +350,7 @@ def _carried(group: MotionGroup, now: int) -> m.CarriedFrames:
         carrier = move.carrier.at(group.positions())
         tool, held, placed = carrier.tool, not carrier.stationary, carrier.object
     else:
-        configured = Carried.configured(group.config)
+        configured = ToolAndWorkObject.configured(group.config)
         tool, held, placed = configured.tool, configured.held, configured.object
     return m.CarriedFrames.model_construct(
         tool=m.RecordedFrame.model_construct(position=tool[0], orientation=tool[1]),

@@ -23,8 +23,8 @@ from rapidgen.viewer.messages import (
     ToPage,
 )
 from rapidgen.viewer.pose_snippets import copied
-from rapidgen.viewer.provider import Aspect, Declined, Handler
-from rapidgen.viewer.robots import Carried, pose_of, side_by_side
+from rapidgen.viewer.provider import Handler, RequestRejected, StateProvider
+from rapidgen.viewer.robots import ToolAndWorkObject, pose_of, side_by_side
 from rapidgen.wire.simple_message.spec import EventType, Mode, TriState
 
 _MODES: dict[Mode, Literal["auto", "manual_reduced"]] = {
@@ -44,7 +44,10 @@ class ObservedRobots:
     def __init__(
         self, title: str, robots: Sequence[tuple[Robot, GroupConfig]], look: Appearance = PLAIN
     ) -> None:
-        self._aspects = (_StateAspect(title, robots, look), _EventsAspect([r for r, _ in robots]))
+        self._aspects = (
+            _StateProvider(title, robots, look),
+            _EventsProvider([r for r, _ in robots]),
+        )
         self._functions: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
         threading.Thread(target=self._run, name="view of robots", daemon=True).start()
 
@@ -57,12 +60,12 @@ class ObservedRobots:
         self._functions.put(function)
         return True
 
-    def aspects(self) -> tuple[Aspect, ...]:
+    def aspects(self) -> tuple[StateProvider, ...]:
         """States and events."""
         return self._aspects
 
 
-class _StateAspect:
+class _StateProvider:
     """Where the robots are, and what their status says."""
 
     def __init__(
@@ -114,9 +117,9 @@ class _StateAspect:
             if config.name == request.group:
                 map = self._robots[i].group.map
                 posture = map.to_controller(self._robots[i].state.joints)
-                carried = Carried.configured(config)
+                carried = ToolAndWorkObject.configured(config)
                 return copied(request, map, self._kinematics[i], posture, carried)
-        raise Declined(f"there is no robot {request.group}")
+        raise RequestRejected(f"there is no robot {request.group}")
 
     def _positions(self, states: Sequence[State]) -> Positions:
         return Positions(
@@ -127,7 +130,7 @@ class _StateAspect:
     def _place(self, i: int, state: State) -> RobotPlace:
         posture = self._robots[i].group.map.to_controller(state.joints)
         joints = self._drawings[i].values(state.joints)
-        carried = Carried.configured(self._configs[i])
+        carried = ToolAndWorkObject.configured(self._configs[i])
         tcp = carried.tcp(self._kinematics[i], posture)
         return RobotPlace(
             joints=joints,
@@ -157,7 +160,7 @@ class _StateAspect:
         )
 
 
-class _EventsAspect:
+class _EventsProvider:
     """The controller's event log, where the driver tells it."""
 
     def __init__(self, robots: Sequence[Robot]) -> None:

@@ -3,23 +3,23 @@
 from collections import deque
 from collections.abc import Iterable, Iterator, Mapping
 
-from rapidgen.controller.runner import Cabinet
+from rapidgen.controller.runner import ControllerRunner
 from rapidgen.machine.network.fault_injection import FaultyNetwork
 from rapidgen.machine.network.fault_rules import NetworkRule
 from rapidgen.machine.network.interface import SocketAddress
 from rapidgen.machine.network.sockets import SocketDevice, SocketNews
 from rapidgen.viewer.messages import Request, ToPage
 from rapidgen.viewer.network_messages import (
-    Afflict,
     Ailment,
     Connections,
     Conversation,
-    Cut,
+    InjectFault,
     Listen,
+    ResetConnection,
     ShownSocket,
-    SpokenLine,
+    SocketLogLine,
 )
-from rapidgen.viewer.provider import Declined, Handler
+from rapidgen.viewer.provider import Handler, RequestRejected
 from rapidgen.viewer.socket_log import Interpreter, SocketPiece
 
 _KEPT = 500
@@ -36,10 +36,10 @@ RULES: Mapping[Ailment, NetworkRule] = {
 }
 
 
-class ConnectionsAspect:
+class ConnectionsProvider:
     """Sockets in use, what they say while somebody listens, and cables that are pulled."""
 
-    def __init__(self, cabinet: Cabinet) -> None:
+    def __init__(self, cabinet: ControllerRunner) -> None:
         self._controller = cabinet.controller
         self._sockets = cabinet.controller.sockets
         self._told: tuple[ShownSocket, ...] = ()
@@ -78,13 +78,13 @@ class ConnectionsAspect:
             listening=self._interpreter is not None, lines=tuple(lines), missed=missed
         )
 
-    def _lines(self, piece: SocketPiece) -> Iterator[SpokenLine]:
+    def _lines(self, piece: SocketPiece) -> Iterator[SocketLogLine]:
         if self._interpreter is not None:
             yield from self._interpreter.lines(piece)
 
     def handlers(self) -> Mapping[type, Handler]:
         """Cutting one, making one ill, listening."""
-        return {Cut: self._cut, Afflict: self._afflict, Listen: self._listen}
+        return {ResetConnection: self._cut, InjectFault: self._afflict, Listen: self._listen}
 
     def _now(self) -> tuple[ShownSocket, ...]:
         return tuple(
@@ -96,20 +96,20 @@ class ConnectionsAspect:
         for device in self._sockets.in_use:
             if id(device) == number and _peer(device):
                 return device
-        raise Declined("this connection has gone")
+        raise RequestRejected("this connection has gone")
 
     def _cut(self, request: Request) -> str:
-        assert isinstance(request, Cut)
+        assert isinstance(request, ResetConnection)
         self._sockets.cut(self._connected(request.number))
         return ""
 
     def _afflict(self, request: Request) -> str:
-        assert isinstance(request, Afflict)
+        assert isinstance(request, InjectFault)
         device, network = self._connected(request.number), self._controller.network
         if not isinstance(network, FaultyNetwork) or device.endpoint is None or device.udp:
-            raise Declined("this connection cannot be made worse")
+            raise RequestRejected("this connection cannot be made worse")
         if self._ailments.get(device) in ("silent", "half-open") and request.ailment != "silent":
-            raise Declined("what was lost does not come again: cut it")
+            raise RequestRejected("what was lost does not come again: cut it")
         network.afflict(device.endpoint, RULES[request.ailment])
         self._ailments = {d: a for d, a in self._ailments.items() if d in self._sockets.in_use}
         self._ailments[device] = request.ailment

@@ -5,29 +5,29 @@ from collections.abc import Iterable, Mapping
 from rapidgen.axes import frames
 from rapidgen.axes.kinematics import Posture
 from rapidgen.axes.limits import outside
-from rapidgen.controller.runner import Cabinet
+from rapidgen.controller.runner import ControllerRunner
 from rapidgen.motion.group import MotionGroup
-from rapidgen.motion.moves import Carrier
+from rapidgen.motion.moves import MoveFrames
 from rapidgen.runtime.task.task import Task
 from rapidgen.viewer.appearance import PLAIN, Appearance
 from rapidgen.viewer.messages import Copy, Jog, JogTo, Positions, Request, RobotPlace, Scene, ToPage
 from rapidgen.viewer.pose_snippets import copied
 from rapidgen.viewer.primitive_urdf import Drawing
-from rapidgen.viewer.provider import Declined, Handler
-from rapidgen.viewer.robots import Carried, pose_of, side_by_side
+from rapidgen.viewer.provider import Handler, RequestRejected
+from rapidgen.viewer.robots import ToolAndWorkObject, pose_of, side_by_side
 
 
-class MotionAspect:
+class MotionProvider:
     """The scene, positions, and the robots put elsewhere by hand."""
 
-    def __init__(self, cabinet: Cabinet, look: Appearance = PLAIN) -> None:
+    def __init__(self, cabinet: ControllerRunner, look: Appearance = PLAIN) -> None:
         self._controller = cabinet.controller
         self._look = look
         self._scheduler = cabinet.controller.scheduler
         self._groups = tuple(self._controller.motion.groups.values())
         self._drawings = tuple(look.of(group.config) for group in self._groups)
         self._told: tuple[RobotPlace, ...] = ()
-        self._last: dict[str, Carrier] = {}
+        self._last: dict[str, MoveFrames] = {}
 
     def whole(self) -> Iterable[ToPage]:
         """What is there and where it is."""
@@ -74,14 +74,14 @@ class MotionAspect:
             standing=group.is_standing,
         )
 
-    def _carried(self, group: MotionGroup) -> Carried:
+    def _carried(self, group: MotionGroup) -> ToolAndWorkObject:
         carrier = self._carrier(group)
         if carrier is None:
-            return Carried.configured(group.config)
+            return ToolAndWorkObject.configured(group.config)
         now = carrier.at(group.positions())
-        return Carried(now.tool, not now.stationary, now.object)
+        return ToolAndWorkObject(now.tool, not now.stationary, now.object)
 
-    def _carrier(self, group: MotionGroup) -> Carrier | None:
+    def _carrier(self, group: MotionGroup) -> MoveFrames | None:
         """That of the last move, also when its path has been dropped since, as by a jog."""
         move = group.motion.move(self._scheduler.now)
         if move is not None:
@@ -96,7 +96,7 @@ class MotionAspect:
         group = self._group(request.group)
         joints = group.config.joints
         if len(request.axes) != len(joints):
-            raise Declined(f"{group.name} has {len(joints)} axes")
+            raise RequestRejected(f"{group.name} has {len(joints)} axes")
         here = group.positions()
         axes = tuple(
             now if own is None else now + own if request.relative else own
@@ -111,30 +111,30 @@ class MotionAspect:
         carried, kinematics = self._carried(group), group.kinematics
         now = carried.tcp(kinematics, group.positions())
         if kinematics is None or now is None or not carried.held:
-            raise Declined(f"{group.name} does not carry its TCP")
+            raise RequestRejected(f"{group.name} does not carry its TCP")
         turned = request.orientation or now[1]
         if not any(turned):
-            raise Declined("this is no orientation")
+            raise RequestRejected("this is no orientation")
         x, y, z = (
             own if own is not None else at for own, at in zip(request.position, now[0], strict=True)
         )
         flange = frames.compose(((x, y, z), frames.normalise(turned)), frames.invert(carried.tool))
         found = kinematics.follow(flange, group.positions())
         if found is None:
-            raise Declined("the TCP does not reach that place as the arm is bent now")
+            raise RequestRejected("the TCP does not reach that place as the arm is bent now")
         self._put(group, found)
         return ""
 
     def _put(self, group: MotionGroup, axes: Posture) -> None:
         for fault in outside(group.config.joints, axes):
-            raise Declined(f"{fault.joint.name} would leave its range")
+            raise RequestRejected(f"{fault.joint.name} would leave its range")
         if any(t.state == "running" and t.spec.motion for t in self._tasks()):
-            raise Declined("a program has the robot: stop it first")
+            raise RequestRejected("a program has the robot: stop it first")
         self._carrier(group)  # Remembered: the path may be dropped.
         try:
             group.jog(axes)
         except ValueError as error:
-            raise Declined(str(error)) from error
+            raise RequestRejected(str(error)) from error
 
     def _copy(self, request: Request) -> str:
         assert isinstance(request, Copy)
@@ -145,5 +145,5 @@ class MotionAspect:
     def _group(self, name: str) -> MotionGroup:
         group = self._controller.motion.groups.get(name)
         if group is None:
-            raise Declined(f"there is no robot {name}")
+            raise RequestRejected(f"there is no robot {name}")
         return group

@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Mapping
 from typing import Literal
 
-from rapidgen.controller.runner import Cabinet
+from rapidgen.controller.runner import ControllerRunner
 from rapidgen.machine.event_log import Event, EventType
 from rapidgen.viewer.messages import (
     AnswerQuestion,
@@ -15,7 +15,7 @@ from rapidgen.viewer.messages import (
     Screen,
     ToPage,
 )
-from rapidgen.viewer.provider import Declined, Handler
+from rapidgen.viewer.provider import Handler, RequestRejected
 
 _KINDS: dict[EventType, Literal["info", "warning", "error"]] = {
     EventType.INFO: "info",
@@ -24,10 +24,10 @@ _KINDS: dict[EventType, Literal["info", "warning", "error"]] = {
 }
 
 
-class TellingAspect:
+class OperatorOutputProvider:
     """Log, screen and dialogs."""
 
-    def __init__(self, cabinet: Cabinet) -> None:
+    def __init__(self, cabinet: ControllerRunner) -> None:
         self._controller = cabinet.controller
         # Whoever opens the page can answer: dialogs wait for that.
         cabinet.controller.operator.attach()
@@ -71,9 +71,9 @@ class TellingAspect:
         try:
             self._controller.operator.answer(request.number, request.value)
         except KeyError as error:
-            raise Declined("the dialog has gone") from error
+            raise RequestRejected("the dialog has gone") from error
         except ValueError as error:
-            raise Declined(str(error)) from error
+            raise RequestRejected(str(error)) from error
         return ""
 
 

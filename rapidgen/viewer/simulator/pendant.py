@@ -2,18 +2,26 @@
 
 from collections.abc import Iterable, Mapping
 
-from rapidgen.controller.runner import Cabinet
-from rapidgen.viewer.messages import Act, PanelState, Request, SetMode, SetOverride, SetPace, ToPage
-from rapidgen.viewer.provider import Declined, Handler
+from rapidgen.controller.runner import ControllerRunner
+from rapidgen.viewer.messages import (
+    PanelState,
+    PendantAction,
+    Request,
+    SetMode,
+    SetOverride,
+    SetPace,
+    ToPage,
+)
+from rapidgen.viewer.provider import Handler, RequestRejected
 
 _EVERY = 0.5
 """s of the controller's time after which its clock is told without another reason."""
 
 
-class PendantAspect:
+class PendantProvider:
     """PanelState, and what changes it."""
 
-    def __init__(self, cabinet: Cabinet) -> None:
+    def __init__(self, cabinet: ControllerRunner) -> None:
         self._controller = cabinet.controller
         self._told: PanelState | None = None
 
@@ -32,7 +40,7 @@ class PendantAspect:
     def handlers(self) -> Mapping[type, Handler]:
         """Buttons, key, speed and pace."""
         return {
-            Act: self._act,
+            PendantAction: self._act,
             SetMode: self._mode,
             SetOverride: self._override,
             SetPace: self._pace,
@@ -57,12 +65,12 @@ class PendantAspect:
         )
 
     def _act(self, request: Request) -> str:
-        assert isinstance(request, Act)
+        assert isinstance(request, PendantAction)
         c = self._controller
         if request.action == "start" and not c.start_program():
-            raise Declined("the start was refused: the event log says why")
+            raise RequestRejected("the start was refused: the event log says why")
         if request.action == "pp-to-main" and self._status().running:
-            raise Declined("a program runs: stop it first")
+            raise RequestRejected("a program runs: stop it first")
         if request.action != "start":
             c.perform(request.action)
         return ""

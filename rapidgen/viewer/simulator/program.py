@@ -2,15 +2,22 @@
 
 from collections.abc import Callable, Iterable, Mapping
 
-from rapidgen.controller.debugger import Breakpoint, Debugger, Halt, NotNow, Placed, Shown
+from rapidgen.controller.debugger import (
+    Breakpoint,
+    Debugger,
+    DisplayedValue,
+    NotPaused,
+    PauseReason,
+    PlacedBreakpoint,
+)
 from rapidgen.controller.debugger.stack import Level, StackFrame
-from rapidgen.controller.runner import Cabinet
+from rapidgen.controller.runner import ControllerRunner
 from rapidgen.controller.tracing import Coverage
 from rapidgen.generate.source_map import origin_of
 from rapidgen.runtime.errors import Location
 from rapidgen.viewer import program_messages as p
 from rapidgen.viewer.messages import Request, ToPage
-from rapidgen.viewer.provider import Declined, Handler
+from rapidgen.viewer.provider import Handler, RequestRejected
 
 _LINES = 200
 """Lines of log points that are told."""
@@ -18,10 +25,10 @@ _COVERED_EVERY = 1.0
 """s of the controller's time between two counts of lines."""
 
 
-class ProgramAspect:
+class ProgramProvider:
     """What is executed, and what stops it. Breakpoints stay over a restart."""
 
-    def __init__(self, cabinet: Cabinet) -> None:
+    def __init__(self, cabinet: ControllerRunner) -> None:
         self._controller = cabinet.controller
         self._tasks = cabinet.controller.rapid_tasks
         self._debugger = Debugger(cabinet.controller, cabinet.breakpoints)
@@ -80,7 +87,7 @@ class ProgramAspect:
         for name, task in self._tasks.items():
             motion = self._debugger.motion_pointer(name)
             seen.append(
-                p.SeenTask(
+                p.TaskPosition(
                     name=name,
                     state=task.state,
                     stack=tuple(map(_of_frame, self._debugger.frames(name))),
@@ -100,14 +107,14 @@ class ProgramAspect:
             ),
         )
 
-    def _values(self) -> p.HeldValues:
+    def _values(self) -> p.FrameValues:
         """Values are told while everything stands: they would flicker else, and cost."""
         debugger = self._debugger
         halted = debugger.halt is not None
         frames = debugger.frames(self._task) if halted and self._task in self._tasks else ()
         level = len(frames) - 1 if self._level < 0 else min(self._level, len(frames) - 1)
         variables = debugger.variables(self._task, level) if frames else ()
-        return p.HeldValues(
+        return p.FrameValues(
             task=self._task,
             level=level,
             variables=tuple(map(_value, variables)),
@@ -119,7 +126,7 @@ class ProgramAspect:
             return p.SeenValue(name=text, kind="", text="", settable=False)
         try:
             return _value(self._debugger.evaluate(self._task, text, level))
-        except NotNow as reason:
+        except NotPaused as reason:
             return p.SeenValue(name=text, kind="", text=f"({reason})", settable=False)
 
     def _lines(self) -> Iterable[ToPage]:
@@ -147,15 +154,15 @@ class ProgramAspect:
             p.ReadOrigin: self._origin,
             p.SetBreakpoint: self._break,
             p.RemoveBreakpoint: self._unbreak,
-            p.Proceed: self._drive,
+            p.DebugCommand: self._drive,
             p.RunTo: self._run_to,
             p.RunFor: self._run_for,
             p.StopOnErrors: self._stop_on,
-            p.LookAt: self._look,
+            p.SelectFrame: self._look,
             p.Evaluate: self._evaluate,
             p.Assign: self._assign,
             p.SetWatch: self._set_watch,
-            p.Cover: self._cover,
+            p.CountLines: self._cover,
         }
         return {kind: _told(handler) for kind, handler in found.items()}
 
@@ -163,7 +170,7 @@ class ProgramAspect:
         assert isinstance(request, p.ReadSource)
         found = next((t for t, number in self._texts.items() if number == request.number), None)
         if found is None:
-            raise Declined("it is not loaded any more")
+            raise RequestRejected("it is not loaded any more")
         return found
 
     def _origin(self, request: Request) -> str:
@@ -175,7 +182,7 @@ class ProgramAspect:
                     found = origin_of(text, module.file.origin)
                     told = p.SourceOrigin(lines=found.lines, templates=dict(found.templates))
                     return told.model_dump_json()
-        raise Declined("no template made it")
+        raise RequestRejected("no template made it")
 
     def _break(self, request: Request) -> str:
         assert isinstance(request, p.SetBreakpoint)
@@ -194,12 +201,12 @@ class ProgramAspect:
                 return str(request.number)
             placed = self._debugger.add(asked)
         except KeyError as error:
-            raise Declined("that breakpoint has been taken away") from error
+            raise RequestRejected("that breakpoint has been taken away") from error
         except ValueError as error:
-            raise Declined(str(error)) from error
+            raise RequestRejected(str(error)) from error
         if not placed.line:
             self._debugger.remove(placed.number)
-            raise Declined(placed.doubt)
+            raise RequestRejected(placed.doubt)
         self._keep()
         return str(placed.number)
 
@@ -213,7 +220,7 @@ class ProgramAspect:
         self._asked[:] = [placed.asked for placed in self._debugger.placed.values()]
 
     def _drive(self, request: Request) -> str:
-        assert isinstance(request, p.Proceed)
+        assert isinstance(request, p.DebugCommand)
         match request.how:
             case "pause":
                 self._debugger.pause()
@@ -241,7 +248,7 @@ class ProgramAspect:
         return ""
 
     def _look(self, request: Request) -> str:
-        assert isinstance(request, p.LookAt)
+        assert isinstance(request, p.SelectFrame)
         self._known(request.task)
         self._task, self._level = request.task, request.level
         return ""
@@ -265,7 +272,7 @@ class ProgramAspect:
         return ""
 
     def _cover(self, request: Request) -> str:
-        assert isinstance(request, p.Cover)
+        assert isinstance(request, p.CountLines)
         if request.on and self._coverage is None:
             self._coverage = Coverage(self._controller)
             for task in self._tasks.values():
@@ -277,7 +284,7 @@ class ProgramAspect:
 
     def _known(self, task: str) -> None:
         if task not in self._tasks:
-            raise Declined(f"there is no task {task}")
+            raise RequestRejected(f"there is no task {task}")
 
 
 def _told(handler: Callable[[Request], str]) -> Handler:
@@ -286,8 +293,8 @@ def _told(handler: Callable[[Request], str]) -> Handler:
     def carried_out(request: Request) -> str:
         try:
             return handler(request)
-        except NotNow as reason:
-            raise Declined(str(reason)) from reason
+        except NotPaused as reason:
+            raise RequestRejected(str(reason)) from reason
 
     return carried_out
 
@@ -303,12 +310,12 @@ def _of_frame(frame: StackFrame) -> p.SeenPlace:
     return _place(frame.place, frame.level)
 
 
-def _halt(halt: Halt, time: float) -> p.SeenHalt:
+def _halt(halt: PauseReason, time: float) -> p.SeenHalt:
     place = _place(halt.place) if halt.place is not None else None
     return p.SeenHalt(reason=halt.reason, task=halt.task, place=place, text=halt.text, time=time)
 
 
-def _breakpoint(placed: Placed) -> p.SeenBreakpoint:
+def _breakpoint(placed: PlacedBreakpoint) -> p.SeenBreakpoint:
     asked = placed.asked
     return p.SeenBreakpoint(
         number=placed.number,
@@ -323,5 +330,5 @@ def _breakpoint(placed: Placed) -> p.SeenBreakpoint:
     )
 
 
-def _value(shown: Shown) -> p.SeenValue:
+def _value(shown: DisplayedValue) -> p.SeenValue:
     return p.SeenValue(name=shown.name, kind=shown.type, text=shown.text, settable=shown.settable)

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Iterable, Mapping
 
-from rapidgen.controller.runner import Cabinet
+from rapidgen.controller.runner import ControllerRunner
 from rapidgen.machine.io import Signal
 from rapidgen.viewer.messages import (
     AllSignals,
@@ -13,13 +13,13 @@ from rapidgen.viewer.messages import (
     SignalValues,
     ToPage,
 )
-from rapidgen.viewer.provider import Declined, Handler
+from rapidgen.viewer.provider import Handler, RequestRejected
 
 
-class SignalsAspect:
+class SignalsProvider:
     """All signals, then those that have changed."""
 
-    def __init__(self, cabinet: Cabinet) -> None:
+    def __init__(self, cabinet: ControllerRunner) -> None:
         self._io = cabinet.controller.io
         self._told: dict[Signal, float] = {}
 
@@ -43,11 +43,11 @@ class SignalsAspect:
         assert isinstance(request, SetSignal)
         signal = self._io.get(request.name)
         if signal is None:
-            raise Declined(f"there is no signal {request.name}")
+            raise RequestRejected(f"there is no signal {request.name}")
         try:
             self._io.set(signal, request.value)
         except ValueError as error:
-            raise Declined(str(error)) from error
+            raise RequestRejected(str(error)) from error
         return ""
 
 

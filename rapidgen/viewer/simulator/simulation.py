@@ -2,26 +2,26 @@
 
 from collections.abc import Callable
 
-from rapidgen.controller.runner import Cabinet
+from rapidgen.controller.runner import ControllerRunner
 from rapidgen.viewer.appearance import PLAIN, Appearance
-from rapidgen.viewer.provider import Aspect
-from rapidgen.viewer.simulator.connections import ConnectionsAspect
-from rapidgen.viewer.simulator.motion import MotionAspect
-from rapidgen.viewer.simulator.operator_output import TellingAspect
-from rapidgen.viewer.simulator.pendant import PendantAspect
-from rapidgen.viewer.simulator.program import ProgramAspect
-from rapidgen.viewer.simulator.signals import SignalsAspect
-from rapidgen.viewer.simulator.targets import TargetsAspect
-from rapidgen.viewer.simulator.trajectories import TrajectoryAspect
+from rapidgen.viewer.provider import StateProvider
+from rapidgen.viewer.simulator.connections import ConnectionsProvider
+from rapidgen.viewer.simulator.motion import MotionProvider
+from rapidgen.viewer.simulator.operator_output import OperatorOutputProvider
+from rapidgen.viewer.simulator.pendant import PendantProvider
+from rapidgen.viewer.simulator.program import ProgramProvider
+from rapidgen.viewer.simulator.signals import SignalsProvider
+from rapidgen.viewer.simulator.targets import TargetsProvider
+from rapidgen.viewer.simulator.trajectories import TrajectoryProvider
 
-ASPECTS: tuple[Callable[[Cabinet], Aspect], ...] = (
-    PendantAspect,
-    TellingAspect,
-    SignalsAspect,
-    ConnectionsAspect,
-    TrajectoryAspect,
-    ProgramAspect,
-    TargetsAspect,
+ASPECTS: tuple[Callable[[ControllerRunner], StateProvider], ...] = (
+    PendantProvider,
+    OperatorOutputProvider,
+    SignalsProvider,
+    ConnectionsProvider,
+    TrajectoryProvider,
+    ProgramProvider,
+    TargetsProvider,
 )
 """What is told of a virtual controller after the scene."""
 
@@ -29,7 +29,7 @@ ASPECTS: tuple[Callable[[Cabinet], Aspect], ...] = (
 class Simulation:
     """What the server watches: `serve_page(Simulation(cabinet))`."""
 
-    def __init__(self, cabinet: Cabinet, look: Appearance = PLAIN) -> None:
+    def __init__(self, cabinet: ControllerRunner, look: Appearance = PLAIN) -> None:
         self._cabinet = cabinet
         self._look = look
 
@@ -37,7 +37,7 @@ class Simulation:
         """Run a function on the controller's thread; False while it restarts."""
         return self._cabinet.post(function)
 
-    def aspects(self) -> tuple[Aspect, ...]:
+    def aspects(self) -> tuple[StateProvider, ...]:
         """Topics of the controller that runs now."""
-        scene = MotionAspect(self._cabinet, self._look)
+        scene = MotionProvider(self._cabinet, self._look)
         return (scene, *(make(self._cabinet) for make in ASPECTS))

@@ -3,8 +3,8 @@
 from collections.abc import Iterable, Iterator, Mapping
 
 from rapidgen.axes import frames
-from rapidgen.controller.inference.move_targets import Meant, meant
-from rapidgen.controller.runner import Cabinet
+from rapidgen.controller.inference.move_targets import MoveTarget, move_targets
+from rapidgen.controller.runner import ControllerRunner
 from rapidgen.motion.group import MotionGroup
 from rapidgen.runtime.compiler.symbols import LoadedModule
 from rapidgen.viewer.messages import SeenTarget, Targets, ToPage
@@ -15,10 +15,10 @@ _MOST = 400
 """Targets that are drawn; the first ones of each program."""
 
 
-class TargetsAspect:
+class TargetsProvider:
     """The targets that programs declare, anew when modules have been loaded."""
 
-    def __init__(self, cabinet: Cabinet) -> None:
+    def __init__(self, cabinet: ControllerRunner) -> None:
         self._tasks = cabinet.controller.rapid_tasks
         self._groups = {g.config.task: g for g in cabinet.controller.motion.groups.values()}
         self._known: tuple[LoadedModule, ...] = ()
@@ -55,7 +55,7 @@ class TargetsAspect:
             modules = task.program.modules.values() if task is not None else ()
             seen = set()
             for module in modules:
-                for target in () if module.installed else meant(module.scope):
+                for target in () if module.installed else move_targets(module.scope):
                     made = _seen(group, module.name, target)
                     same = made and (made.name, made.pose)
                     if made is not None and same not in seen:
@@ -63,7 +63,7 @@ class TargetsAspect:
                         yield made
 
 
-def _seen(group: MotionGroup, module: str, target: Meant) -> SeenTarget | None:
+def _seen(group: MotionGroup, module: str, target: MoveTarget) -> SeenTarget | None:
     place = target.place
     if place is None and group.kinematics is not None:
         still = (0.0,) * len(group.config.joints)

@@ -16,18 +16,18 @@ from rapidgen.client.core.group import Group
 from rapidgen.client.errors import InvalidTrajectory, RobotError
 from rapidgen.client.trajectory import Array
 from rapidgen.config.model import TrajectoryPolicy
-from rapidgen.controller.runner import Cabinet
+from rapidgen.controller.runner import ControllerRunner
 from rapidgen.diagnostics import Diagnostic
 from rapidgen.motion.group import MotionGroup
 from rapidgen.viewer.messages import Request, ToPage
-from rapidgen.viewer.provider import Declined, Handler
-from rapidgen.viewer.robots import Carried
+from rapidgen.viewer.provider import Handler, RequestRejected
+from rapidgen.viewer.robots import ToolAndWorkObject
 from rapidgen.viewer.trajectory_messages import (
-    DroppedTrajectory,
-    DropTrajectory,
-    ForgetTrajectory,
+    RemoveTrajectory,
     RunTrajectory,
     TrajectoryFinding,
+    UploadedTrajectory,
+    UploadTrajectory,
 )
 
 _AXES = 10
@@ -38,13 +38,13 @@ _ANY = TrajectoryPolicy(capacity=1_000_000)
 """How many points a driver holds is said by that driver."""
 
 
-class TrajectoryAspect:
+class TrajectoryProvider:
     """The trajectory that lies on the page; all viewers see the same one."""
 
-    def __init__(self, cabinet: Cabinet) -> None:
+    def __init__(self, cabinet: ControllerRunner) -> None:
         self._cabinet = cabinet
         self._controller = cabinet.controller
-        self._shown = self._told = DroppedTrajectory()
+        self._shown = self._told = UploadedTrajectory()
         self._checked: CheckedTrajectory | None = None
 
     def whole(self) -> Iterable[ToPage]:
@@ -60,19 +60,19 @@ class TrajectoryAspect:
     def handlers(self) -> Mapping[type, Handler]:
         """Checking, executing, forgetting."""
         return {
-            DropTrajectory: self._drop,
+            UploadTrajectory: self._drop,
             RunTrajectory: self._run,
-            ForgetTrajectory: self._forget,
+            RemoveTrajectory: self._forget,
         }
 
     # -- checking -----------------------------------------------------------------------------
 
     def _drop(self, request: Request) -> str:
-        assert isinstance(request, DropTrajectory)
+        assert isinstance(request, UploadTrajectory)
         self._rests()
         group = self._controller.motion.groups.get(request.group)
         if group is None:
-            raise Declined(f"there is no robot {request.group}")
+            raise RequestRejected(f"there is no robot {request.group}")
         self._checked = None
         name = Path(request.file).name
         try:
@@ -81,7 +81,7 @@ class TrajectoryAspect:
             wanted = Group(group.name, group.map, _ANY)
             self._checked = check_trajectory(trajectory, wanted, start=start)
         except InvalidTrajectory as wrong:
-            self._shown = DroppedTrajectory(
+            self._shown = UploadedTrajectory(
                 group=group.name,
                 file=name,
                 findings=tuple(_finding(found, ()) for found in wrong.diagnostics),
@@ -93,13 +93,13 @@ class TrajectoryAspect:
 
     def _described(
         self, group: MotionGroup, name: str, checked: CheckedTrajectory
-    ) -> DroppedTrajectory:
+    ) -> UploadedTrajectory:
         steps = max(1, min(20, _PLACES // len(checked.wire)))
         way = tuple(_way(group, _between(checked.wire, steps)))
         times = np.repeat(checked.durations[1:] / steps, steps).tolist()
         legs = zip(way, way[1:], times, strict=False)
         lines = checked.trajectory.lines
-        return DroppedTrajectory(
+        return UploadedTrajectory(
             group=group.name,
             file=name,
             seconds=checked.total,
@@ -116,11 +116,11 @@ class TrajectoryAspect:
         self._rests()
         checked = self._checked
         if checked is None:
-            raise Declined("there is no trajectory that could be executed")
+            raise RequestRejected("there is no trajectory that could be executed")
         group = self._controller.motion.groups[self._shown.group]
         listeners, ports = self._controller.network.listeners, group.config.ports
         if ports.motion not in listeners or ports.state not in listeners:
-            raise Declined("this program is no driver: it takes no trajectories")
+            raise RequestRejected("this program is no driver: it takes no trajectories")
         numbers = (ports.motion, ports.state, ports.control)
         known = [str(listeners[port][1]) for port in numbers if port in listeners]
         address = f"{listeners[ports.motion][0]}:{','.join(known)}"
@@ -146,15 +146,15 @@ class TrajectoryAspect:
 
     def _forget(self, _request: Request) -> str:
         self._rests()
-        self._shown, self._checked = DroppedTrajectory(), None
+        self._shown, self._checked = UploadedTrajectory(), None
         return ""
 
     def _rests(self) -> None:
         if self._shown.state == "running":
-            raise Declined("the trajectory is being executed")
+            raise RequestRejected("the trajectory is being executed")
 
 
-def _read(request: DropTrajectory) -> Trajectory:
+def _read(request: UploadTrajectory) -> Trajectory:
     """What the text says. InvalidTrajectory."""
     is_json = request.file.lower().endswith(".json")
     with tempfile.TemporaryDirectory(prefix="rapidgen-view-") as folder:
@@ -172,7 +172,7 @@ def _between(wire: Array, steps: int) -> Iterator[Posture]:
 
 def _way(group: MotionGroup, wire: Iterable[Posture]) -> Iterable[tuple[float, float, float]]:
     """Places of the configured TCP."""
-    carried, count = Carried.configured(group.config), len(group.config.joints)
+    carried, count = ToolAndWorkObject.configured(group.config), len(group.config.joints)
     for values in wire:
         tcp = carried.tcp(group.kinematics, values[:count])
         if tcp is not None:

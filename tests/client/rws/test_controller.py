@@ -12,8 +12,8 @@ from rapidgen.client import RobotTimeout
 from rapidgen.client.errors import NotReady
 from rapidgen.client.rws import AsyncController, Controller, RwsError
 from rapidgen.client.rws.address import parse_address
-from rapidgen.client.rws.core import RATE, Pace
-from rapidgen.client.rws.errors import Held, LoginFailed, NotObeyed, NotRws
+from rapidgen.client.rws.core import RATE, RateLimiter
+from rapidgen.client.rws.errors import LoginFailed, MastershipHeld, NotConfirmed, NotRws
 from rapidgen.client.rws.known_certificates import known
 from rapidgen.servers.rws.handlers import motion
 from rapidgen.wire.rws.bodies import Generation
@@ -160,7 +160,7 @@ def test_one_value_is_one_request_on_a_warm_session(served):
 
 
 def test_the_ceiling_holds():
-    pace, now, sent = Pace(), 0.0, []
+    pace, now, sent = RateLimiter(), 0.0, []
     for _ in range(100):
         now += pace.reserve(now)
         sent.append(now)
@@ -182,7 +182,7 @@ def test_mastership_is_given_back_and_never_taken_by_force(served):
         if served.generation is Generation.EIGHT:
             return  # both are this machine's control station: that is its own test below
         with first.mastership():
-            with pytest.raises(Held) as caught:
+            with pytest.raises(MastershipHeld) as caught:
                 second.take_mastership()
             assert "Default User" in str(caught.value)
             with pytest.raises(NotReady):
@@ -218,7 +218,7 @@ def test_write_access_that_was_left_behind_is_given_back(tmp_path, served):
 def test_a_start_that_was_agreed_to_and_is_none_is_found_out(served):
     with Controller(served.address, **served.keywords) as controller:
         controller.motors(False)
-        with pytest.raises(NotObeyed):
+        with pytest.raises(NotConfirmed):
             controller.start()
 
 
@@ -247,7 +247,7 @@ def test_a_task_that_is_left_out_is_not_started(served):
     with Controller(served.address, **served.keywords) as controller:
         controller.select_task("T_ROB1", False)
         assert not controller.tasks()[0].active
-        with pytest.raises(NotObeyed):
+        with pytest.raises(NotConfirmed):
             controller.start()  # agreed to, and nothing runs
         controller.select_task("T_ROB1", True)
         controller.start()

@@ -15,7 +15,7 @@ from rapidgen.client.errors import RobotError
 from rapidgen.client.rws import flows, topics
 from rapidgen.client.rws.address import parse_address
 from rapidgen.client.rws.core import Login, RwsCore
-from rapidgen.client.rws.effects import Exchange, LogIn, LookAtCertificate, Response, resume
+from rapidgen.client.rws.effects import Exchange, FetchCertificate, LogIn, Response, resume
 from rapidgen.wire.rws import json_bodies, xhtml
 from rapidgen.wire.rws.bodies import Body, Fault, Generation, Item
 
@@ -123,7 +123,7 @@ def run(core, flow, seed):
         except (StopIteration, RobotError):
             return
         outcome = Response(0)
-        if isinstance(effect, Exchange | LookAtCertificate):
+        if isinstance(effect, Exchange | FetchCertificate):
             outcome = hostile(rng) if step < STEPS else Response(404)
         assert not (isinstance(effect, LogIn) and effect.way == "basic") or core.certificate
         assert "SECRET" not in repr(effect)

@@ -6,7 +6,7 @@ import pytest
 
 from rapidgen.client.errors import RobotTimeout
 from rapidgen.client.rws import AsyncController, Controller, RwsError, topics
-from rapidgen.client.rws.errors import NotObeyed
+from rapidgen.client.rws.errors import NotConfirmed
 
 
 def test_a_program_is_answered_and_answers(asking):
@@ -67,7 +67,7 @@ def test_an_answer_that_is_agreed_to_and_not_taken_is_told(asking):
             pass
         operator = asking.cabinet.controller.operator
         asking.on_controller(lambda: setattr(operator, "answer", lambda *_: None))
-        with pytest.raises(NotObeyed):
+        with pytest.raises(NotConfirmed):
             controller.answer_dialog(1)
 
 
@@ -86,6 +86,6 @@ def test_a_backup_is_restored(served):
 def test_a_restart_that_is_agreed_to_and_does_not_come_is_told(served):
     served.on_controller(lambda: setattr(served.cabinet, "ask_restart", lambda: None))
     with Controller(served.address, **served.keywords) as controller:
-        with pytest.raises(NotObeyed):
+        with pytest.raises(NotConfirmed):
             controller.restart(wait=0.1)
         assert controller.holder("cfg") is None

@@ -7,19 +7,19 @@ import threading
 from rapidgen.client.errors import ConnectionLost
 from rapidgen.client.rws import Controller
 from rapidgen.client.rws.effects import (
+    DropConnections,
     Exchange,
-    Forget,
+    FetchCertificate,
     LogIn,
-    LookAtCertificate,
     Pause,
     Response,
-    Settle,
+    UseEndpoint,
     resume,
 )
 from rapidgen.deploy.transports.rws import RwsTransport
-from rapidgen.servers.rws.application import SESSION, Desk
+from rapidgen.servers.rws.application import SESSION, RwsApplication
 from rapidgen.servers.rws.context import Accounts
-from rapidgen.servers.rws.messages import HttpReply, Received
+from rapidgen.servers.rws.messages import HttpRequest, HttpResponse
 from rapidgen.wire.rws.bodies import Generation
 
 PASSWORD = "a-word-of-its-own"
@@ -35,7 +35,7 @@ class Line:
     ):
         self.cabinet, self.generation = cabinet, generation
         accounts = Accounts({"Default User": PASSWORD})
-        self.desk = Desk(cabinet, generation, accounts, strict=strict)
+        self.desk = RwsApplication(cabinet, generation, accounts, strict=strict)
         self.on_thread, self.cut = on_thread, cut
         self.count, self.log, self.dead = 0, [], False
 
@@ -57,10 +57,10 @@ class Line:
             return self.desk.handle(got)
         done, found, restarts = threading.Event(), [], self.cabinet.restarts
         if not self.cabinet.post(lambda: (found.append(self.desk.handle(got)), done.set())):
-            return HttpReply(503)
+            return HttpResponse(503)
         while not done.wait(0.05):
             if self.cabinet.restarts > restarts:
-                return HttpReply(503)  # nobody will answer any more
+                return HttpResponse(503)  # nobody will answer any more
         return found[0]
 
     def pause(self, seconds):
@@ -110,15 +110,15 @@ class AtDesk:
                 return self.exchange(effect)
             case Pause():
                 self.line.pause(effect.seconds)
-            case LookAtCertificate():
+            case FetchCertificate():
                 is_one = self.line.generation is Generation.ONE
                 return Response(0 if is_one else 200, body=CERTIFICATE)
-            case Settle():
+            case UseEndpoint():
                 self.way = None
                 self.cookies.clear()
             case LogIn():
                 self.way = effect.way
-            case Forget():
+            case DropConnections():
                 self.cookies.clear()
         return Response(0)
 
@@ -133,7 +133,9 @@ class AtDesk:
                 self.cookies[SESSION] = session.key
         if self.cookies:
             headers["cookie"] = "; ".join(f"{k}={v}" for k, v in self.cookies.items())
-        reply = self.line.request(Received(effect.method, effect.target, headers, effect.body, 1))
+        reply = self.line.request(
+            HttpRequest(effect.method, effect.target, headers, effect.body, 1)
+        )
         for name, value in reply.headers:
             if name == "Set-Cookie":
                 key, _, rest = value.partition("=")

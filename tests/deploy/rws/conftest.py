@@ -10,11 +10,11 @@ sys.path.insert(0, str(Path(__file__).parent))
 from at_desk import PASSWORD, Line, connect, pass_time
 
 from rapidgen.config import load_config
-from rapidgen.controller.runner import Cabinet
+from rapidgen.controller.runner import ControllerRunner
 from rapidgen.deploy import apply, make_plan
-from rapidgen.deploy.command_run import wanted_set
-from rapidgen.deploy.online.apply import LiveOptions
-from rapidgen.servers.rws.messages import HttpReply
+from rapidgen.deploy.command_run import desired_set
+from rapidgen.deploy.online.apply import OnlineOptions
+from rapidgen.servers.rws.messages import HttpResponse
 from rapidgen.system import read_files, write_cfg
 from rapidgen.system.base import Robot, base_system
 from rapidgen.wire.rws.bodies import Generation
@@ -37,7 +37,7 @@ def empty_cabinet(folder, generation, **options):
     system = replace(read_files([path]), robotware=RELEASES[generation], name="cell")
     cfg = base_system(system.robotware, [Robot("T_ROB1", "ROB_1")])
     chosen = {"robots": load_config("irb120").groups, "autostart": False, **options}
-    return Cabinet(system, cfg=cfg, **chosen)
+    return ControllerRunner(system, cfg=cfg, **chosen)
 
 
 def overrides_of(generation):
@@ -50,7 +50,7 @@ def overrides_of(generation):
 @cache
 def build(generation, *overrides):
     """The driver of an irb120."""
-    return wanted_set("irb120", [*overrides_of(generation), *overrides])
+    return desired_set("irb120", [*overrides_of(generation), *overrides])
 
 
 def model(generation):
@@ -74,7 +74,7 @@ def run(transport, wanted, verb="deploy", *, overwrite=True, said=None, restart=
     """Plan and carry out; the plan."""
     plan = make_plan(transport, wanted, verb=verb)
     say = (said if said is not None else []).append
-    apply(transport, plan, overwrite=overwrite, live=LiveOptions(restart, **live), say=say)
+    apply(transport, plan, overwrite=overwrite, live=OnlineOptions(restart, **live), say=say)
     return plan
 
 
@@ -90,7 +90,7 @@ class Kit:
     connect = staticmethod(connect)
     Line = Line
     PASSWORD = PASSWORD
-    busy = HttpReply(503)
+    busy = HttpResponse(503)
     apply = staticmethod(apply)
     pass_time = staticmethod(pass_time)
 

@@ -6,7 +6,7 @@ from rapidgen.cli.driver_query import hello
 from rapidgen.client import Robot, Trajectory
 from rapidgen.client.address import Address
 from rapidgen.config import load_config
-from rapidgen.deploy.online.verify import ReadBack
+from rapidgen.deploy.online.verify import PostRestartCheck
 from rapidgen.wire.simple_message.spec import TriState
 
 SPEED = 10
@@ -28,7 +28,7 @@ def test_empty_deployed_started_moved(rws, generation, tmp_path):
             return found[1]
 
         said = []
-        proof = ReadBack(lambda host, port: hello(host, at(port)), "127.0.0.1")
+        proof = PostRestartCheck(lambda host, port: hello(host, at(port)), "127.0.0.1")
         rws.run(transport, wanted, proof=proof, said=said)
         assert said[-1] == "read back: cell has it"  # and every pointer could be set
         services = transport.services

@@ -9,7 +9,7 @@ import pytest
 from rapidgen.deploy import backup_set, make_plan, plan_json
 from rapidgen.deploy.command_run import check_plans, earlier_set, write_plans
 from rapidgen.deploy.doctor import _contents
-from rapidgen.deploy.online.verify import ReadBack
+from rapidgen.deploy.online.verify import PostRestartCheck
 from rapidgen.deploy.plan_text import plan_text
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.wire.rws.bodies import Generation
@@ -361,7 +361,7 @@ def test_a_port_must_serve_our_build(rws, cell, wanted):
         asked.append((host, port))
         return "another-one!"
 
-    proof = ReadBack(other, "cell")
+    proof = PostRestartCheck(other, "cell")
     (found,) = refusal(rws.run, transport, wanted, proof=proof).diagnostics
     assert (found.code, asked) == ("RG544", [("cell", 11002)])
     assert "rob1 state cell:11002 serves another-one!" in found.message

@@ -19,20 +19,20 @@ from rapidgen.runtime.compiler.context import Options
 from rapidgen.runtime.compiler.linking import Shared
 from rapidgen.runtime.registry import bound
 from rapidgen.runtime.task.task import Task
-from rapidgen.runtime.values import BOOL, DNUM, NUM, STRING, Box, Type
+from rapidgen.runtime.values import BOOL, DNUM, NUM, STRING, Type, ValueRef
 from rapidgen.system.model import System, TaskSpec
 
 _TYPES = {bool: BOOL, str: STRING}
 
 
-def box(value: Any, type_: Type | None = None, dims: tuple[int, ...] = ()) -> Box:
+def box(value: Any, type_: Type | None = None, dims: tuple[int, ...] = ()) -> ValueRef:
     """A variable; numbers are num unless told."""
-    return Box(value, type_ or _TYPES.get(type(value), NUM), dims)
+    return ValueRef(value, type_ or _TYPES.get(type(value), NUM), dims)
 
 
-def dnum(value: float) -> Box:
+def dnum(value: float) -> ValueRef:
     """A dnum variable."""
-    return Box(value, DNUM)
+    return ValueRef(value, DNUM)
 
 
 class Bench:

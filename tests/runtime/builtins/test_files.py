@@ -10,7 +10,7 @@ import pytest
 from rapidgen.controller.controller import VirtualController
 from rapidgen.machine.files import Directory, FileSystem, IODevice
 from rapidgen.runtime.errors import RapidError
-from rapidgen.verification.worker_pool import in_a_fork
+from rapidgen.verification.worker_pool import run_in_fork
 
 
 @pytest.fixture
@@ -177,7 +177,7 @@ def test_what_a_fork_made_goes_with_it(tmp_path, monkeypatch):
         return len(os.listdir(tmp_path))
 
     kept = []
-    assert in_a_fork(work) == 2
+    assert run_in_fork(work) == 2
     assert os.listdir(tmp_path) == [disks.folder.name]
     assert disks.path("HOME:/parent").is_file()
     disks.close()

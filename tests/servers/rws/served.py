@@ -3,10 +3,10 @@
 from dataclasses import replace
 
 from rapidgen.config import load_config
-from rapidgen.controller.runner import Cabinet
-from rapidgen.servers.rws.application import SESSION, Desk
+from rapidgen.controller.runner import ControllerRunner
+from rapidgen.servers.rws.application import SESSION, RwsApplication
 from rapidgen.servers.rws.context import Accounts
-from rapidgen.servers.rws.messages import Received
+from rapidgen.servers.rws.messages import HttpRequest
 from rapidgen.system import read_files
 from rapidgen.system.model import SignalSpec
 from rapidgen.wire.rws import media
@@ -41,19 +41,19 @@ STARTED = {
 }  # fmt: skip
 
 
-def make_cabinet(folder, generation=Generation.ONE, program=MAIN, **options) -> Cabinet:
+def make_cabinet(folder, generation=Generation.ONE, program=MAIN, **options) -> ControllerRunner:
     """A controller with T_ROB1 and a main, and no driver: motors on, the program stands."""
     path = folder / "MainModule.mod"
     path.write_text(program)
     system = replace(read_files([path]), robotware=RELEASES[generation], signals=SIGNALS)
     chosen = {"robots": load_config("irb120").groups, "autostart": False, **options}
-    return Cabinet(system, **chosen)
+    return ControllerRunner(system, **chosen)
 
 
 class Caller:
     """A session at a desk: no network, the controller's own thread."""
 
-    def __init__(self, desk: Desk, user: str = "Default User") -> None:
+    def __init__(self, desk: RwsApplication, user: str = "Default User") -> None:
         self.desk = desk
         self.session = desk.sessions.begin(user)
         self.accept = media.HAL
@@ -74,7 +74,7 @@ class Caller:
         data = body if body is not None else write_form(form or {})
         given = {name.replace("_", "-"): value for name, value in headers.items()}
         sent = {k: v for k, v in {**sent, **given}.items() if v is not None}
-        return self.desk.handle(Received(method, target, sent, data, 1))
+        return self.desk.handle(HttpRequest(method, target, sent, data, 1))
 
     def get(self, target, **headers):
         """The items of a GET that succeeds."""
@@ -92,7 +92,7 @@ def code_of(reply):
     return media.read(reply.body, reply.header("content-type")).fault.code
 
 
-def make_desk(cabinet, generation=Generation.ONE, strict=True, **denied) -> Desk:
+def make_desk(cabinet, generation=Generation.ONE, strict=True, **denied) -> RwsApplication:
     """A desk with ABB's own login."""
     accounts = Accounts({"Default User": "robotics", "Admin": "robotics"}, **denied)
-    return Desk(cabinet, generation, accounts, strict=strict)
+    return RwsApplication(cabinet, generation, accounts, strict=strict)

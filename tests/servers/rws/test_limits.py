@@ -63,6 +63,6 @@ def test_so_many_sessions_have_a_websocket(caller):
     for group in made[:-1]:
         groups.listen(group, lambda data: None, lambda: None)
     assert len(made) == 20
-    with pytest.raises(subscriptions.Denied) as denied:
+    with pytest.raises(subscriptions.RequestDenied) as denied:
         groups.listen(made[-1], lambda data: None, lambda: None)
     assert denied.value.status == 503

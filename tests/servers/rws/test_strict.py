@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from served import STARTED, Caller, code_of, make_cabinet, make_desk
 
-from rapidgen.servers.rws.messages import Received
+from rapidgen.servers.rws.messages import HttpRequest
 from rapidgen.servers.rws.sessions import IDLE, MOST, RATE
 from rapidgen.wire.rws import media
 from rapidgen.wire.rws.bodies import Generation
@@ -16,12 +16,12 @@ from rapidgen.wire.rws.codes import CODES
 
 
 def test_nobody_gets_in_without_a_login(one, two):
-    challenge = one.desk.handle(Received("GET", "/rw/system"))
+    challenge = one.desk.handle(HttpRequest("GET", "/rw/system"))
     assert (challenge.status, challenge.header("www-authenticate")[:6]) == (401, "Digest")
-    challenge = two.desk.handle(Received("GET", "/rw/system"))
+    challenge = two.desk.handle(HttpRequest("GET", "/rw/system"))
     assert (challenge.status, challenge.header("www-authenticate")[:5]) == (401, "Basic")
     wrong = base64.b64encode(b"Default User:wrong").decode()
-    reply = two.desk.handle(Received("GET", "/rw/system", {"authorization": f"Basic {wrong}"}))
+    reply = two.desk.handle(HttpRequest("GET", "/rw/system", {"authorization": f"Basic {wrong}"}))
     assert (reply.status, reply.body) == (401, b"")
 
 
@@ -74,7 +74,7 @@ def test_there_are_seventy_sessions_which_end_when_they_are_idle(one):
     desk.office.cabinet.controller.run_for(IDLE + 1)
     assert desk.sessions.begin("Admin") is not None
     assert len(desk.sessions) == 1
-    assert desk.handle(Received("GET", "/rw/system", login)).status == 401
+    assert desk.handle(HttpRequest("GET", "/rw/system", login)).status == 401
 
 
 def test_a_session_that_logs_out_is_gone_with_what_it_held(one):
@@ -147,7 +147,7 @@ def test_robotware_8_has_write_access_of_a_control_station(eight):
     assert again.post(register, station) == 204
     assert again.post("/rw/controlstation/writeaccess/release") == 204
     assert other.post("/rw/controlstation/writeaccess/request") == 204
-    assert eight.desk.handle(Received("GET", "/users/rmmp")).status == 401
+    assert eight.desk.handle(HttpRequest("GET", "/users/rmmp")).status == 401
 
 
 def test_modes_and_grants_are_held(one):
@@ -189,7 +189,7 @@ def test_hostile_requests_are_answered(hostile, method, path, query, body):
     for caller in hostile:
         reply = caller.send(method, f"{path}?{query}" if query else path, body=body)
         assert 200 <= reply.status < 500
-        reply = caller.desk.handle(Received(method, path, {"authorization": query}, body))
+        reply = caller.desk.handle(HttpRequest(method, path, {"authorization": query}, body))
         assert reply.status in (400, 401)
     assert media.read(hostile[0].send("GET", "/rw/system").body, "").items
 

@@ -7,13 +7,13 @@ from rapidgen.client.errors import ConnectionFailed, RobotError
 from rapidgen.client.rws import known_certificates
 from rapidgen.client.rws.core import APPLICATION, RwsCore
 from rapidgen.client.rws.effects import (
+    DropConnections,
     Exchange,
+    FetchCertificate,
     Flow,
-    Forget,
     LogIn,
-    LookAtCertificate,
     Response,
-    Settle,
+    UseEndpoint,
 )
 from rapidgen.client.rws.errors import Busy, LoginFailed, NotRws
 from rapidgen.client.rws.flows.request import ask
@@ -75,14 +75,14 @@ def _reach(core: RwsCore) -> Flow[str]:
     core.port = address.port or 443
     plain: ConnectionFailed | None = None
     try:
-        seen = yield LookAtCertificate(core.port)
+        seen = yield FetchCertificate(core.port)
     except ConnectionFailed as failed:
         if address.tls_only or address.port:
             raise
         seen, plain = Response(0), failed
     if seen.status:
         yield from _trust(core, seen.body)
-        yield Settle(core.port, seen.body)
+        yield UseEndpoint(core.port, seen.body)
     else:
         trusted = core.fingerprint or known_certificates.known(core.pins, core.where)
         if address.tls_only or trusted:
@@ -94,7 +94,7 @@ def _reach(core: RwsCore) -> Flow[str]:
                 else "say rws:// for a controller with RobotWare 6",
             )
         core.port = address.port or 80
-        yield Settle(core.port)
+        yield UseEndpoint(core.port)
     headers = {"Accept": media.HAL} if seen.status else {}
     try:
         answer = yield Exchange("GET", _FIRST, headers, repeat=True)
@@ -157,4 +157,4 @@ def close(core: RwsCore) -> Flow[None]:
             pass  # it is gone already, and with it what it held
     core.held.clear()
     core.connected = False
-    yield Forget()
+    yield DropConnections()

@@ -2,7 +2,7 @@
 
 from rapidgen.client.rws.core import RwsCore
 from rapidgen.client.rws.effects import Flow, Pause
-from rapidgen.client.rws.errors import NotObeyed, RwsError
+from rapidgen.client.rws.errors import NotConfirmed, RwsError
 from rapidgen.client.rws.flows.request import ask
 from rapidgen.client.rws.model import Dialog
 from rapidgen.client.rws.values import RapidValue, write
@@ -27,7 +27,7 @@ def _waiting(core: RwsCore) -> Flow[Dialog]:
     body, _ = yield from ask(core, ops.DIALOG)
     told = [item for item in body.all("rap-uiactive-li", "rap-uiactive") if item.text("stack")]
     if not told:
-        raise NotObeyed.because("RG655", f"{core.where} tells no dialog")
+        raise NotConfirmed.because("RG655", f"{core.where} tells no dialog")
     stack = told[0].text("stack")
     # Some controllers have no reading side of parameters [VC 6.16, VC 7.21].
     names = {"stack": stack}
@@ -53,7 +53,7 @@ def answer_dialog(core: RwsCore, value: RapidValue) -> Flow[None]:
         if now is None or now.stack != waiting.stack:
             return
         yield Pause(_LOOK)
-    raise NotObeyed.because(
+    raise NotConfirmed.because(
         "RG655", f"{core.where} agreed to an answer, and {waiting.kind} waits still"
     )
 

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from rapidgen.client.errors import ConnectionFailed, ConnectionLost, RobotTimeout
 from rapidgen.client.rws.core import RwsCore
 from rapidgen.client.rws.effects import Flow, Pause
-from rapidgen.client.rws.errors import Busy, LoginFailed, NotObeyed, RwsError
+from rapidgen.client.rws.errors import Busy, LoginFailed, NotConfirmed, RwsError
 from rapidgen.client.rws.flows.connect import close, connect
 from rapidgen.client.rws.flows.files import volume
 from rapidgen.client.rws.flows.mastership import give, holder, take
@@ -102,7 +102,9 @@ def _gone(core: RwsCore, wait: float) -> Flow[None]:
             return
         yield Pause(_LOOK)
     yield from give(core, "cfg")
-    raise NotObeyed.because("RG655", f"{core.where} agreed to restart, and did not in {wait:g} s")
+    raise NotConfirmed.because(
+        "RG655", f"{core.where} agreed to restart, and did not in {wait:g} s"
+    )
 
 
 def wait_ready(core: RwsCore, *, wait: float = 180.0) -> Flow[None]:

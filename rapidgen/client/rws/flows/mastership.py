@@ -2,9 +2,9 @@
 
 from rapidgen.client.rws.core import APPLICATION, RwsCore
 from rapidgen.client.rws.effects import Flow, Pause, T
-from rapidgen.client.rws.errors import Held, RwsError
+from rapidgen.client.rws.errors import MastershipHeld, RwsError
 from rapidgen.client.rws.flows.request import ask
-from rapidgen.client.rws.model import Holder
+from rapidgen.client.rws.model import MastershipHolder
 from rapidgen.wire.rws import operations as ops
 from rapidgen.wire.rws.bodies import Generation
 
@@ -86,7 +86,7 @@ def give(core: RwsCore, domain: str = "rapid") -> Flow[None]:
         yield from ask(core, ops.RELEASE, {"domain": name})
 
 
-def holder(core: RwsCore, domain: str = "rapid") -> Flow[Holder | None]:
+def holder(core: RwsCore, domain: str = "rapid") -> Flow[MastershipHolder | None]:
     """Who has mastership of a domain; None: nobody."""
     name = domain_of(core, domain)
     if core.generation is Generation.EIGHT:
@@ -95,12 +95,12 @@ def holder(core: RwsCore, domain: str = "rapid") -> Flow[Holder | None]:
         if told is None or told.text("control-station-write-access-held").lower() != "true":
             return None
         mine = told.text("held-by-control-station-Id").upper() == core.station.upper()
-        return Holder(name, "", told.text("held-by-control-station-name"), "", mine)
+        return MastershipHolder(name, "", told.text("held-by-control-station-name"), "", mine)
     body, _ = yield from ask(core, ops.MASTERSHIP, {"domain": name})
     item = body.first("msh-resource")
     if item is None or item.text("mastership") == "nomaster":
         return None
-    return Holder(
+    return MastershipHolder(
         name,
         item.text("alias"),
         item.text("application"),
@@ -109,7 +109,7 @@ def holder(core: RwsCore, domain: str = "rapid") -> Flow[Holder | None]:
     )
 
 
-def _held_by(core: RwsCore, name: str) -> Flow[Held]:
+def _held_by(core: RwsCore, name: str) -> Flow[MastershipHeld]:
     who = yield from holder(core, name)
     own = who is not None and who.application == APPLICATION
     mend = "let them give it back or end their session, then try again (`wait=` in Python waits)"
@@ -118,4 +118,6 @@ def _held_by(core: RwsCore, name: str) -> Flow[Held]:
             "that is another run of rapidgen: if it was killed, the controller ends its session "
             "after five idle minutes; try again then (`deploy` and `wait=310` in Python wait)"
         )
-    return Held.because("RG654", f"mastership of {name} at {core.where} is held by {who}", mend)
+    return MastershipHeld.because(
+        "RG654", f"mastership of {name} at {core.where} is held by {who}", mend
+    )

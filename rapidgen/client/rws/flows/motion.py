@@ -2,7 +2,7 @@
 
 from rapidgen.client.rws.core import RwsCore
 from rapidgen.client.rws.effects import Flow
-from rapidgen.client.rws.errors import NotObeyed
+from rapidgen.client.rws.errors import NotConfirmed
 from rapidgen.client.rws.flows.panel import one
 from rapidgen.client.rws.flows.request import ask
 from rapidgen.client.rws.model import JointTarget, RobTarget
@@ -34,7 +34,7 @@ def rob_target(
     body, _ = yield from ask(core, ops.ROB_TARGET, {"unit": unit}, query=query)
     item = body.first("ms-robtargets")
     if item is None:
-        raise NotObeyed.because("RG655", f"{core.where} gives no robtarget of {unit}")
+        raise NotConfirmed.because("RG655", f"{core.where} gives no robtarget of {unit}")
     # eaxa as rpi's client reads it, eax_a as RWS4YuMi did on a YuMi.
     external = "eax" if "eaxa" in item.fields else "eax_"
     return RobTarget(
@@ -49,4 +49,4 @@ def _numbers(core: RwsCore, item: Item, names: list[str]) -> tuple[float, ...]:
     try:
         return tuple(float(item.text(name, "9E9")) for name in names)
     except ValueError as error:
-        raise NotObeyed.because("RG655", f"{core.where}: {item.title}: {error}") from error
+        raise NotConfirmed.because("RG655", f"{core.where}: {item.title}: {error}") from error

@@ -3,7 +3,7 @@
 from rapidgen.client.errors import NotReady
 from rapidgen.client.rws.core import RwsCore
 from rapidgen.client.rws.effects import Flow, Pause
-from rapidgen.client.rws.errors import NotObeyed
+from rapidgen.client.rws.errors import NotConfirmed
 from rapidgen.client.rws.flows.mastership import held
 from rapidgen.client.rws.flows.request import ask
 from rapidgen.client.rws.model import Identity, Panel, ProgramState
@@ -21,7 +21,7 @@ def one(core: RwsCore, operation: RwsOperation, *kinds: str, **names: str) -> Fl
     body, _ = yield from ask(core, operation, names)
     found = body.all(*kinds)
     if not found:
-        raise NotObeyed.because("RG655", f"{core.where} gives no {kinds[0]}")
+        raise NotConfirmed.because("RG655", f"{core.where} gives no {kinds[0]}")
     return found[0]
 
 
@@ -69,7 +69,7 @@ def motors(core: RwsCore, on: bool) -> Flow[None]:
         if state == wanted:
             return
         yield Pause(_LOOK)
-    raise NotObeyed.because(
+    raise NotConfirmed.because(
         "RG655",
         f"{core.where} agreed to {wanted}, and is in state {state}",
         "look at the emergency stop and the guard stop; `log()` tells more",
@@ -87,7 +87,7 @@ def set_speed(core: RwsCore, percent: int) -> Flow[None]:
         yield from held(core, "edit", ask(core, ops.SET_SPEED, form=form))
     told = yield from one(core, ops.SPEED, "pnl-speedratio")
     if told.text("speedratio") != str(percent):
-        raise NotObeyed.because(
+        raise NotConfirmed.because(
             "RG655", f"{core.where} agreed to {percent} %, and is at {told.text('speedratio')} %"
         )
 
@@ -127,7 +127,7 @@ def start(core: RwsCore, *, cycle: str = "asis") -> Flow[None]:
         if now.running:
             return
         yield Pause(_LOOK)
-    raise NotObeyed.because(
+    raise NotConfirmed.because(
         "RG655",
         f"{core.where} agreed to start, and the program does not run",
         "are the motors on, is the program pointer set? `log()` tells more",
@@ -151,6 +151,6 @@ def stop(core: RwsCore, *, everything: bool = False) -> Flow[None]:
         if not now.running:
             return
         yield Pause(_LOOK)
-    raise NotObeyed.because(
+    raise NotConfirmed.because(
         "RG655", f"{core.where} agreed to stop, and the program runs", "use the emergency stop"
     )

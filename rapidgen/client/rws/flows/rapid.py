@@ -2,7 +2,7 @@
 
 from rapidgen.client.rws.core import RwsCore
 from rapidgen.client.rws.effects import Flow
-from rapidgen.client.rws.errors import NotObeyed
+from rapidgen.client.rws.errors import NotConfirmed
 from rapidgen.client.rws.flows.mastership import held
 from rapidgen.client.rws.flows.panel import one
 from rapidgen.client.rws.flows.request import ask
@@ -44,7 +44,7 @@ def select_task(core: RwsCore, task: str, selected: bool) -> Flow[None]:
     now = yield from tasks(core)
     if not any(t.name.lower() == task.lower() and t.active == selected for t in now):
         word = "selected" if selected else "left out"
-        raise NotObeyed.because("RG655", f"{core.where} agreed, and {task} is not {word}")
+        raise NotConfirmed.because("RG655", f"{core.where} agreed, and {task} is not {word}")
 
 
 def modules(core: RwsCore, task: str) -> Flow[tuple[TaskModule, ...]]:
@@ -65,7 +65,7 @@ def module_text(core: RwsCore, task: str, module: str) -> Flow[str]:
     for item in body.items:
         if "module-text" in item.fields:
             return item.text("module-text")
-    raise NotObeyed.because("RG655", f"{core.where} gives no text of {module} in {task}")
+    raise NotConfirmed.because("RG655", f"{core.where} gives no text of {module} in {task}")
 
 
 def _of_task(core: RwsCore, task: str) -> tuple[dict[str, str], str]:
@@ -143,7 +143,7 @@ def symbol_text(core: RwsCore, path: str) -> Flow[str]:
     if item is None or "value" not in item.fields:
         why = "it is too large to be given whole" if item and item.links else "there is no value"
         mend = "read it by element: NAME{1}"
-        raise NotObeyed.because("RG655", f"{path} at {core.where}: {why}", mend)
+        raise NotConfirmed.because("RG655", f"{path} at {core.where}: {why}", mend)
     return item.text("value")
 
 
@@ -153,7 +153,7 @@ def symbol(core: RwsCore, path: str) -> Flow[RapidValue]:
     try:
         return read(text)
     except ValueError as error:
-        raise NotObeyed.because(
+        raise NotConfirmed.because(
             "RG655", f"{path} at {core.where} is no literal: {text!r}"
         ) from error
 
@@ -167,7 +167,7 @@ def set_symbol(core: RwsCore, path: str, value: RapidValue) -> Flow[None]:
         yield from held(core, "rapid", steps)
     now = yield from symbol(core, path)
     if not same(value, now):
-        raise NotObeyed.because(
+        raise NotConfirmed.because(
             "RG655", f"{core.where} agreed to set {path} to {write(value)}, and it is {now!r}"
         )
 

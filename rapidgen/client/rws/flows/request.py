@@ -4,7 +4,7 @@ import logging
 from collections.abc import Mapping
 
 from rapidgen.client.rws.core import RwsCore
-from rapidgen.client.rws.effects import Exchange, Flow, Forget, Pause, Response
+from rapidgen.client.rws.effects import DropConnections, Exchange, Flow, Pause, Response
 from rapidgen.client.rws.errors import Busy, LoginFailed, NotRws, RwsError
 from rapidgen.wire.rws import media
 from rapidgen.wire.rws.bodies import Body, Generation, Unreadable
@@ -80,7 +80,7 @@ def _send(
         if response.status == 401:
             if again and core.connected:
                 again = False
-                yield Forget()
+                yield DropConnections()
                 continue
             raise LoginFailed.because(
                 "RG651",

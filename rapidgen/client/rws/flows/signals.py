@@ -4,7 +4,7 @@ from urllib.parse import parse_qs
 
 from rapidgen.client.rws.core import RwsCore
 from rapidgen.client.rws.effects import Flow
-from rapidgen.client.rws.errors import NotObeyed
+from rapidgen.client.rws.errors import NotConfirmed
 from rapidgen.client.rws.flows.panel import one
 from rapidgen.client.rws.flows.request import ask
 from rapidgen.client.rws.model import SignalState
@@ -39,7 +39,7 @@ def _signal(item: Item) -> SignalState:
     try:
         value = float(text)
     except ValueError as error:
-        raise NotObeyed.because("RG655", f"a signal has the value {text!r}") from error
+        raise NotConfirmed.because("RG655", f"a signal has the value {text!r}") from error
     name = item.text("name") or item.title.rpartition("/")[2]
     simulated = item.text("lstate") == "simulated"
     return SignalState(name, item.title or name, item.text("type"), value, simulated)
@@ -50,7 +50,7 @@ def set_signal(core: RwsCore, name: str, value: float) -> Flow[SignalState]:
     yield from ask(core, ops.SET_SIGNAL, {"signal": name}, {"lvalue": f"{float(value):g}"})
     now = yield from signal(core, name)
     if abs(now.value - value) > 1e-4 * max(1.0, abs(value)):
-        raise NotObeyed.because(
+        raise NotConfirmed.because(
             "RG655",
             f"{core.where} agreed to set {name} to {value:g}, and it is {now.value:g}",
             "is it blocked or simulated, or does a program set it, too?",

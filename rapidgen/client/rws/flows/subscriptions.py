@@ -25,7 +25,7 @@ _TWINS = ("rap-data",)
 
 
 @dataclass(frozen=True, slots=True)
-class Opened:
+class SubscriptionGroup:
     """A subscription: its group, the path of its websocket, what everything is now."""
 
     group: str
@@ -33,7 +33,7 @@ class Opened:
     events: tuple[ResourceEvent, ...]
 
 
-def subscribe(core: RwsCore, topics: Sequence[Topic]) -> Flow[Opened]:
+def subscribe(core: RwsCore, topics: Sequence[Topic]) -> Flow[SubscriptionGroup]:
     """Ask to be told of topics. Raises RwsError (RG650), NotRws (RG653)."""
     yield from connect(core)
     wanted = [WantedResource(topic.resource(core.generation), topic.priority) for topic in topics]
@@ -44,10 +44,10 @@ def subscribe(core: RwsCore, topics: Sequence[Topic]) -> Flow[Opened]:
     except ValueError as error:
         raise NotRws.because("RG653", f"{core.where} gives no subscription: {error}") from error
     events = yield from _told(core, topics, body.items)
-    return Opened(group, path, events)
+    return SubscriptionGroup(group, path, events)
 
 
-def again(core: RwsCore, topics: Sequence[Topic], wait: float) -> Flow[Opened]:
+def again(core: RwsCore, topics: Sequence[Topic], wait: float) -> Flow[SubscriptionGroup]:
     """The same after the connection was lost, or the controller restarted."""
     yield from wait_ready(core, wait=wait)
     return (yield from subscribe(core, topics))

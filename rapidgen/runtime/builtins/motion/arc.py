@@ -8,7 +8,7 @@ Weaving, tracking and heating move nothing here: the event log says so.
 
 from rapidgen.machine.arc_equipment import REFERENCES, ArcEquipment
 from rapidgen.machine.scheduler import S
-from rapidgen.motion.moves import From, PathEvent
+from rapidgen.motion.moves import MeasuredFrom, PathEvent
 from rapidgen.runtime.builtins.io import fitting
 from rapidgen.runtime.builtins.motion.cartesian_request import cartesian_move, joint_move
 from rapidgen.runtime.builtins.motion.enqueue import bind, order
@@ -60,13 +60,13 @@ def weld(task: Task, name: str, given: Arguments) -> None:
         arc.set_gas(True)
 
     if welds and begins:
-        events.append(PathEvent(From.BEFORE_END, seam.purge_time, open_gas))
+        events.append(PathEvent(MeasuredFrom.BEFORE_END, seam.purge_time, open_gas))
         if not stops:
-            events.append(PathEvent(From.MIDDLE, 0.0, lambda: _burn(arc, data)))
+            events.append(PathEvent(MeasuredFrom.MIDDLE, 0.0, lambda: _burn(arc, data)))
     elif welds:
-        events.append(PathEvent(From.START, 0.0, lambda: arc.refer(data)))
+        events.append(PathEvent(MeasuredFrom.START, 0.0, lambda: arc.refer(data)))
         if ends and not stops:
-            events.append(PathEvent(From.MIDDLE, 0.0, arc.put_out))
+            events.append(PathEvent(MeasuredFrom.MIDDLE, 0.0, arc.put_out))
     at_weld_speed = welds and not begins
     speed = {"V": given["Weld"].weld_speed if at_weld_speed else None, "T": given["Time"]}
     order(task, {**given, **speed}, cartesian_move, tuple(events))

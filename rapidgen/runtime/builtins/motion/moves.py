@@ -12,7 +12,15 @@ from math import inf
 
 from rapidgen.axes.kinematics import Posture
 from rapidgen.motion.group import MotionGroup
-from rapidgen.motion.moves import FINE, Carrier, From, JointMove, Move, MoveSpeed, PathEvent
+from rapidgen.motion.moves import (
+    FINE,
+    JointMove,
+    MeasuredFrom,
+    Move,
+    MoveFrames,
+    MoveSpeed,
+    PathEvent,
+)
 from rapidgen.runtime.builtins.io import fitting
 from rapidgen.runtime.builtins.motion.arguments import (
     Offsets,
@@ -52,7 +60,7 @@ def absolute_move(
     offsets = NO_OFFSETS if given["NoEOffs"] else data.external_offset
     tool = given["Tool"].get()
     work_object = given["WObj"].get() if given["WObj"] is not None else None
-    carrier = Carrier()
+    carrier = MoveFrames()
     if group.kinematics is not None:
         carrier = carrier_of(group, tool, work_object)
     check_loads(task, group, given)
@@ -84,7 +92,7 @@ def external_move(task: Task, given: Arguments) -> tuple[MotionGroup, JointMove,
         )
     )
     speed = replace(speed_of(given["Speed"], None, group.modal), tcp=inf, orientation=inf)
-    return group, _joint_move(task, group, given, target, speed, Carrier()), offsets
+    return group, _joint_move(task, group, given, target, speed, MoveFrames()), offsets
 
 
 def _joint_move(
@@ -93,7 +101,7 @@ def _joint_move(
     given: Arguments,
     target: Posture,
     speed: MoveSpeed,
-    carrier: Carrier,
+    carrier: MoveFrames,
 ) -> JointMove:
     """Without a `Zone` (searches) it ends in a stop point."""
     stop = given.get("Inpos")
@@ -117,7 +125,7 @@ def _setting(task: Task, given: Arguments) -> tuple[PathEvent]:
     signal, value = given["Signal"].signal, given["Value"]
     wanted = fitting(signal, given["Dvalue"] if value is None else value)
     io = task.controller.io
-    return (PathEvent(From.MIDDLE, 0.0, lambda: io.set(signal, wanted)),)
+    return (PathEvent(MeasuredFrom.MIDDLE, 0.0, lambda: io.set(signal, wanted)),)
 
 
 def _calling(task: Task, given: Arguments) -> tuple[PathEvent]:
@@ -131,7 +139,7 @@ def _calling(task: Task, given: Arguments) -> tuple[PathEvent]:
         task.interrupts.queue.append((Interrupt(0, routine), None))
         task.kick()
 
-    return (PathEvent(From.MIDDLE, 0.0, call),)
+    return (PathEvent(MeasuredFrom.MIDDLE, 0.0, call),)
 
 
 bind("MoveJ", joint_move)

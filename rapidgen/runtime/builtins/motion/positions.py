@@ -4,7 +4,7 @@ Sources: S4 datasys 3-CJointT, 3-CRobT, 3-CTool; 3HAC050917 for CalcJointT and C
 """
 
 from rapidgen.motion.group import MotionGroup
-from rapidgen.motion.moves import Carrier
+from rapidgen.motion.moves import MoveFrames
 from rapidgen.rapid.numbers import single
 from rapidgen.runtime.builtins.motion.arguments import (
     external_values,
@@ -50,7 +50,7 @@ def _identity() -> Value:
 
 def carrier_for(
     task: Task, group: MotionGroup, tool: Ref | None, work_object: Ref | None
-) -> Carrier:
+) -> MoveFrames:
     """Frames of the given tool and object; those left out are the active ones.
 
     With a tool given, a work object left out is still the active one (S4 datasys 3-CRobT-1).
@@ -154,7 +154,7 @@ def calc_joint_t(
     return joint_target(group.map, posture, offsets)
 
 
-def _carrier(group: MotionGroup, tool: Ref, work_object: Ref | None) -> Carrier:
+def _carrier(group: MotionGroup, tool: Ref, work_object: Ref | None) -> MoveFrames:
     return carrier_of(group, tool.get(), work_object.get() if work_object is not None else None)
 
 

@@ -7,7 +7,7 @@ end together (`together.py`).
 
 from collections.abc import Iterable
 
-from rapidgen.machine.sync_points import Meeting
+from rapidgen.machine.sync_points import SyncPoint
 from rapidgen.runtime.builtins.control import wait_standing
 from rapidgen.runtime.builtins.motion.task_group import data_of, group_of, moving_group
 from rapidgen.runtime.errors import FatalError, RapidError
@@ -45,7 +45,7 @@ def _meet(
 ) -> None:
     """Wait until all members are at the point; `error` when `time_out` s passed first."""
     meetings = task.controller.meetings.points
-    meeting = meetings.setdefault((point, members), Meeting(members))
+    meeting = meetings.setdefault((point, members), SyncPoint(members))
     own = task.name.lower()
     meeting.arrived.add(own)
     if meeting.arrived == meeting.members:

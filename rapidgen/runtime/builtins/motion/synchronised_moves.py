@@ -6,7 +6,7 @@ of its \\ID; all then take the time of the longest [mem: MultiMove is in no publ
 
 from dataclasses import replace
 
-from rapidgen.machine.sync_points import Gathering
+from rapidgen.machine.sync_points import SyncMoveGroup
 from rapidgen.motion.group import MotionGroup
 from rapidgen.motion.moves import Move
 from rapidgen.runtime.builtins.motion.task_group import data_of
@@ -27,7 +27,7 @@ def together(task: Task, group: MotionGroup, move: Move, identity: float | None)
         raise FatalError(NOT_ALLOWED, "\\ID is missing", "between SyncMoveOn and SyncMoveOff")
     gatherings = task.controller.meetings.moves
     point, own = (data.partners, identity), task.name.lower()
-    gathering = gatherings.setdefault(point, Gathering())
+    gathering = gatherings.setdefault(point, SyncMoveGroup())
     gathering.times[own] = group.whole_time(move)
     if gathering.times.keys() == data.partners:
         gathering.longest = max(gathering.times.values())

@@ -11,7 +11,7 @@ from rapidgen.axes.kinematics import (
 )
 from rapidgen.axes.reach_errors import unreached
 from rapidgen.motion.group import MotionGroup
-from rapidgen.motion.moves import Carrier
+from rapidgen.motion.moves import MoveFrames
 from rapidgen.rapid.numbers import single
 from rapidgen.runtime.builtins.motion.arguments import (
     Offsets,
@@ -25,7 +25,7 @@ from rapidgen.runtime.motion_faults import FRAMES_CONTRADICT, NO_GEOMETRY, NOT_C
 from rapidgen.runtime.values import ConfData, Orient, Pos, RobTarget, Value
 
 
-def carrier_of(group: MotionGroup, tool: Value, work_object: Value) -> Carrier:
+def carrier_of(group: MotionGroup, tool: Value, work_object: Value) -> MoveFrames:
     """Frames of tooldata and wobjdata (None: wobj0) with the program displacement.
 
     Exactly one of them is held by the robot (S4 datasys 2-MoveAbsJ-3). With ufprog FALSE the user
@@ -45,7 +45,7 @@ def carrier_of(group: MotionGroup, tool: Value, work_object: Value) -> Carrier:
             placed = frames.compose(frame(work_object.uframe), placed)
         else:
             unit = _unit(group, work_object)
-    return Carrier(
+    return MoveFrames(
         tool=frame(tool.tframe),
         object=frames.compose(placed, group.modal.displacement),
         stationary=not tool.robhold,
@@ -146,7 +146,9 @@ def configuration_of(data: Value) -> AxisConfiguration:
     return int(data.cf1), int(data.cf4), int(data.cf6), int(data.cfx)
 
 
-def rob_target(group: MotionGroup, posture: Posture, carrier: Carrier, offsets: Offsets) -> Value:
+def rob_target(
+    group: MotionGroup, posture: Posture, carrier: MoveFrames, offsets: Offsets
+) -> Value:
     """A posture as a fresh robtarget in the frames of a tool and an object."""
     kinematics = geometry_of(group)
     (x, y, z), q = carrier.at(posture).pose(kinematics.forward(posture))

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from operator import eq, ge, gt, le, lt, ne
 
-from rapidgen.motion.moves import From, PathEvent
+from rapidgen.motion.moves import MeasuredFrom, PathEvent
 from rapidgen.runtime.builtins.io import fitting
 from rapidgen.runtime.builtins.motion.cartesian_request import cartesian_move, joint_move
 from rapidgen.runtime.builtins.motion.enqueue import bind
@@ -27,7 +27,9 @@ class TriggData:
 
     event: PathEvent | None = None
 
-    def set(self, where: From, amount: float, act: Callable[[], None], lag: float = 0.0) -> None:
+    def set(
+        self, where: MeasuredFrom, amount: float, act: Callable[[], None], lag: float = 0.0
+    ) -> None:
         """Prepare: `amount` m or s, see PathEvent."""
         self.event = PathEvent(where, amount, act, lag)
 
@@ -42,14 +44,14 @@ _RELATIONS = {1: lt, 2: le, 3: eq, 4: ne, 5: ge, 6: gt}
 """opnum [mem]"""
 
 
-def _where(given: Arguments) -> tuple[From, float]:
+def _where(given: Arguments) -> tuple[MeasuredFrom, float]:
     """The place, and m from there or (\\Time) s. ERR_ARGVALERR: negative."""
     distance = given["Distance"]
     if distance < 0:
         raise RapidError("ERR_ARGVALERR", f"Distance {distance:g}")
     if given.get("Time"):
-        return From.BEFORE_END, distance
-    return (From.START if given["Start"] else From.END), distance / 1000
+        return MeasuredFrom.BEFORE_END, distance
+    return (MeasuredFrom.START if given["Start"] else MeasuredFrom.END), distance / 1000
 
 
 def _inhibited(given: Arguments) -> bool:

@@ -8,28 +8,28 @@ from rapidgen._reading import read_foreign
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.servers.rws.default_cfg import DOMAINS, built_in
 from rapidgen.servers.rws.disks import disk_path
-from rapidgen.servers.rws.messages import Denied, RwsRequest, Served, show
+from rapidgen.servers.rws.messages import RequestDenied, RwsRequest, RwsResponse, show
 from rapidgen.servers.rws.pagination import page
 from rapidgen.servers.rws.routing import serves
 from rapidgen.system.cfg import Attribute, CfgText, Instance, Section, parse_cfg, scalar, write_cfg
-from rapidgen.system.cfg_loading import Addition, Loaded, add, identity_text
+from rapidgen.system.cfg_loading import CfgFileLoad, LoadResult, add, identity_text
 from rapidgen.system.paths import MAX_FILE
 from rapidgen.wire.rws import operations as ops
 from rapidgen.wire.rws.bodies import Item
 from rapidgen.wire.rws.codes import OK
 
 if TYPE_CHECKING:
-    from rapidgen.servers.rws.context import Office
+    from rapidgen.servers.rws.context import RwsContext
 
 
-def _domain(office: "Office", asked: RwsRequest) -> CfgText:
+def _domain(office: "RwsContext", asked: RwsRequest) -> CfgText:
     name = asked.names["domain"].upper()
     for text in office.cabinet.cfg.domains:
         if text.domain == name:
             return text
     if name in DOMAINS:
         return CfgText(name, office.cabinet.cfg.domains[0].version, ())
-    raise Denied(400 if asked.is_one else 404, "E_CFG_DOMAIN_INVALID", name)
+    raise RequestDenied(400 if asked.is_one else 404, "E_CFG_DOMAIN_INVALID", name)
 
 
 def _title(section: str, instance: Instance) -> str:
@@ -37,7 +37,7 @@ def _title(section: str, instance: Instance) -> str:
 
 
 @serves(ops.CFG)
-def get_domains(office: "Office", asked: RwsRequest) -> Served:
+def get_domains(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """The domains."""
     return show(
         *(Item("cfg-domain-li", name) for name in DOMAINS),
@@ -46,7 +46,7 @@ def get_domains(office: "Office", asked: RwsRequest) -> Served:
 
 
 @serves(ops.CFG_DOMAIN)
-def get_types(office: "Office", asked: RwsRequest) -> Served:
+def get_types(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """Types of a domain."""
     text = _domain(office, asked)
     names = dict.fromkeys(section.name for section in text.sections)
@@ -55,35 +55,35 @@ def get_types(office: "Office", asked: RwsRequest) -> Served:
 
 
 @serves(ops.CFG_INSTANCES)
-def get_instances(office: "Office", asked: RwsRequest) -> Served:
+def get_instances(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """Instances of a type with their attributes: by seventy in RWS 2.0 [VC 7.21]."""
     found = [_item(asked, i) for i in _instances(office, asked)]
     return page(asked, found, 70, "instances", always=True)
 
 
 @serves(ops.CFG_INSTANCE)
-def get_instance(office: "Office", asked: RwsRequest) -> Served:
+def get_instance(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """One instance."""
     return show(_item(asked, _one(office, asked)))
 
 
-def _instances(office: "Office", asked: RwsRequest) -> Iterator[Instance]:
+def _instances(office: "RwsContext", asked: RwsRequest) -> Iterator[Instance]:
     """Instances of the database; where it has none of a type, those that are built in."""
     text, kind = _domain(office, asked), asked.names["type"]
     found = tuple(text.instances(kind))
     return iter(found or built_in(office).get((text.domain, kind.upper()), ()))
 
 
-def _is_built_in(office: "Office", text: CfgText, kind: str) -> bool:
+def _is_built_in(office: "RwsContext", text: CfgText, kind: str) -> bool:
     return (text.domain, kind.upper()) in built_in(office)
 
 
-def _one(office: "Office", asked: RwsRequest) -> Instance:
+def _one(office: "RwsContext", asked: RwsRequest) -> Instance:
     name, section = asked.names["instance"], asked.names["type"]
     for instance in _instances(office, asked):
         if _title(section, instance).casefold() == name.casefold():
             return instance
-    raise Denied(400 if asked.is_one else 404, "E_CFG_INSTANCE_INVALID", name)
+    raise RequestDenied(400 if asked.is_one else 404, "E_CFG_INSTANCE_INVALID", name)
 
 
 def _item(asked: RwsRequest, instance: Instance) -> Item:
@@ -101,7 +101,7 @@ def _value(attribute: Attribute) -> str:
 
 
 @serves(ops.CFG_ATTRIBUTES)
-def get_attributes(office: "Office", asked: RwsRequest) -> Served:
+def get_attributes(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """Attributes that instances of a type have."""
     names = dict.fromkeys(a.name for i in _instances(office, asked) for a in i.attributes)
     found = (Item("cfg-dt-attribute", name, {"name": name, "mandatory": "false"}) for name in names)
@@ -111,11 +111,11 @@ def get_attributes(office: "Office", asked: RwsRequest) -> Served:
 # -- single instances ----------------------------------------------------------------------------
 
 
-def _with(office: "Office", asked: RwsRequest, instances: tuple[Instance, ...]) -> None:
+def _with(office: "RwsContext", asked: RwsRequest, instances: tuple[Instance, ...]) -> None:
     """The database with these instances of a type, in place of those that it has."""
     text, name = _domain(office, asked), asked.names["type"]
     if not any(True for _ in text.instances(name)) and _is_built_in(office, text, name):
-        raise Denied(403, "E_REJECT", f"{name} is read only", -2)
+        raise RequestDenied(403, "E_REJECT", f"{name} is read only", -2)
     at = [i for i, s in enumerate(text.sections) if s.name.casefold() == name.casefold()]
     sections = [None if i in at else s for i, s in enumerate(text.sections)]
     if not at:
@@ -134,7 +134,7 @@ def _attribute(name: str, value: str, *, is_one: bool) -> Attribute | None:
     """`Attr=v` in RWS 1.0, `Attr=[v,1]` in 2.0; None: a flag that is false."""
     if not is_one:
         if not (value.startswith("[") and value.endswith("]") and "," in value):
-            raise Denied(400, "E_CFG_ATTRIBUTE_INVALID", f"{name}={value}: [value,1]")
+            raise RequestDenied(400, "E_CFG_ATTRIBUTE_INVALID", f"{name}={value}: [value,1]")
         value = value[1:-1].rpartition(",")[0]
     if value.lower() in ("true", "false"):
         return Attribute(name) if value.lower() == "true" else None
@@ -142,7 +142,7 @@ def _attribute(name: str, value: str, *, is_one: bool) -> Attribute | None:
 
 
 @serves(ops.CFG_SET)
-def set_instance(office: "Office", asked: RwsRequest) -> None:
+def set_instance(office: "RwsContext", asked: RwsRequest) -> None:
     """Give attributes of an instance new values."""
     if not asked.is_one:  # RobotWare 6 takes mastership by itself [VC 6.16]
         office.masters.need(asked, "cfg")
@@ -158,20 +158,20 @@ def set_instance(office: "Office", asked: RwsRequest) -> None:
 
 
 @serves(ops.CFG_CREATE)
-def create_instance(office: "Office", asked: RwsRequest) -> Served:
+def create_instance(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """A new instance with a name and nothing else."""
     if not asked.is_one:
         office.masters.need(asked, "cfg")
     name, section = asked.field("name"), asked.names["type"]
     present = tuple(_instances(office, asked))
     if any(_title(section, i).casefold() == name.casefold() for i in present):
-        raise Denied(400, "E_CFG_NAME_EXIST", name)
+        raise RequestDenied(400, "E_CFG_NAME_EXIST", name)
     _with(office, asked, (*present, Instance((Attribute("Name", (name,)),))))
-    return Served(201)
+    return RwsResponse(201)
 
 
 @serves(ops.CFG_DELETE)
-def delete_instance(office: "Office", asked: RwsRequest) -> None:
+def delete_instance(office: "RwsContext", asked: RwsRequest) -> None:
     """Take an instance out."""
     if not asked.is_one:
         office.masters.need(asked, "cfg")
@@ -182,36 +182,36 @@ def delete_instance(office: "Office", asked: RwsRequest) -> None:
 # -- whole files ---------------------------------------------------------------------------------
 
 
-def _load(office: "Office", asked: RwsRequest) -> Loaded:
+def _load(office: "RwsContext", asked: RwsRequest) -> LoadResult:
     """The database with a file loaded; with `add` any conflict refuses it whole. Denied."""
     mode = asked.field("action-type", ("add", "replace", "add-with-reset"))
     words = asked.field("filepath")
     if words.startswith("/fileservice"):
-        raise Denied(400, "E_INVALID_PATH", f"{words}: a bare path is wanted")
+        raise RequestDenied(400, "E_INVALID_PATH", f"{words}: a bare path is wanted")
     path = disk_path(office, words, asked)
     try:
         data = read_foreign(path, MAX_FILE)
         text = parse_cfg(data, path=words)
     except OSError as error:
-        raise Denied(400 if asked.is_one else 404, "E_FILE_NOT_FOUND", words) from error
+        raise RequestDenied(400 if asked.is_one else 404, "E_FILE_NOT_FOUND", words) from error
     except DiagnosticError as error:
-        raise Denied(400, "E_CFG_DATA_INCORRECT", str(error)) from error
+        raise RequestDenied(400, "E_CFG_DATA_INCORRECT", str(error)) from error
     base = office.cabinet.cfg
     if mode == "add-with-reset":
         kept = tuple(d for d in base.domains if d.domain != text.domain)
         base = replace(base, domains=(*kept, CfgText(text.domain, text.version, ())))
-    addition = Addition(text, replace=mode == "replace", ascii=data.isascii())
+    addition = CfgFileLoad(text, replace=mode == "replace", ascii=data.isascii())
     return add(base, [addition], open_words=True)
 
 
-def _why(loaded: Loaded) -> tuple[str, str]:
+def _why(loaded: LoadResult) -> tuple[str, str]:
     first = loaded.faults[0]
     exists = first.code == "RG721"
     return ("E_CFG_NAME_EXIST" if exists else "E_CFG_DATA_INCORRECT"), first.message
 
 
 @serves(ops.CFG_LOAD)
-def load(office: "Office", asked: RwsRequest) -> Served | None:
+def load(office: "RwsContext", asked: RwsRequest) -> RwsResponse | None:
     """Load a file; RWS 2.0 says where the job's end is told."""
     office.masters.need(asked, "cfg")
     loaded = _load(office, asked)
@@ -220,26 +220,26 @@ def load(office: "Office", asked: RwsRequest) -> Served | None:
             office.controller.log.error(120_003, "Configuration file not loaded", fault.message)
         name, why = _why(loaded)
         if asked.is_one:
-            raise Denied(400, name, why)
+            raise RequestDenied(400, name, why)
         return office.started(name)
     office.cabinet.cfg = loaded.cfg
     return None if asked.is_one else office.started("")
 
 
 @serves(ops.CFG_VALIDATE)
-def validate(office: "Office", asked: RwsRequest) -> Served:
+def validate(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """What a load would say; nothing is changed."""
     loaded = _load(office, asked)
     if loaded.faults:
-        raise Denied(400, *_why(loaded))
+        raise RequestDenied(400, *_why(loaded))
     return show(Item("cfg-validate", "validate", {"code": str(OK)}))
 
 
 @serves(ops.CFG_SAVE)
-def save(office: "Office", asked: RwsRequest) -> None:
+def save(office: "RwsContext", asked: RwsRequest) -> None:
     """Write a domain to a file, whose path begins with /fileservice."""
     words = asked.field("filepath")
     if not words.startswith("/fileservice/"):
-        raise Denied(400, "E_INVALID_PATH", f"{words}: /fileservice/... is wanted")
+        raise RequestDenied(400, "E_INVALID_PATH", f"{words}: /fileservice/... is wanted")
     data = write_cfg(_domain(office, asked)).encode()
     office.write_file(disk_path(office, words, asked), data)

@@ -6,16 +6,16 @@ TPReadFK and TPReadNum are answered by `TPAnswer` and then `TPCompleted`, the ot
 from typing import TYPE_CHECKING
 
 from rapidgen.machine.operator import Question
-from rapidgen.servers.rws.messages import Denied, RwsRequest, Served, show
+from rapidgen.servers.rws.messages import RequestDenied, RwsRequest, RwsResponse, show
 from rapidgen.servers.rws.routing import serves
 from rapidgen.wire.rws import operations as ops
 from rapidgen.wire.rws.bodies import Item
 
 if TYPE_CHECKING:
-    from rapidgen.servers.rws.context import Office
+    from rapidgen.servers.rws.context import RwsContext
 
 
-def active(office: "Office") -> Question | None:
+def active(office: "RwsContext") -> Question | None:
     """The dialog of a task that waits on the pendant, the newest; None: there is none."""
     found = [q for q in office.controller.operator.questions if q.task]
     return found[-1] if found else None
@@ -38,28 +38,28 @@ def told(question: Question, event: str = "SEND") -> dict[str, str]:
 
 
 @serves(ops.DIALOG)
-def get_dialog(office: "Office", asked: RwsRequest) -> Served:
+def get_dialog(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """The dialog that waits; 404 while none does [VC 6.16]."""
     question = active(office)
     if question is None:
-        raise Denied(404, "E_NO_DATA", "no active UI instruction")
+        raise RequestDenied(404, "E_NO_DATA", "no active UI instruction")
     links = {"params": f"active/params/{stack_of(question)}".replace("%", "%25")}
     return show(Item("rap-uiactive-li", question.dialog, told(question), links))
 
 
-def _asked_for(office: "Office", asked: RwsRequest) -> Question:
+def _asked_for(office: "RwsContext", asked: RwsRequest) -> Question:
     stack = asked.names["stack"].lower()
     for question in office.controller.operator.questions:
         if question.task and stack_of(question).lower() in (stack, stack.replace("/$", "/%$")):
             return question
-    raise Denied(404, "E_NO_DATA", f"no UI instruction {stack}")
+    raise RequestDenied(404, "E_NO_DATA", f"no UI instruction {stack}")
 
 
 def _quoted(text: str) -> str:
     return '"' + text.replace('"', '""') + '"'
 
 
-def _parameters(office: "Office", question: Question) -> dict[str, str]:
+def _parameters(office: "RwsContext", question: Question) -> dict[str, str]:
     """Values by name, as RAPID literals."""
     chosen = office.dialogs.get(question.number, "")
     if question.dialog.startswith("TP"):
@@ -78,7 +78,7 @@ def _parameters(office: "Office", question: Question) -> dict[str, str]:
 
 
 @serves(ops.DIALOG_PARAMETERS)
-def get_parameters(office: "Office", asked: RwsRequest) -> Served:
+def get_parameters(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """All parameters of a dialog."""
     found = _parameters(office, _asked_for(office, asked)).items()
     items = (Item("rap-uiparams-li", name, {"value": value}) for name, value in found)
@@ -86,17 +86,17 @@ def get_parameters(office: "Office", asked: RwsRequest) -> Served:
 
 
 @serves(ops.DIALOG_PARAMETER)
-def get_parameter(office: "Office", asked: RwsRequest) -> Served:
+def get_parameter(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """One parameter of a dialog."""
     question, name = _asked_for(office, asked), asked.names["parameter"]
     found = {k.lower(): v for k, v in _parameters(office, question).items()}.get(name.lower())
     if found is None:
-        raise Denied(404, "E_NO_DATA", f"no parameter {name}")
+        raise RequestDenied(404, "E_NO_DATA", f"no parameter {name}")
     return show(Item("rap-uiparam", f"{stack_of(question)}/{name}", {"value": found}))
 
 
 @serves(ops.SET_DIALOG_PARAMETER)
-def set_parameter(office: "Office", asked: RwsRequest) -> None:
+def set_parameter(office: "RwsContext", asked: RwsRequest) -> None:
     """Answer: the dialog is gone when it is complete, and the program goes on."""
     office.masters.need_mode(asked.session)
     question, name = _asked_for(office, asked), asked.names["parameter"].lower()
@@ -109,17 +109,17 @@ def set_parameter(office: "Office", asked: RwsRequest) -> None:
         if name == "result":
             _answer(office, question, value)
     elif name not in {k.lower() for k in _parameters(office, question)}:
-        raise Denied(404, "E_NO_DATA", f"no parameter {name}")
+        raise RequestDenied(404, "E_NO_DATA", f"no parameter {name}")
     else:
-        raise Denied(400, "E_INVALIDARG", f"{name} is no answer")
+        raise RequestDenied(400, "E_INVALIDARG", f"{name} is no answer")
 
 
-def _answer(office: "Office", question: Question, value: str) -> None:
+def _answer(office: "RwsContext", question: Question, value: str) -> None:
     text = value
     if len(value) > 1 and value[0] == value[-1] == '"':
         text = value[1:-1].replace('""', '"')
     try:
         office.controller.operator.answer(question.number, text)
     except ValueError as error:
-        raise Denied(400, "E_INVALIDARG", str(error)) from error
+        raise RequestDenied(400, "E_INVALIDARG", str(error)) from error
     office.dialogs.pop(question.number, None)

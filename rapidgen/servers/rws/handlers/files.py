@@ -8,41 +8,41 @@ from typing import TYPE_CHECKING
 from rapidgen._reading import read_foreign
 from rapidgen.machine.files import CAPACITY
 from rapidgen.servers.rws.disks import VOLUMES, disk_path
-from rapidgen.servers.rws.messages import Denied, RwsRequest, Served, show
+from rapidgen.servers.rws.messages import RequestDenied, RwsRequest, RwsResponse, show
 from rapidgen.servers.rws.routing import serves
 from rapidgen.wire.rws import operations as ops
 from rapidgen.wire.rws.bodies import Item
 
 if TYPE_CHECKING:
-    from rapidgen.servers.rws.context import Office
+    from rapidgen.servers.rws.context import RwsContext
 
 
 @serves(ops.VOLUMES)
-def volumes(office: "Office", asked: RwsRequest) -> Served:
+def volumes(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """Volumes: variables with a `$` in RWS 1.0 [VC 6.16]."""
     kind, sign = asked.kind("fs-device", "fs-dir"), asked.kind("$", "")
     return show(*(Item(kind, f"{sign}{name}") for name in VOLUMES), collection=True)
 
 
-def _path(office: "Office", asked: RwsRequest) -> Path:
+def _path(office: "RwsContext", asked: RwsRequest) -> Path:
     return disk_path(office, asked.names["path"], asked)
 
 
-def _missing(asked: RwsRequest, what: str) -> Denied:
+def _missing(asked: RwsRequest, what: str) -> RequestDenied:
     if asked.is_one:
-        return Denied(404, "E_FAIL", f"no file {what}")
-    return Denied(404, "E_DIR_NOT_EXIST", f"no file {what}")
+        return RequestDenied(404, "E_FAIL", f"no file {what}")
+    return RequestDenied(404, "E_DIR_NOT_EXIST", f"no file {what}")
 
 
 @serves(ops.READ_FILE)
-def read(office: "Office", asked: RwsRequest) -> Served:
+def read(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """A file as it is, or what lies in a folder."""
     path = _path(office, asked)
     if path.is_dir():
         entries = sorted(path.iterdir(), key=lambda p: p.name.lower())
         return show(*(_entry(p) for p in entries if not p.is_symlink()), collection=True)
     try:
-        return Served(200, data=read_foreign(path, CAPACITY))
+        return RwsResponse(200, data=read_foreign(path, CAPACITY))
     except OSError as error:
         raise _missing(asked, asked.names["path"]) from error
 
@@ -59,22 +59,22 @@ def _entry(path: Path) -> Item:
 
 
 @serves(ops.WRITE_FILE)
-def write(office: "Office", asked: RwsRequest) -> Served:
+def write(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """Write a file: 201 for a new one, 200 for another [VC 6.16, VC 7.21]."""
     path = _path(office, asked)
     if path.is_dir():
-        raise Denied(400, "E_DIR_EXIST", asked.names["path"])
+        raise RequestDenied(400, "E_DIR_EXIST", asked.names["path"])
     if not path.parent.is_dir():
         raise _missing(asked, asked.names["path"])
-    return Served(201 if office.write_file(path, asked.body) else 200)
+    return RwsResponse(201 if office.write_file(path, asked.body) else 200)
 
 
 @serves(ops.DELETE_FILE)
-def delete(office: "Office", asked: RwsRequest) -> None:
+def delete(office: "RwsContext", asked: RwsRequest) -> None:
     """Delete a file, or a folder with all that is in it."""
     path = _path(office, asked)
     if _is_volume(office, path):
-        raise Denied(403, "E_REJECT", "a volume cannot be deleted", -2)
+        raise RequestDenied(403, "E_REJECT", "a volume cannot be deleted", -2)
     try:
         if path.is_dir():
             shutil.rmtree(path)
@@ -84,68 +84,68 @@ def delete(office: "Office", asked: RwsRequest) -> None:
         raise _missing(asked, asked.names["path"]) from error
 
 
-def _is_volume(office: "Office", path: Path) -> bool:
+def _is_volume(office: "RwsContext", path: Path) -> bool:
     """Whether it is a disk itself, however it was spelled: `HOME/.`, `HOME/a/..`."""
     return path.parent == office.controller.files.folder
 
 
 @serves(ops.FILE_ACTION)
-def act(office: "Office", asked: RwsRequest) -> Served | None:
+def act(office: "RwsContext", asked: RwsRequest) -> RwsResponse | None:
     """RWS 1.0: `fs-action` says what; it must stand in the body."""
     action = asked.field("fs-action", ("create", "copy", "rename"))
     return {"create": create, "copy": copy, "rename": rename}[action](office, asked)
 
 
 @serves(ops.CREATE_FOLDER)
-def create(office: "Office", asked: RwsRequest) -> Served:
+def create(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """A new folder."""
     path = _new(office, asked, _path(office, asked), asked.names["path"])
     try:
         path.mkdir()
     except FileExistsError as error:
-        raise Denied(400, "E_DIR_EXIST", path.name) from error
+        raise RequestDenied(400, "E_DIR_EXIST", path.name) from error
     except OSError as error:
         raise _missing(asked, asked.names["path"]) from error
-    return Served(201)
+    return RwsResponse(201)
 
 
 @serves(ops.COPY_FILE)
-def copy(office: "Office", asked: RwsRequest) -> None:
+def copy(office: "RwsContext", asked: RwsRequest) -> None:
     """Copy a file; a bare name stays in the folder [VC 7.21]."""
     path, target = _two(office, asked)
     if target.exists() and asked.form.get("fs-overwrite", "false").lower() != "true":
-        raise Denied(403, "E_ALREADY_EXISTS", target.name)
+        raise RequestDenied(403, "E_ALREADY_EXISTS", target.name)
     if not path.is_file():
         raise _missing(asked, asked.names["path"])
     office.write_file(target, read_foreign(path, CAPACITY))
 
 
 @serves(ops.RENAME_FILE)
-def rename(office: "Office", asked: RwsRequest) -> None:
+def rename(office: "RwsContext", asked: RwsRequest) -> None:
     """Give a file or a folder another name."""
     path, target = _two(office, asked)
     if target.exists():
-        raise Denied(403, "E_ALREADY_EXISTS", target.name)
+        raise RequestDenied(403, "E_ALREADY_EXISTS", target.name)
     try:
         path.rename(target)
     except OSError as error:
         raise _missing(asked, asked.names["path"]) from error
 
 
-def _two(office: "Office", asked: RwsRequest) -> tuple[Path, Path]:
+def _two(office: "RwsContext", asked: RwsRequest) -> tuple[Path, Path]:
     here, path = asked.names["path"], _path(office, asked)
     if _is_volume(office, path):
-        raise Denied(403, "E_REJECT", "a volume stays what it is", -2)
+        raise RequestDenied(403, "E_REJECT", "a volume stays what it is", -2)
     return path, _new(office, asked, None, here.rpartition("/")[0])
 
 
-def _new(office: "Office", asked: RwsRequest, folder: Path | None, words: str) -> Path:
+def _new(office: "RwsContext", asked: RwsRequest, folder: Path | None, words: str) -> Path:
     """The place that `fs-newname` names: in a folder, or a whole `/fileservice/...`."""
     name = asked.field("fs-newname")
     if name.startswith("/fileservice/"):
         return disk_path(office, name, asked)
     if not name or "/" in name or "\\" in name or name in (".", ".."):
-        raise Denied(400, "E_INVALID_PATH", name)
+        raise RequestDenied(400, "E_INVALID_PATH", name)
     if folder is not None and not folder.is_dir():
         raise _missing(asked, words)
     return disk_path(office, f"{words}/{name}", asked)

@@ -10,20 +10,20 @@ from rapidgen.axes.mapping import ABSENT
 from rapidgen.motion.group import MotionGroup
 from rapidgen.servers.rws.handlers.execution import execution
 from rapidgen.servers.rws.handlers.motion import find_group
-from rapidgen.servers.rws.messages import Denied, RwsRequest, Served, show, whole
+from rapidgen.servers.rws.messages import RequestDenied, RwsRequest, RwsResponse, show, whole
 from rapidgen.servers.rws.routing import serves
 from rapidgen.wire.rws import operations as ops
 from rapidgen.wire.rws.bodies import Item
 
 if TYPE_CHECKING:
-    from rapidgen.servers.rws.context import Office
+    from rapidgen.servers.rws.context import RwsContext
 
 _CHOICES = ("tool", "wobj", "payload", "total-payload", "mode", "jog-mode", "coord-system")
 _PARTS = ("checkchangecount", "mechunits", "errorstate", "nonmotionexecution")
 
 
 @serves(ops.MOTION_SYSTEM)
-def get_system(office: "Office", asked: RwsRequest) -> Served:
+def get_system(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """The motion system: its count of changes, its first unit."""
     units = [g.config.mechanical_unit for g in office.controller.motion.groups.values()]
     told = {
@@ -36,14 +36,14 @@ def get_system(office: "Office", asked: RwsRequest) -> Served:
     only = asked.query.get("resource", "")
     if only:
         if only not in told:
-            raise Denied(400, "E_INVALIDARG", f"resource {only}")
+            raise RequestDenied(400, "E_INVALIDARG", f"resource {only}")
         told = {only: told[only]}
     links = [Item(f"ms-{p}-li", p, {}, {"self": f"motionsystem/{p}"}) for p in _PARTS]
     return show(Item("ms", "motionsystem", told), *(links if not only else ()))
 
 
 @serves(ops.CHECK_COUNT)
-def check_count(office: "Office", asked: RwsRequest) -> Served:
+def check_count(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """Whether the motion system has changed since a count."""
     count = asked.names.get("count") or asked.query.get("changecount", "")
     changed = "FALSE" if whole("changecount", count) == office.cabinet.restarts else "TRUE"
@@ -53,13 +53,13 @@ def check_count(office: "Office", asked: RwsRequest) -> Served:
 
 
 @serves(ops.ERROR_STATE)
-def error_state(office: "Office", asked: RwsRequest) -> Served:
+def error_state(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """Errors of the motion system; collisions are none here."""
     return show(Item("ms-errorstate", "errorstate", {"err-state": "HPJ_OK", "err-count": "0"}))
 
 
 @serves(ops.BASE_FRAME)
-def base_frame(office: "Office", asked: RwsRequest) -> Served:
+def base_frame(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """Where a robot stands in the world: at its origin, here."""
     find_group(office, asked)
     names = ("x", "y", "z", "q1", "q2", "q3", "q4")
@@ -68,7 +68,7 @@ def base_frame(office: "Office", asked: RwsRequest) -> Served:
 
 
 @serves(ops.AXES)
-def axes(office: "Office", asked: RwsRequest) -> Served:
+def axes(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """How many axes a unit has."""
     count = len(find_group(office, asked).config.joints)
     numbers = map(str, range(1, count + 1))
@@ -77,7 +77,7 @@ def axes(office: "Office", asked: RwsRequest) -> Served:
 
 
 @serves(ops.AXIS)
-def axis(office: "Office", asked: RwsRequest) -> Served:
+def axis(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """One axis, from 1 on; all are calibrated here."""
     number, count = asked.names["axis"], len(find_group(office, asked).config.joints)
     whole("axis", number, 1, count)
@@ -88,20 +88,20 @@ def axis(office: "Office", asked: RwsRequest) -> Served:
 
 
 @serves(ops.SET_MECHUNIT)
-def choose(office: "Office", asked: RwsRequest) -> None:
+def choose(office: "RwsContext", asked: RwsRequest) -> None:
     """Choose tool, work object, ... for jogging."""
     office.masters.need(asked, "motion", by_itself=not asked.is_one)
     group = find_group(office, asked)
     told = asked.form
     if not told or any(name not in _CHOICES for name in told):
-        raise Denied(400, "E_INVALIDARG", f"one of {', '.join(_CHOICES)} is wanted")
+        raise RequestDenied(400, "E_INVALIDARG", f"one of {', '.join(_CHOICES)} is wanted")
     for name, kind in (("tool", "tooldata"), ("wobj", "wobjdata")):
         if name in told:
             _must_be(office, group, told[name], kind)
     office.chosen.setdefault(group.config.mechanical_unit, {}).update(told)
 
 
-def _must_be(office: "Office", group: MotionGroup, name: str, kind: str) -> None:
+def _must_be(office: "RwsContext", group: MotionGroup, name: str, kind: str) -> None:
     if name in ("tool0", "wobj0"):
         return
     try:
@@ -109,11 +109,11 @@ def _must_be(office: "Office", group: MotionGroup, name: str, kind: str) -> None
             return
     except KeyError:
         pass
-    raise Denied(400, "E_TOOL_ERROR" if kind == "tooldata" else "E_WOBJ_ERROR", name)
+    raise RequestDenied(400, "E_TOOL_ERROR" if kind == "tooldata" else "E_WOBJ_ERROR", name)
 
 
 @serves(ops.LEAD_THROUGH)
-def lead_through(office: "Office", asked: RwsRequest) -> Served:
+def lead_through(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """Whether a robot is led by hand."""
     unit = find_group(office, asked).config.mechanical_unit
     told = {"status": "Active" if unit in office.led else "Inactive"}
@@ -121,7 +121,7 @@ def lead_through(office: "Office", asked: RwsRequest) -> Served:
 
 
 @serves(ops.SET_LEAD_THROUGH)
-def lead(office: "Office", asked: RwsRequest) -> None:
+def lead(office: "RwsContext", asked: RwsRequest) -> None:
     """Lead by hand, or no more. With motors off or a running program nothing comes of it, though
     it is agreed to [real 7.21]."""
     unit = find_group(office, asked).config.mechanical_unit
@@ -133,21 +133,21 @@ def lead(office: "Office", asked: RwsRequest) -> None:
 
 
 @serves(ops.SET_POSITION)
-def set_position(office: "Office", asked: RwsRequest) -> None:
+def set_position(office: "RwsContext", asked: RwsRequest) -> None:
     """Put the standing robot elsewhere, degrees and mm: virtual controllers only [VC 7.21]."""
     group = find_group(office, asked)
     arm, external = _numbers(asked, "rob_joint"), _numbers(asked, "ext_joint")
     if len(arm) != 6:
-        raise Denied(400, "E_INVALIDARG", "rob_joint has six numbers")
+        raise RequestDenied(400, "E_INVALIDARG", "rob_joint has six numbers")
     external += [ABSENT] * (6 - len(external))
     posture = group.map.from_rapid(arm, external, group.positions())
     for value, joint in zip(posture, group.config.joints, strict=True):
         if not joint.lower <= value <= joint.upper:
-            raise Denied(400, "E_MECHPOS_NOT_IN_LIMIT", f"{joint.name}: {value:g}")
+            raise RequestDenied(400, "E_MECHPOS_NOT_IN_LIMIT", f"{joint.name}: {value:g}")
     try:
         group.jog(posture)
     except ValueError as error:
-        raise Denied(403, "E_EXEC_STATE", str(error)) from error
+        raise RequestDenied(403, "E_EXEC_STATE", str(error)) from error
 
 
 def _numbers(asked: RwsRequest, name: str) -> list[float]:
@@ -155,17 +155,17 @@ def _numbers(asked: RwsRequest, name: str) -> list[float]:
     try:
         found = [float(part) for part in text.strip("[] ").split(",")]
     except ValueError as error:
-        raise Denied(400, "E_INVALIDARG", f"{name}: {text}") from error
+        raise RequestDenied(400, "E_INVALIDARG", f"{name}: {text}") from error
     if len(found) > 6 or not all(map(isfinite, found)):
-        raise Denied(400, "E_INVALIDARG", f"{name}: {text}")
+        raise RequestDenied(400, "E_INVALIDARG", f"{name}: {text}")
     return found
 
 
 @serves(ops.JOG)
-def jog(office: "Office", asked: RwsRequest) -> None:
+def jog(office: "RwsContext", asked: RwsRequest) -> None:
     """Jogging wants an enabling device: virtual controllers refuse it [VC 6.16, VC 7.21]."""
     for name in ("jogmode", "mechunit", "ccount"):
         asked.field(name)
     if office.controller.mode == "auto":
-        raise Denied(403, "E_MODE_REJECT", "jogging is for manual mode", -2)
-    raise Denied(403, "E_REJECT", "no enabling device is pressed", -2)
+        raise RequestDenied(403, "E_MODE_REJECT", "jogging is for manual mode", -2)
+    raise RequestDenied(403, "E_REJECT", "no enabling device is pressed", -2)

@@ -11,29 +11,29 @@ from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.robot_data import NO_OFFSETS
 from rapidgen.runtime.values import Value
 from rapidgen.servers.rws.handlers.tasks import find_task
-from rapidgen.servers.rws.messages import Denied, RwsRequest, Served, show
+from rapidgen.servers.rws.messages import RequestDenied, RwsRequest, RwsResponse, show
 from rapidgen.servers.rws.routing import serves
 from rapidgen.wire.rws import operations as ops
 from rapidgen.wire.rws.bodies import Item
 
 if TYPE_CHECKING:
-    from rapidgen.servers.rws.context import Office
+    from rapidgen.servers.rws.context import RwsContext
 
 _AXES = ("rax_1", "rax_2", "rax_3", "rax_4", "rax_5", "rax_6")
 _EXTERNAL = "abcdef"
 
 
-def find_group(office: "Office", asked: RwsRequest) -> MotionGroup:
+def find_group(office: "RwsContext", asked: RwsRequest) -> MotionGroup:
     """The robot of a request. Denied: there is none of that name."""
     name = asked.names["unit"]
     for group in office.controller.motion.groups.values():
         if group.config.mechanical_unit.lower() == name.lower():
             return group
-    raise Denied(404, "E_NO_SUCH_MECHUNIT", name)
+    raise RequestDenied(404, "E_NO_SUCH_MECHUNIT", name)
 
 
 @serves(ops.MECHUNITS)
-def get_units(office: "Office", asked: RwsRequest) -> Served:
+def get_units(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """Robots; units of their own are not listed."""
     groups = office.controller.motion.groups.values()
     names = [group.config.mechanical_unit for group in groups]
@@ -45,7 +45,7 @@ _STATIC = ("type", "task-name", "axes", "axes-total", "is-integrated-unit", "has
 
 
 @serves(ops.MECHUNIT)
-def get_unit(office: "Office", asked: RwsRequest) -> Served:
+def get_unit(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """One robot, with what has been chosen for jogging; `resource` asks for parts of it."""
     group = find_group(office, asked)
     count, chosen = (
@@ -80,7 +80,7 @@ def _is_asked(name: str, parts: set[str]) -> bool:
 
 
 @serves(ops.JOINT_TARGET)
-def get_joints(office: "Office", asked: RwsRequest) -> Served:
+def get_joints(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """Where the joints are."""
     group = find_group(office, asked)
     value = joint_target(group.map, group.positions())
@@ -90,18 +90,18 @@ def get_joints(office: "Office", asked: RwsRequest) -> Served:
     return show(Item("ms-jointtarget", "jointtarget", told))
 
 
-def _pose(office: "Office", asked: RwsRequest) -> Value:
+def _pose(office: "RwsContext", asked: RwsRequest) -> Value:
     """The TCP of a tool in a work object; `Base` is the world's here: robots stand at its origin
     unless their object says otherwise."""
     return _pose_of(office, asked, find_group(office, asked))
 
 
 def _pose_of(
-    office: "Office", asked: RwsRequest, group: MotionGroup, default: str = "base"
+    office: "RwsContext", asked: RwsRequest, group: MotionGroup, default: str = "base"
 ) -> Value:
     frame = asked.query.get("coordinate", default).lower()
     if frame not in ("base", "world", "wobj"):
-        raise Denied(400, "E_INVALIDARG", f"coordinate {frame}")
+        raise RequestDenied(400, "E_INVALIDARG", f"coordinate {frame}")
     tool = _datum(office, group, asked.query.get("tool", "tool0"), "tooldata") or tool0()
     name = asked.query.get("wobj", "wobj0") if frame == "wobj" else "wobj0"
     work_object = _datum(office, group, name, "wobjdata")
@@ -110,24 +110,24 @@ def _pose_of(
             group, group.positions(), carrier_of(group, tool, work_object), NO_OFFSETS
         )
     except RapidError as error:
-        raise Denied(400, "E_INVALIDARG", error.name) from error
+        raise RequestDenied(400, "E_INVALIDARG", error.name) from error
 
 
-def _datum(office: "Office", group: MotionGroup, name: str, kind: str) -> Value | None:
+def _datum(office: "RwsContext", group: MotionGroup, name: str, kind: str) -> Value | None:
     """A tool or an object of the robot's task; None: tool0 or wobj0. Denied: there is none."""
     if name.lower() in ("tool0", "wobj0"):
         return None
     task = office.controller.tasks[group.config.task]
     try:
         if task.type_of(name)[0].name != kind:
-            raise Denied(400, "E_INVALIDARG", f"{name} is no {kind}")
+            raise RequestDenied(400, "E_INVALIDARG", f"{name} is no {kind}")
         return task[name]
     except KeyError as error:
-        raise Denied(400, "E_NO_SUCH_SYMBOL", name) from error
+        raise RequestDenied(400, "E_NO_SUCH_SYMBOL", name) from error
 
 
 @serves(ops.ROB_TARGET)
-def get_target(office: "Office", asked: RwsRequest) -> Served:
+def get_target(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """Where the TCP is, as a robtarget."""
     return show(Item("ms-robtargets", "robtarget", _rob_target(_pose(office, asked))))
 
@@ -143,7 +143,7 @@ def _rob_target(value: Value, external: str = "") -> dict[str, str]:
 
 
 @serves(ops.CARTESIAN)
-def get_cartesian(office: "Office", asked: RwsRequest) -> Served:
+def get_cartesian(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """Where the TCP is; RWS 1.0 calls the configuration j1 to jx."""
     value = _pose(office, asked)
     names = ("j1", "j4", "j6", "jx") if asked.is_one else ("cf1", "cf4", "cf6", "cfx")
@@ -157,7 +157,7 @@ def get_cartesian(office: "Office", asked: RwsRequest) -> Served:
 
 
 @serves(ops.TASK_MOTION)
-def get_motion(office: "Office", asked: RwsRequest) -> Served:
+def get_motion(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """Positions of a task's robot [RWS manual 3HAC050973]; without `resource` what there is."""
     task = find_task(office, asked.names["task"], asked)
     kind = asked.query.get("resource", "")
@@ -170,7 +170,7 @@ def get_motion(office: "Office", asked: RwsRequest) -> Served:
         (g for g in office.controller.motion.groups.values() if g.config.task == task.name), None
     )
     if group is None:
-        raise Denied(400, "E_NO_SUCH_MECHUNIT", f"{task.name} has no robot")
+        raise RequestDenied(400, "E_NO_SUCH_MECHUNIT", f"{task.name} has no robot")
     if kind == "robtarget":
         told = _rob_target(_pose_of(office, asked, group, "wobj"), "ej{}")
     elif kind in ("jointtarget", "extjointstate"):
@@ -182,5 +182,5 @@ def get_motion(office: "Office", asked: RwsRequest) -> Served:
             told = {f"j{i}": str(v) for i, v in enumerate(value.robax.values(), 1)}
             told |= {f"ej{i}": f"{v:g}" for i, v in external}
     else:
-        raise Denied(400, "E_INVALIDARG", f"resource {kind}")
+        raise RequestDenied(400, "E_INVALIDARG", f"resource {kind}")
     return show(Item(f"rapid-{kind}", kind, told))

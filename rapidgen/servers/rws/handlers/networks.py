@@ -3,31 +3,31 @@
 from typing import TYPE_CHECKING
 
 from rapidgen.servers.rws.handlers.signals import network_of
-from rapidgen.servers.rws.messages import Denied, RwsRequest, Served, show
+from rapidgen.servers.rws.messages import RequestDenied, RwsRequest, RwsResponse, show
 from rapidgen.servers.rws.routing import serves
 from rapidgen.wire.rws import operations as ops
 from rapidgen.wire.rws.bodies import Item
 
 if TYPE_CHECKING:
-    from rapidgen.servers.rws.context import Office
+    from rapidgen.servers.rws.context import RwsContext
 
 _NETWORK = {"pstate": "running", "lstate": "started"}
 _DEVICE = {"lstate": "enabled", "pstate": "running", "address": "-"}
 
 
 @serves(ops.IO_SYSTEM)
-def get_system(office: "Office", asked: RwsRequest) -> Served:
+def get_system(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """What the I/O system has."""
     names = ("networks", "devices", "signals")
     return show(*(Item(f"ios-{n}-li", n, {}, {"self": f"iosystem/{n}"}) for n in names))
 
 
-def networks(office: "Office") -> list[str]:
+def networks(office: "RwsContext") -> list[str]:
     """Networks, in order."""
     return list(dict.fromkeys(map(network_of, devices(office))))
 
 
-def devices(office: "Office") -> list[str]:
+def devices(office: "RwsContext") -> list[str]:
     """Devices that some signal is on."""
     found = (s.spec.device for s in office.controller.io.signals.values())
     return [device for device in dict.fromkeys(found) if device]
@@ -45,22 +45,22 @@ def _device(name: str, kind: str) -> Item:
 
 
 @serves(ops.NETWORKS)
-def get_networks(office: "Office", asked: RwsRequest) -> Served:
+def get_networks(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """Networks that signals stand on."""
     return show(*(_network(n, "ios-network-li") for n in networks(office)), collection=True)
 
 
 @serves(ops.NETWORK)
-def get_network(office: "Office", asked: RwsRequest) -> Served:
+def get_network(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """One network."""
     for name in networks(office):
         if name.lower() == asked.names["network"].lower():
             return show(_network(name, asked.kind("ios-network", "ios-network-li")))
-    raise Denied(404, "E_UNRESOLVED_URL", f"no network {asked.names['network']}")
+    raise RequestDenied(404, "E_UNRESOLVED_URL", f"no network {asked.names['network']}")
 
 
 @serves(ops.DEVICES)
-def get_devices(office: "Office", asked: RwsRequest) -> Served:
+def get_devices(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """Devices that signals stand on."""
     only = asked.query.get("network")
     found = (d for d in devices(office) if only in (None, network_of(d)))
@@ -68,31 +68,31 @@ def get_devices(office: "Office", asked: RwsRequest) -> Served:
 
 
 @serves(ops.DEVICE)
-def get_device(office: "Office", asked: RwsRequest) -> Served:
+def get_device(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """One device, by its name or with its network."""
     wanted = asked.names["device"].lower()
     for name in devices(office):
         if wanted in (name.lower(), f"{network_of(name)}/{name}".lower()):
             return show(_device(name, asked.kind("ios-device", "ios-device-li")))
-    raise Denied(404, "E_UNRESOLVED_URL", f"no device {wanted}")
+    raise RequestDenied(404, "E_UNRESOLVED_URL", f"no device {wanted}")
 
 
 @serves(ops.SEARCH_NETWORKS)
-def search_networks(office: "Office", asked: RwsRequest) -> Served:
+def search_networks(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """Networks by name and state; one of them has to be said [RWS manual]."""
     name, state = (asked.form.get(k, "").lower() for k in ("name", "state"))
     if not (name or state):
-        raise Denied(400, "E_INVALIDARG", "name or state")
+        raise RequestDenied(400, "E_INVALIDARG", "name or state")
     found = [n for n in networks(office) if name in n.lower() and state in ("", "running")]
     return show(*(_network(n, "ios-network-li") for n in found), collection=True)
 
 
 @serves(ops.SEARCH_DEVICES)
-def search_devices(office: "Office", asked: RwsRequest) -> Served:
+def search_devices(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """Devices by name, state and network; one of the first two has to be said."""
     name, state, network = (asked.form.get(k, "").lower() for k in ("name", "lstate", "network"))
     if not (name or state):
-        raise Denied(400, "E_INVALIDARG", "name or lstate")
+        raise RequestDenied(400, "E_INVALIDARG", "name or lstate")
     found = [
         d
         for d in devices(office)

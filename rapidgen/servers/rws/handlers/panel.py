@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from rapidgen.servers.rws.messages import Denied, RwsRequest, Served, show, whole
+from rapidgen.servers.rws.messages import RequestDenied, RwsRequest, RwsResponse, show, whole
 from rapidgen.servers.rws.routing import serves
 from rapidgen.wire.rws import operations as ops
 from rapidgen.wire.rws.bodies import Item
@@ -10,7 +10,7 @@ from rapidgen.wire.rws.bodies import Item
 if TYPE_CHECKING:
     from rapidgen.controller.controller import VirtualController
     from rapidgen.controller.operation import OperatingMode
-    from rapidgen.servers.rws.context import Office
+    from rapidgen.servers.rws.context import RwsContext
 
 _MODES: dict[str, "OperatingMode"] = {
     "auto": "auto", "man": "manual_reduced", "manfs": "manual_full", "manf": "manual_full",
@@ -38,27 +38,27 @@ def speed(controller: "VirtualController") -> int:
 
 
 @serves(ops.CTRL_STATE)
-def get_ctrl_state(office: "Office", asked: RwsRequest) -> Served:
+def get_ctrl_state(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """Motors, emergency stop, system failure."""
     return show(Item("pnl-ctrlstate", "ctrlstate", {"ctrlstate": ctrl_state(office.controller)}))
 
 
 @serves(ops.SET_CTRL_STATE)
-def set_ctrl_state(office: "Office", asked: RwsRequest) -> None:
+def set_ctrl_state(office: "RwsContext", asked: RwsRequest) -> None:
     """Motors on or off."""
     on = asked.field("ctrl-state", ("motoron", "motoroff")) == "motoron"
     controller = office.controller
     if on and controller.mode != "auto":
-        raise Denied(403, "E_MODE_REJECT", "motors on only in automatic mode", -2)
+        raise RequestDenied(403, "E_MODE_REJECT", "motors on only in automatic mode", -2)
     if on and controller.failed:
-        raise Denied(403, "E_SYSFAIL_REJECT", "system failure", -2)
+        raise RequestDenied(403, "E_SYSFAIL_REJECT", "system failure", -2)
     controller.set_motors(on)
     if controller.motors_on != on:
-        raise Denied(403, "E_REJECT", "motors on refused", -2)
+        raise RequestDenied(403, "E_REJECT", "motors on refused", -2)
 
 
 @serves(ops.OPMODE)
-def get_opmode(office: "Office", asked: RwsRequest) -> Served:
+def get_opmode(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """The operating mode; in RWS 2.0 with a link to its lock behind it [code: rws2, GoFa]."""
     mode = Item("pnl-opmode", "opmode", {"opmode": opmode(office.controller)})
     lock = Item("pnl-opmode-lockstate-li", "lock-state", {}, {"self": "lock-state"})
@@ -66,26 +66,26 @@ def get_opmode(office: "Office", asked: RwsRequest) -> Served:
 
 
 @serves(ops.SET_OPMODE)
-def set_opmode(office: "Office", asked: RwsRequest) -> None:
+def set_opmode(office: "RwsContext", asked: RwsRequest) -> None:
     """The key of a virtual controller; a real one's cannot be turned from afar."""
     words = ("auto", "man", "manfs" if asked.is_one else "manf")
     if office.mode_lock:
-        raise Denied(403, "E_RESOURCE_HELD", "the mode is locked", -2)
+        raise RequestDenied(403, "E_RESOURCE_HELD", "the mode is locked", -2)
     office.controller.set_mode(_MODES[asked.field("opmode", words)])
 
 
 @serves(ops.SPEED)
-def get_speed(office: "Office", asked: RwsRequest) -> Served:
+def get_speed(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """The override."""
     return show(Item("pnl-speedratio", "speedratio", {"speedratio": str(speed(office.controller))}))
 
 
 @serves(ops.SET_SPEED)
-def set_speed(office: "Office", asked: RwsRequest) -> None:
+def set_speed(office: "RwsContext", asked: RwsRequest) -> None:
     """The override in percent, in automatic mode."""
     percent = whole("speed-ratio", asked.field("speed-ratio"), 0, 100)
     if office.controller.mode != "auto":
-        raise Denied(403, "E_MODE_REJECT", "only in automatic mode", -2)
+        raise RequestDenied(403, "E_MODE_REJECT", "only in automatic mode", -2)
     if not asked.is_one:
         office.masters.need(asked, "rapid")
     for group in office.controller.motion.groups.values():
@@ -94,20 +94,20 @@ def set_speed(office: "Office", asked: RwsRequest) -> None:
 
 
 @serves(ops.SET_SPEED_PLAIN)
-def set_speed_plainly(office: "Office", asked: RwsRequest) -> None:
+def set_speed_plainly(office: "RwsContext", asked: RwsRequest) -> None:
     """RWS 2.0 keeps `?action=` for the speed; without it is 400 [VC 7.21]."""
-    raise Denied(400, "E_INVALIDARG", "action=setspeedratio is wanted")
+    raise RequestDenied(400, "E_INVALIDARG", "action=setspeedratio is wanted")
 
 
 @serves(ops.COLLISION)
-def get_collision(office: "Office", asked: RwsRequest) -> Served:
+def get_collision(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """Collision detection; RobotWare 6 writes the class with a blank behind it."""
     name = asked.kind("coldetstate ", "coldetstate")
     return show(Item("pnl-coldetstate", "coldetstate", {name: "INIT"}))
 
 
 @serves(ops.PANEL)
-def get_panel(office: "Office", asked: RwsRequest) -> Served:
+def get_panel(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """What the panel has."""
     names = (asked.kind("ctrlstate", "ctrl-state"), "opmode", "speedratio", "coldetstate")
     found = (Item(f"pnl-{name.replace('-', '')}-li", name, {}, {"self": name}) for name in names)
@@ -115,44 +115,44 @@ def get_panel(office: "Office", asked: RwsRequest) -> Served:
 
 
 @serves(ops.ACKNOWLEDGE)
-def acknowledge(office: "Office", asked: RwsRequest) -> None:
+def acknowledge(office: "RwsContext", asked: RwsRequest) -> None:
     """Confirm a change of mode, which stands at once here."""
     asked.field("opmode", ("auto", "manf", "coldet"))
 
 
 @serves(ops.LOCK_STATE)
-def get_lock(office: "Office", asked: RwsRequest) -> Served:
+def get_lock(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """Whether the mode is locked by a pin."""
     told = {"lockstate": office.mode_lock or "Unlocked"}
     return show(Item("pnl-opmode-lockstate-li", "lock-state", told))
 
 
 @serves(ops.LOCK)
-def lock(office: "Office", asked: RwsRequest) -> None:
+def lock(office: "RwsContext", asked: RwsRequest) -> None:
     """Lock the mode: it cannot be changed until it is unlocked."""
     pin = asked.field("pin")
     if not (pin.isdecimal() and len(pin) == 4):
-        raise Denied(400, "E_INVALIDARG", "a pin has four digits")
+        raise RequestDenied(400, "E_INVALIDARG", "a pin has four digits")
     if office.mode_lock:
-        raise Denied(403, "E_RESOURCE_ALREADY_HELD", "the mode is locked")
+        raise RequestDenied(403, "E_RESOURCE_ALREADY_HELD", "the mode is locked")
     permanent = asked.form.get("permanent", "0").lower() in ("1", "true")
     office.mode_lock = "Permanent" if permanent else "Temporary"
 
 
 @serves(ops.UNLOCK)
-def unlock(office: "Office", asked: RwsRequest) -> None:
+def unlock(office: "RwsContext", asked: RwsRequest) -> None:
     """Unlock the mode."""
     office.mode_lock = ""
 
 
 @serves(ops.LANGUAGE)
-def set_language(office: "Office", asked: RwsRequest) -> None:
+def set_language(office: "RwsContext", asked: RwsRequest) -> None:
     """The pendant's language: texts are English here."""
     if asked.field("lang-code").lower() != "en":
-        raise Denied(400, "E_INVALIDARG", "only en is installed")
+        raise RequestDenied(400, "E_INVALIDARG", "only en is installed")
 
 
 @serves(ops.EMERGENCY_STOP)
-def emergency_stop(office: "Office", asked: RwsRequest) -> None:
+def emergency_stop(office: "RwsContext", asked: RwsRequest) -> None:
     """The button of a virtual controller: `off` presses it, `on` lets it go [VC 7.21]."""
     office.controller.set_e_stop(asked.field("state", ("on", "off")) == "off")

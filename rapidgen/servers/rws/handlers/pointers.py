@@ -7,13 +7,13 @@ from rapidgen.runtime.task.pointer import CannotStep
 from rapidgen.runtime.task.task import Task
 from rapidgen.servers.rws.handlers.execution import execution
 from rapidgen.servers.rws.handlers.tasks import find_task
-from rapidgen.servers.rws.messages import Denied, RwsRequest, Served, show, whole
+from rapidgen.servers.rws.messages import RequestDenied, RwsRequest, RwsResponse, show, whole
 from rapidgen.servers.rws.routing import serves
 from rapidgen.wire.rws import operations as ops
 from rapidgen.wire.rws.bodies import Item
 
 if TYPE_CHECKING:
-    from rapidgen.servers.rws.context import Office
+    from rapidgen.servers.rws.context import RwsContext
 
 
 def place_of(task: Task) -> Location | None:
@@ -23,7 +23,7 @@ def place_of(task: Task) -> Location | None:
 
 
 @serves(ops.POINTER)
-def get_pointer(office: "Office", asked: RwsRequest) -> Served:
+def get_pointer(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """Program and motion pointer of a task; the second is where the first is, here."""
     task = find_task(office, asked.names["task"], asked)
     place = place_of(task)
@@ -42,7 +42,7 @@ def get_pointer(office: "Office", asked: RwsRequest) -> Served:
 
 
 @serves(ops.COUNTER)
-def get_counter(office: "Office", asked: RwsRequest) -> Served:
+def get_counter(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """The program pointer once more, as the manual of RWS 1.0 has it for a task's execution."""
     place = place_of(find_task(office, asked.names["task"], asked))
     row, column = (place.span.line, place.span.column) if place else (0, 0)
@@ -51,32 +51,32 @@ def get_counter(office: "Office", asked: RwsRequest) -> Served:
     return show(Item("rap-pcp", "pcp", {**told, "endline": str(row), "endcol": str(column)}))
 
 
-def _movable(office: "Office", asked: RwsRequest) -> Task:
+def _movable(office: "RwsContext", asked: RwsRequest) -> Task:
     office.masters.need(asked, "rapid")
     task = find_task(office, asked.names["task"], asked)
     if task.state == "running" or execution(office.controller) == "running":
-        raise Denied(400 if asked.is_one else 403, "E_EXEC_STATE", "the program runs", -508)
+        raise RequestDenied(400 if asked.is_one else 403, "E_EXEC_STATE", "the program runs", -508)
     return task
 
 
 @serves(ops.POINTER_TO_ROUTINE)
-def pointer_to_routine(office: "Office", asked: RwsRequest) -> None:
+def pointer_to_routine(office: "RwsContext", asked: RwsRequest) -> None:
     """Program pointer of one task to a routine."""
     task = _movable(office, asked)
     try:
         office.controller.tasks[task.name].pp_to_routine(asked.field("routine"))
     except CannotStep as error:
-        raise Denied(400, "E_ILLEGAL_ENTRYPOINT", str(error)) from error
+        raise RequestDenied(400, "E_ILLEGAL_ENTRYPOINT", str(error)) from error
 
 
 @serves(ops.POINTER_TO_MAIN)
-def pointer_to_main(office: "Office", asked: RwsRequest) -> None:
+def pointer_to_main(office: "RwsContext", asked: RwsRequest) -> None:
     """Program pointer of one task to main."""
     office.controller.tasks[_movable(office, asked).name].pp_to_main()
 
 
 @serves(ops.POINTER_TO_CURSOR)
-def pointer_to_cursor(office: "Office", asked: RwsRequest) -> None:
+def pointer_to_cursor(office: "RwsContext", asked: RwsRequest) -> None:
     """Program pointer of one task to a statement of the routine in which it stands."""
     task = _movable(office, asked)
     asked.field("module")
@@ -85,11 +85,11 @@ def pointer_to_cursor(office: "Office", asked: RwsRequest) -> None:
     try:
         office.controller.tasks[task.name].pp_to_statement(row)
     except CannotStep as error:
-        raise Denied(400, "E_ILLEGAL_ENTRYPOINT", str(error)) from error
+        raise RequestDenied(400, "E_ILLEGAL_ENTRYPOINT", str(error)) from error
 
 
 @serves(ops.ACTIVATION_RECORD)
-def get_frame(office: "Office", asked: RwsRequest) -> Served:
+def get_frame(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """One frame of the stack, from the innermost on; 400 where there is none [VC 6.16]."""
     task = find_task(office, asked.names["task"], asked)
     frames = task.stack()[::-1]
@@ -109,7 +109,7 @@ def get_frame(office: "Office", asked: RwsRequest) -> Served:
 
 
 @serves(ops.ROUTINES)
-def get_routines(office: "Office", asked: RwsRequest) -> Served:
+def get_routines(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """Procedures of a task without parameters: what could be called as a service routine."""
     task = find_task(office, asked.names["task"], asked)
     name, url = (

@@ -13,18 +13,18 @@ from rapidgen.runtime.loading import LARGEST_MODULE, module_text
 from rapidgen.runtime.task.task import Task
 from rapidgen.servers.rws.disks import disk_path
 from rapidgen.servers.rws.handlers.tasks import find_task, load_refused
-from rapidgen.servers.rws.messages import Denied, RwsRequest, Served, show
+from rapidgen.servers.rws.messages import RequestDenied, RwsRequest, RwsResponse, show
 from rapidgen.servers.rws.routing import serves
 from rapidgen.wire.rws import operations as ops
 from rapidgen.wire.rws.bodies import Item
 from rapidgen.wire.rws.xhtml import text as escaped
 
 if TYPE_CHECKING:
-    from rapidgen.servers.rws.context import Office
+    from rapidgen.servers.rws.context import RwsContext
 
 
 @serves(ops.PROGRAM)
-def get_program(office: "Office", asked: RwsRequest) -> Served | None:
+def get_program(office: "RwsContext", asked: RwsRequest) -> RwsResponse | None:
     """The program of a task; nothing where there is none."""
     task = find_task(office, asked.names["task"], asked)
     if not office.cabinet.programs.modules(task):
@@ -34,7 +34,7 @@ def get_program(office: "Office", asked: RwsRequest) -> Served | None:
 
 
 @serves(ops.BUILD_ERRORS)
-def get_build_errors(office: "Office", asked: RwsRequest) -> Served:
+def get_build_errors(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """What is wrong with the program of a task."""
     task = find_task(office, asked.names["task"], asked)
     names = {m.file.path: m.name for m in office.cabinet.programs.modules(task)}
@@ -51,28 +51,28 @@ def get_build_errors(office: "Office", asked: RwsRequest) -> Served:
     return show(*found)
 
 
-def _own(office: "Office", task: Task) -> list[str]:
+def _own(office: "RwsContext", task: Task) -> list[str]:
     """Modules of the program: system modules are not of it."""
     programs = office.cabinet.programs
     return [m.name for m in programs.modules(task) if not m.is_system and not m.file.shared]
 
 
 @serves(ops.LOAD_PROGRAM)
-def load(office: "Office", asked: RwsRequest) -> None:
+def load(office: "RwsContext", asked: RwsRequest) -> None:
     """Load the modules that a program file lists, from its folder; `replace` takes out the rest."""
     office.masters.need(asked, "rapid")
     task = find_task(office, asked.names["task"], asked)
     words = asked.field("progpath")
     mode = asked.form.get("loadmode", "replace")
     if mode not in ("add", "replace"):
-        raise Denied(400, "E_INVALIDARG", f"loadmode {mode}")
+        raise RequestDenied(400, "E_INVALIDARG", f"loadmode {mode}")
     path = disk_path(office, words, asked)
     folder = words.rpartition("/")[0]
     files = _listed(path, asked, words)
     places = [disk_path(office, f"{folder}/{file}", asked) for file in files]
     for file, place in zip(files, places, strict=True):
         if not place.is_file():
-            raise Denied(400 if asked.is_one else 404, "E_FILE_NOT_FOUND", file)
+            raise RequestDenied(400 if asked.is_one else 404, "E_FILE_NOT_FOUND", file)
     try:
         if mode == "replace":
             for name in _own(office, task):
@@ -89,17 +89,17 @@ def _listed(path: Path, asked: RwsRequest, words: str) -> list[str]:
     try:
         root = fromstring(read_foreign(path, LARGEST_MODULE))
     except OSError as error:
-        raise Denied(400 if asked.is_one else 404, "E_FILE_NOT_FOUND", words) from error
+        raise RequestDenied(400 if asked.is_one else 404, "E_FILE_NOT_FOUND", words) from error
     except (ParseError, DefusedXmlException, ValueError) as error:
-        raise Denied(400, "E_INVALID_PROGRAMFILE", words) from error
+        raise RequestDenied(400, "E_INVALID_PROGRAMFILE", words) from error
     files = [(e.text or "").strip() for e in root.iter() if e.tag == "Module"]
     if root.tag != "Program" or not files or any("/" in f or "\\" in f or not f for f in files):
-        raise Denied(400, "E_INVALID_PROGRAMFILE", words)
+        raise RequestDenied(400, "E_INVALID_PROGRAMFILE", words)
     return files
 
 
 @serves(ops.UNLOAD_PROGRAM)
-def unload(office: "Office", asked: RwsRequest) -> None:
+def unload(office: "RwsContext", asked: RwsRequest) -> None:
     """Take the program's modules out; system modules stay."""
     office.masters.need(asked, "rapid")
     task = find_task(office, asked.names["task"], asked)
@@ -112,19 +112,19 @@ def unload(office: "Office", asked: RwsRequest) -> None:
 
 
 @serves(ops.SAVE_PROGRAM)
-def save(office: "Office", asked: RwsRequest) -> None:
+def save(office: "RwsContext", asked: RwsRequest) -> None:
     """Write the program's modules and its program file into a folder, made where it is none."""
     task = find_task(office, asked.names["task"], asked)
     words = asked.field("path")
     folder = disk_path(office, words, asked)
     name = asked.form.get("name") or office.program_names.get(task.name) or task.name
     if "/" in name or "\\" in name:
-        raise Denied(400, "E_INVALID_PATH", name)
+        raise RequestDenied(400, "E_INVALID_PATH", name)
     file = disk_path(office, f"{words}/{name}.pgf", asked)
     try:
         folder.mkdir(exist_ok=True)
     except OSError as error:
-        raise Denied(404, "E_DIR_NOT_EXIST", words) from error
+        raise RequestDenied(404, "E_DIR_NOT_EXIST", words) from error
     listed = []
     for own in _own(office, task):
         module = task.program.modules.get(own.lower())

@@ -11,25 +11,25 @@ from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.queues import Message
 from rapidgen.runtime.text import NotALiteral, parse_value
 from rapidgen.servers.rws.client_queues import KINDS, ClientQueue, ClientText
-from rapidgen.servers.rws.messages import Denied, RwsRequest, Served, show, whole
+from rapidgen.servers.rws.messages import RequestDenied, RwsRequest, RwsResponse, show, whole
 from rapidgen.servers.rws.routing import serves
 from rapidgen.system.model import QueueSpec
 from rapidgen.wire.rws import operations as ops
 from rapidgen.wire.rws.bodies import Item
 
 if TYPE_CHECKING:
-    from rapidgen.servers.rws.context import Office
+    from rapidgen.servers.rws.context import RwsContext
 
 LARGEST = 444
 """Bytes of a message [RWS manual]."""
 _OF_A_TASK = "rmq_"
 
 
-def find(office: "Office", name: str) -> ClientQueue:
+def find(office: "RwsContext", name: str) -> ClientQueue:
     """A client's queue. Denied: there is none."""
     found = office.queues.get(name.lower())
     if found is None:
-        raise Denied(404, "E_INVALIDSLOTID", f"no queue {name}")
+        raise RequestDenied(404, "E_INVALIDSLOTID", f"no queue {name}")
     return found
 
 
@@ -48,50 +48,50 @@ def _item(kind: str, queue: ClientQueue) -> Item:
 
 
 @serves(ops.QUEUES)
-def get_queues(office: "Office", asked: RwsRequest) -> Served:
+def get_queues(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """Queues of clients."""
     found = (_item("dipc-queue-li", queue) for queue in office.queues.values())
     return show(*found, collection=True)
 
 
 @serves(ops.QUEUE)
-def get_queue(office: "Office", asked: RwsRequest) -> Served:
+def get_queue(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """One queue of a client."""
     return show(_item("dipc-queue", find(office, asked.names["queue"])))
 
 
 @serves(ops.CREATE_QUEUE)
-def create(office: "Office", asked: RwsRequest) -> Served:
+def create(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """A queue of this client's; it ends with the session."""
     name = asked.field("dipc-queue-name")
     size = whole("dipc-queue-size", asked.field("dipc-queue-size"), 1, 10_000)
     largest = whole("dipc-max-msg-size", asked.field("dipc-max-msg-size"), 1, LARGEST)
     spec = QueueSpec(max_messages=size, max_size=largest)
     if not name or "/" in name:
-        raise Denied(400, "E_INVALIDARG", f"dipc-queue-name: {name}")
+        raise RequestDenied(400, "E_INVALIDARG", f"dipc-queue-name: {name}")
     try:
         made = ClientQueue(name, office.controller.queues.open(name, spec))
     except ValueError as error:
-        raise Denied(400, "E_INVALIDARG", f"queue {name} exists") from error
+        raise RequestDenied(400, "E_INVALIDARG", f"queue {name} exists") from error
     office.queues[name.lower()] = made
     asked.session.on_end.append(lambda: _close(office, made))
-    return Served(201)
+    return RwsResponse(201)
 
 
-def _close(office: "Office", queue: ClientQueue) -> None:
+def _close(office: "RwsContext", queue: ClientQueue) -> None:
     if office.queues.get(queue.name.lower()) is queue:
         del office.queues[queue.name.lower()]
         office.controller.queues.close(queue.name)
 
 
 @serves(ops.DELETE_QUEUE)
-def delete(office: "Office", asked: RwsRequest) -> None:
+def delete(office: "RwsContext", asked: RwsRequest) -> None:
     """No more of a queue."""
     _close(office, find(office, asked.names["queue"]))
 
 
 @serves(ops.SEND_MESSAGE)
-def send(office: "Office", asked: RwsRequest) -> None:
+def send(office: "RwsContext", asked: RwsRequest) -> None:
     """Put a message into a queue: of another client, or of a task, whose program gets it."""
     name, data = asked.names["queue"], asked.field("dipc-data")
     if not asked.is_one:
@@ -99,39 +99,39 @@ def send(office: "Office", asked: RwsRequest) -> None:
     user, command = asked.form.get("dipc-userdef", "0"), asked.form.get("dipc-cmd", "0")
     sender = asked.form.get("dipc-src-queue-name", "")
     if len(data.encode()) > LARGEST:
-        raise Denied(400, "E_BUFFER_OVERFLOW", f"{len(data)} characters")
+        raise RequestDenied(400, "E_BUFFER_OVERFLOW", f"{len(data)} characters")
     if name.lower().startswith(_OF_A_TASK):
         _to_task(office, name, data, sender, user)
         return
     queue = find(office, name)
     if len(queue) >= queue.queue.spec.max_messages:
-        raise Denied(400, "E_QUEUEFULL", name)
+        raise RequestDenied(400, "E_QUEUEFULL", name)
     kind = KINDS[asked.form.get("dipc-msgtype", "1") != "0"]
     queue.texts.append(ClientText(sender, data, command, user, kind))
     queue.queue.changed.notify()
 
 
-def _to_task(office: "Office", name: str, data: str, sender: str, user: str) -> None:
+def _to_task(office: "RwsContext", name: str, data: str, sender: str, user: str) -> None:
     kind, _, literal = data.partition(";")
     found = find_type(kind.strip().lower())
     queue = office.controller.queues.named(name)
     if queue is None or not queue.spec.open:
-        raise Denied(404, "E_INVALIDSLOTID", f"no queue {name}")
+        raise RequestDenied(404, "E_INVALIDSLOTID", f"no queue {name}")
     try:
         if found is None or not found.is_value:
-            raise Denied(400, "E_INVALIDARG", f"no type {kind}")
+            raise RequestDenied(400, "E_INVALIDARG", f"no type {kind}")
         value = parse_value(literal, found, (), escaped=True)
         number = whole("dipc-userdef", user or "0")
         office.controller.queues.send(name, Message(found, (), value, sender, float(number)))
     except (NotALiteral, ValueError) as error:
-        raise Denied(400, "E_INVALIDARG", f"no message {data}") from error
+        raise RequestDenied(400, "E_INVALIDARG", f"no message {data}") from error
     except RapidError as error:
         full = error.name == "ERR_RMQ_FULL"
-        raise Denied(400, "E_QUEUEFULL" if full else "E_INVALIDARG", error.name) from error
+        raise RequestDenied(400, "E_QUEUEFULL" if full else "E_INVALIDARG", error.name) from error
 
 
 @serves(ops.READ_MESSAGE)
-def read(office: "Office", asked: RwsRequest) -> Served | None:
+def read(office: "RwsContext", asked: RwsRequest) -> RwsResponse | None:
     """The first message, taken out of the queue; an empty list, or 204, where there is none."""
     queue = find(office, asked.names["queue"])
     told = taken(queue)

@@ -3,14 +3,14 @@
 from typing import TYPE_CHECKING
 
 from rapidgen.machine.io import Signal
-from rapidgen.servers.rws.messages import Denied, RwsRequest, Served, show
+from rapidgen.servers.rws.messages import RequestDenied, RwsRequest, RwsResponse, show
 from rapidgen.servers.rws.pagination import page
 from rapidgen.servers.rws.routing import serves
 from rapidgen.wire.rws import operations as ops
 from rapidgen.wire.rws.bodies import Item
 
 if TYPE_CHECKING:
-    from rapidgen.servers.rws.context import Office
+    from rapidgen.servers.rws.context import RwsContext
 
 _WRITABLE = ("all",)
 """Access levels that let a remote client write: `Default` is RAPID and local manual [VC 6.16]."""
@@ -32,15 +32,15 @@ def network_of(device: str) -> str:
     return "Local" if device.upper().startswith(("DRV_", "PANEL")) else "Virtual1"
 
 
-def find(office: "Office", path: str) -> Signal:
+def find(office: "RwsContext", path: str) -> Signal:
     """The signal at the end of a path. Denied: there is none, or not on that device."""
     parts = path.split("/")
     signal = office.controller.io.get(parts[-1])
     if signal is None or len(parts) not in (1, 3):
-        raise Denied(404, "E_UNRESOLVED_URL", f"no signal {path}")
+        raise RequestDenied(404, "E_UNRESOLVED_URL", f"no signal {path}")
     device = signal.spec.device
     if len(parts) == 3 and device and parts[1].lower() != device.lower():
-        raise Denied(404, "E_UNRESOLVED_URL", f"no signal {path}")
+        raise RequestDenied(404, "E_UNRESOLVED_URL", f"no signal {path}")
     return signal
 
 
@@ -67,26 +67,26 @@ def _is_writable(signal: Signal) -> bool:
 
 
 @serves(ops.SIGNALS)
-def get_signals(office: "Office", asked: RwsRequest) -> Served:
+def get_signals(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """All signals: whole in RWS 1.0, by the hundred in 2.0 [VC 7.21]."""
     found = office.controller.io.signals.values()
     return page(asked, [item(s, "ios-signal-li", asked) for s in found], 100, "signals")
 
 
 @serves(ops.SIGNAL)
-def get_signal(office: "Office", asked: RwsRequest) -> Served:
+def get_signal(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """One signal."""
     signal = find(office, asked.names["signal"])
     return show(item(signal, asked.kind("ios-signal", "ios-signal-li"), asked))
 
 
 @serves(ops.SET_SIGNAL)
-def set_signal(office: "Office", asked: RwsRequest) -> None:
+def set_signal(office: "RwsContext", asked: RwsRequest) -> None:
     """Set a signal, or pulse or invert it."""
     signal = find(office, asked.names["signal"])
     mode = asked.form.get("mode", "value")
     if office.strict and not _is_writable(signal):
-        raise Denied(403, "E_REJECT", f"access level of {signal.name}", -2)
+        raise RequestDenied(403, "E_REJECT", f"access level of {signal.name}", -2)
     io = office.controller.io
     try:
         if mode in ("invert", "toggle"):
@@ -97,13 +97,13 @@ def set_signal(office: "Office", asked: RwsRequest) -> None:
             delay = float(asked.form.get("Delay", "0")) / 1000 if mode == "delay" else 0.0
             io.set(signal, float(asked.field("lvalue")), delay=delay)
         else:
-            raise Denied(400, "E_INVALIDARG", f"mode {mode}")
+            raise RequestDenied(400, "E_INVALIDARG", f"mode {mode}")
     except ValueError as error:
-        raise Denied(400, "E_INVALIDARG", str(error)) from error
+        raise RequestDenied(400, "E_INVALIDARG", str(error)) from error
 
 
 @serves(ops.SEARCH_SIGNALS)
-def search(office: "Office", asked: RwsRequest) -> Served:
+def search(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """Signals whose name holds a text, of a type, of a device [VC 7.21]."""
     wanted = {k: asked.form.get(k, "").lower() for k in ("name", "type", "device")}
     found = [s for s in office.controller.io.signals.values() if _fits(s, wanted)]
@@ -111,7 +111,7 @@ def search(office: "Office", asked: RwsRequest) -> Served:
 
 
 @serves(ops.SEARCH_SIGNALS_TWICE)
-def search_twice(office: "Office", asked: RwsRequest) -> Served:
+def search_twice(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """Signals that fit up to two sets of criteria, both of them [VC 6.16, VC 7.21]."""
     found = list(office.controller.io.signals.values())
     for one in ("", "1", "2"):
@@ -129,7 +129,7 @@ def _fits(signal: Signal, wanted: dict[str, str]) -> bool:
 
 
 @serves(ops.SIGNAL_CONFIG)
-def get_config(office: "Office", asked: RwsRequest) -> Served:
+def get_config(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """What EIO.cfg says of a signal."""
     spec = find(office, asked.names["signal"]).spec
     told = {"name": spec.name, "type": spec.type, "device": spec.device, "access": spec.access}

@@ -14,13 +14,13 @@ from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.text import NotALiteral, literal_text, parse_value
 from rapidgen.runtime.values import Type, Value
 from rapidgen.servers.rws.handlers.tasks import find_task
-from rapidgen.servers.rws.messages import Denied, RwsRequest, Served, show
+from rapidgen.servers.rws.messages import RequestDenied, RwsRequest, RwsResponse, show
 from rapidgen.servers.rws.routing import serves
 from rapidgen.wire.rws import operations as ops
 from rapidgen.wire.rws.bodies import Item
 
 if TYPE_CHECKING:
-    from rapidgen.servers.rws.context import Office
+    from rapidgen.servers.rws.context import RwsContext
 
 _ELEMENT = re.compile(r"(\w+)\{\s*(\d{1,9}(?:\s*,\s*\d{1,9})*)\s*\}")
 _KINDS = {"PERS": ("per", "pers"), "VAR": ("var", "var"), "CONST": ("con", "constant")}
@@ -49,7 +49,7 @@ class Datum:
         return value
 
 
-def find(office: "Office", path: str, asked: RwsRequest) -> Datum:
+def find(office: "RwsContext", path: str, asked: RwsRequest) -> Datum:
     """The datum of `TASK/MODULE/NAME` or `TASK/NAME`. Denied: there is none."""
     parts = path.split("/")
     if len(parts) not in (2, 3):
@@ -63,7 +63,7 @@ def find(office: "Office", path: str, asked: RwsRequest) -> Datum:
     except KeyError as error:
         raise _unknown(asked, path) from error
     if not type_.is_value:
-        raise Denied(400, "E_INVALIDARG", f"{type_.name} is no value type")
+        raise RequestDenied(400, "E_INVALIDARG", f"{type_.name} is no value type")
     if match is None:
         return Datum(task, name, type_, dims)
     element = tuple(int(i) for i in match[2].split(","))
@@ -74,14 +74,14 @@ def find(office: "Office", path: str, asked: RwsRequest) -> Datum:
     return Datum(task, name, type_, dims[len(element) :], element)
 
 
-def _unknown(asked: RwsRequest, path: str) -> Denied:
+def _unknown(asked: RwsRequest, path: str) -> RequestDenied:
     if asked.is_one:
-        return Denied(400, "E_UNEXPECTED", f"no symbol {path}", -517)
-    return Denied(404, "E_NO_SUCH_SYMBOL", f"no symbol {path}", -517)
+        return RequestDenied(400, "E_UNEXPECTED", f"no symbol {path}", -517)
+    return RequestDenied(404, "E_NO_SUCH_SYMBOL", f"no symbol {path}", -517)
 
 
 @serves(ops.SYMBOL)
-def get_symbol(office: "Office", asked: RwsRequest) -> Served:
+def get_symbol(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """The value as a RAPID literal."""
     found = find(office, asked.names["symbol"], asked)
     text = literal_text(found.value, found.type)
@@ -93,7 +93,7 @@ def get_symbol(office: "Office", asked: RwsRequest) -> Served:
 
 
 @serves(ops.SET_SYMBOL)
-def set_symbol(office: "Office", asked: RwsRequest) -> None:
+def set_symbol(office: "RwsContext", asked: RwsRequest) -> None:
     """Give a datum a value: at once, wherever it is read."""
     if asked.is_one:
         office.masters.need_mode(asked.session)  # RobotWare 6 takes mastership by itself
@@ -112,29 +112,31 @@ def set_symbol(office: "Office", asked: RwsRequest) -> None:
             value = whole
         found.task[found.name] = value
     except KeyError as error:
-        raise Denied(403, "E_REJECT", f"{found.name} is read only", -2) from error
+        raise RequestDenied(403, "E_REJECT", f"{found.name} is read only", -2) from error
     except NotALiteral as error:
-        raise Denied(400, "E_INVALIDARG", f"no value of {found.type.name}: {text}") from error
+        raise RequestDenied(
+            400, "E_INVALIDARG", f"no value of {found.type.name}: {text}"
+        ) from error
     except RapidError as error:
-        raise Denied(400, "E_INVALIDARG", error.name) from error
+        raise RequestDenied(400, "E_INVALIDARG", error.name) from error
 
 
 @serves(ops.VALIDATE_VALUE)
-def validate(office: "Office", asked: RwsRequest) -> None:
+def validate(office: "RwsContext", asked: RwsRequest) -> None:
     """Whether a text is a value of a type: 204, or 400."""
     find_task(office, asked.names.get("task") or asked.field("task"), asked)
     name, text = asked.field(asked.kind("datatype", "dattyp")), asked.field("value")
     found = find_type(name.lower())
     try:
         if found is None or not found.is_value:
-            raise Denied(400, "E_INVALIDARG", f"no type {name}")
+            raise RequestDenied(400, "E_INVALIDARG", f"no type {name}")
         parse_value(text, found, escaped=True)
     except NotALiteral as error:
-        raise Denied(400, "E_INVALIDARG", f"no value of {name}: {text}") from error
+        raise RequestDenied(400, "E_INVALIDARG", f"no value of {name}: {text}") from error
 
 
 @serves(ops.SYMBOL_PROPERTIES)
-def get_properties(office: "Office", asked: RwsRequest) -> Served:
+def get_properties(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """What a datum is."""
     path = asked.names["symbol"]
     found = find(office, path, asked)
@@ -145,14 +147,14 @@ def get_properties(office: "Office", asked: RwsRequest) -> Served:
 
 
 @serves(ops.SEARCH_SYMBOLS)
-def search(office: "Office", asked: RwsRequest) -> Served:
+def search(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """Data of a task or a module by kind, type and a pattern of the name."""
     form = asked.form
     if not asked.is_one and "task" in form:
-        raise Denied(400, "E_INVALIDARG", "task")  # [VC 7.21]
+        raise RequestDenied(400, "E_INVALIDARG", "task")  # [VC 7.21]
     parts = form.get("blockurl", "RAPID").split("/")
     if parts[0].upper() != "RAPID" or len(parts) > 3:
-        raise Denied(400, "E_INVALIDARG", "blockurl")
+        raise RequestDenied(400, "E_INVALIDARG", "blockurl")
     tasks = list(office.controller.tasks.values())
     if len(parts) > 1:
         tasks = [office.controller.tasks[find_task(office, parts[1], asked).name]]
@@ -162,9 +164,11 @@ def search(office: "Office", asked: RwsRequest) -> Served:
             warnings.simplefilter("ignore")  # of `[[`, which Python would like to be told from sets
             pattern = re.compile(form.get("regexp") or ".*", re.IGNORECASE)
     except (re.error, OverflowError, RecursionError) as error:
-        raise Denied(400, "E_INVALIDARG", "regexp") from error
+        raise RequestDenied(400, "E_INVALIDARG", "regexp") from error
     if _SLOW.search(pattern.pattern):
-        raise Denied(400, "E_INVALIDARG", "regexp: groups that repeat, or too many repetitions")
+        raise RequestDenied(
+            400, "E_INVALIDARG", "regexp: groups that repeat, or too many repetitions"
+        )
     kind, type_name = form.get("symtyp", "any").lower(), form.get("dattyp", "").lower()
     found = [
         Item(f"{item.kind}-li", item.title, item.fields)

@@ -4,19 +4,19 @@ from typing import TYPE_CHECKING
 
 from rapidgen.machine.calendar import date_time
 from rapidgen.servers.rws.default_cfg import OPTIONS
-from rapidgen.servers.rws.messages import Denied, RwsRequest, Served, show
+from rapidgen.servers.rws.messages import RequestDenied, RwsRequest, RwsResponse, show
 from rapidgen.servers.rws.routing import serves
 from rapidgen.wire.rws import operations as ops
 from rapidgen.wire.rws.bodies import Generation, Item
 
 if TYPE_CHECKING:
-    from rapidgen.servers.rws.context import Office
+    from rapidgen.servers.rws.context import RwsContext
 
 _VARIABLES = {"$HOME": "HOME", "$TEMP": "TEMP", "$RAMDISK": "RAMDISK", "$BACKUP": "BACKUP"}
 _MODES = ("restart", "istart", "pstart", "bstart")
 
 
-def version(office: "Office") -> tuple[int, int]:
+def version(office: "RwsContext") -> tuple[int, int]:
     """RobotWare's release, of the generation that is spoken."""
     major, minor = office.controller.system.robotware
     least = {Generation.ONE: 6, Generation.TWO: 7, Generation.EIGHT: 8}[office.generation]
@@ -24,7 +24,7 @@ def version(office: "Office") -> tuple[int, int]:
 
 
 @serves(ops.CONTROLLER, ops.IDENTITY)
-def identity(office: "Office", asked: RwsRequest) -> Served:
+def identity(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """Who this controller is; it says that it is a virtual one."""
     told = {
         "ctrl-name": office.controller.system.name,
@@ -36,7 +36,7 @@ def identity(office: "Office", asked: RwsRequest) -> Served:
 
 
 @serves(ops.SYSTEM)
-def get_system(office: "Office", asked: RwsRequest) -> Served:
+def get_system(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """Name and RobotWare."""
     (major, minor), name = version(office), office.controller.system.name
     if asked.is_one:
@@ -65,13 +65,13 @@ def _options(kind: str) -> list[Item]:
 
 
 @serves(ops.OPTIONS)
-def get_options(office: "Office", asked: RwsRequest) -> Served:
+def get_options(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """What is installed."""
     return show(*_options("sys-option"), collection=True)
 
 
 @serves(ops.PRODUCTS)
-def get_products(office: "Office", asked: RwsRequest) -> Served:
+def get_products(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """Products: RobotWare alone."""
     major, minor = version(office)
     told = {"version": f"{major}.{minor}", "version-name": f"{major}.{minor}.0"}
@@ -79,14 +79,14 @@ def get_products(office: "Office", asked: RwsRequest) -> Served:
 
 
 @serves(ops.ROBOT_TYPE)
-def get_robot_type(office: "Office", asked: RwsRequest) -> Served:
+def get_robot_type(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """The robot's type, where a backup tells it."""
     types = office.controller.system.robot_types
     return show(Item("sys-robottype", "robottype", {"robot-type": types[0][1] if types else ""}))
 
 
 @serves(ops.CLOCK)
-def get_clock(office: "Office", asked: RwsRequest) -> Served:
+def get_clock(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """Date and time."""
     now = date_time(office.controller.scheduler)
     told = {"datetime": now.strftime("%Y-%m-%d T %H:%M:%S")}
@@ -94,42 +94,42 @@ def get_clock(office: "Office", asked: RwsRequest) -> Served:
 
 
 @serves(ops.VARIABLE)
-def get_variable(office: "Office", asked: RwsRequest) -> Served:
+def get_variable(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """Where a variable points to: here to the volume of that name."""
     name = asked.names["variable"]
     folder = _VARIABLES.get(name.upper())
     if folder is None:
-        raise Denied(404, "E_UNRESOLVED_URL", name)
+        raise RequestDenied(404, "E_UNRESOLVED_URL", name)
     return show(Item("ctrl-env", name, {"_value": folder, "value": folder}))
 
 
 @serves(ops.RESTART, ops.RESTART_AT_CTRL)
-def restart(office: "Office", asked: RwsRequest) -> None:
+def restart(office: "RwsContext", asked: RwsRequest) -> None:
     """A warm start: everybody is logged out. Other kinds are not offered here."""
     office.masters.need(asked, "cfg")
     mode = asked.field("restart-mode", (*_MODES, "xstart", "shutdown"))
     if mode != "restart":
-        raise Denied(403, "E_REJECT", f"{mode}: only warm starts here", -2)
+        raise RequestDenied(403, "E_REJECT", f"{mode}: only warm starts here", -2)
     office.cabinet.ask_restart()
 
 
 @serves(ops.PROGRESS)
-def get_progress(office: "Office", asked: RwsRequest) -> Served:
+def get_progress(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """How far a job is: all are done at once here."""
     code = office.progress.get(asked.names["id"])
     if code is None:
-        raise Denied(404, "E_UNRESOLVED_URL", asked.path)
+        raise RequestDenied(404, "E_UNRESOLVED_URL", asked.path)
     return show(Item("progress", asked.names["id"], {"state": "ready", "code": str(code)}))
 
 
 @serves(ops.LICENSE)
-def get_license(office: "Office", asked: RwsRequest) -> Served:
+def get_license(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """A virtual controller has none."""
     return show(Item("sys-license", "license", {"license": "virtual controller"}))
 
 
 @serves(ops.ENERGY)
-def get_energy(office: "Office", asked: RwsRequest) -> Served:
+def get_energy(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """Energy is not modelled: the state -1 says that no value is valid [RWS manual].
 
     Fields and axes as in a body of a RobotWare 6 that an exporter of metrics has in its tests.
@@ -155,51 +155,51 @@ def get_energy(office: "Office", asked: RwsRequest) -> Served:
 
 
 @serves(ops.VISION)
-def get_vision(office: "Office", asked: RwsRequest) -> Served:
+def get_vision(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """No camera is connected."""
     return show(Item("number-of-cameras-li", "cameras", {"number-of-cameras": "0"}))
 
 
 @serves(ops.TIME_ZONE)
-def get_time_zone(office: "Office", asked: RwsRequest) -> Served:
+def get_time_zone(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """The controller's clock knows no zone here: it is UTC's."""
     return show(Item("ctrl-timezone", "timezone", {"timezone": "UTC"}))
 
 
 @serves(ops.SET_CLOCK)
-def set_clock(office: "Office", asked: RwsRequest) -> None:
+def set_clock(office: "RwsContext", asked: RwsRequest) -> None:
     """The clock is the simulation's: it cannot be put."""
-    raise Denied(403, "E_REJECT", "the clock of a virtual controller is its machine's", -2)
+    raise RequestDenied(403, "E_REJECT", "the clock of a virtual controller is its machine's", -2)
 
 
 @serves(ops.RESTART_COUNT)
-def restart_count(office: "Office", asked: RwsRequest) -> Served:
+def restart_count(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """How often it has restarted."""
     told = {"restart-count": str(office.cabinet.restarts)}
     return show(Item("ctrl-restart-count", "restartcount", told))
 
 
 @serves(ops.VIRTUAL_TIME)
-def virtual_time(office: "Office", asked: RwsRequest) -> Served:
+def virtual_time(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """Virtual time in ms."""
     told = {"vtcounter": str(round(office.cabinet.now * 1000))}
     return show(Item("ctrl-vttime", "vttime", told))
 
 
 @serves(ops.VIRTUAL_STATE)
-def virtual_state(office: "Office", asked: RwsRequest) -> Served:
+def virtual_state(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """Virtual time runs."""
     return show(Item("ctrl-vtstate", "vtstate", {"vtcurrstate": "running"}))
 
 
 @serves(ops.VIRTUAL_SPEED)
-def virtual_speed(office: "Office", asked: RwsRequest) -> Served:
+def virtual_speed(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """How fast virtual time is, in percent of the real one."""
     told = {"vtcurrspeed": f"{100 * office.controller.scheduler.speed:g}"}
     return show(Item("ctrl-vtspeed", "vtspeed", told))
 
 
 @serves(ops.SAFETY_MODE)
-def safety_mode(office: "Office", asked: RwsRequest) -> Served:
+def safety_mode(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """No safety controller is modelled."""
     return show(Item("safetymodestatus", "mode", {"safetymode": "DEACTIVATED"}))

@@ -8,13 +8,13 @@ from rapidgen.runtime.loading import module_text
 from rapidgen.runtime.task.task import Task
 from rapidgen.servers.rws.disks import disk_path
 from rapidgen.servers.rws.handlers.execution import execution
-from rapidgen.servers.rws.messages import Denied, RwsRequest, Served, show
+from rapidgen.servers.rws.messages import RequestDenied, RwsRequest, RwsResponse, show
 from rapidgen.servers.rws.routing import serves
 from rapidgen.wire.rws import operations as ops
 from rapidgen.wire.rws.bodies import Item
 
 if TYPE_CHECKING:
-    from rapidgen.servers.rws.context import Office
+    from rapidgen.servers.rws.context import RwsContext
 
 _EXECUTION = {
     "running": "started", "stopped": "stopped", "error": "stopped", "finished": "stopped",
@@ -28,12 +28,12 @@ _STATUS = {
 }  # fmt: skip
 
 
-def find_task(office: "Office", name: str, asked: RwsRequest) -> Task:
+def find_task(office: "RwsContext", name: str, asked: RwsRequest) -> Task:
     """A task by name. Denied: there is none (400 on RobotWare 6, 404 on 7)."""
     for task in office.controller.rapid_tasks.values():
         if task.name.lower() == name.lower():
             return task
-    raise Denied(400 if asked.is_one else 404, "E_INVALIDARG", f"no task {name}")
+    raise RequestDenied(400 if asked.is_one else 404, "E_INVALIDARG", f"no task {name}")
 
 
 def execution_state(task: Task, asked: RwsRequest) -> str:
@@ -42,7 +42,7 @@ def execution_state(task: Task, asked: RwsRequest) -> str:
     return word[:4] if asked.is_one else word
 
 
-def _item(office: "Office", task: Task, kind: str, asked: RwsRequest) -> Item:
+def _item(office: "RwsContext", task: Task, kind: str, asked: RwsRequest) -> Item:
     kind_of_task = task.spec.type.lower()
     modules = office.cabinet.programs.modules(task)
     state = "linked" if task.state != "empty" else "loaded" if modules else "empty"
@@ -61,20 +61,20 @@ def _item(office: "Office", task: Task, kind: str, asked: RwsRequest) -> Item:
 
 
 @serves(ops.TASKS)
-def get_tasks(office: "Office", asked: RwsRequest) -> Served:
+def get_tasks(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """All tasks."""
     tasks = office.controller.rapid_tasks.values()
     return show(*(_item(office, t, "rap-task-li", asked) for t in tasks), collection=True)
 
 
 @serves(ops.TASK)
-def get_task(office: "Office", asked: RwsRequest) -> Served:
+def get_task(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """One task."""
     return show(_item(office, find_task(office, asked.names["task"], asked), "rap-task", asked))
 
 
 @serves(ops.ACTIVATE_ALL, ops.DEACTIVATE_ALL)
-def activate_all(office: "Office", asked: RwsRequest) -> None:
+def activate_all(office: "RwsContext", asked: RwsRequest) -> None:
     """All NORMAL tasks at once."""
     for task in office.controller.rapid_tasks.values():
         if task.spec.type == "NORMAL":
@@ -82,7 +82,7 @@ def activate_all(office: "Office", asked: RwsRequest) -> None:
 
 
 @serves(ops.TASK_SELECTION)
-def selection(office: "Office", asked: RwsRequest) -> Served:
+def selection(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """The task selection panel [VC 7.21]."""
     left_out = office.controller.operation.left_out
     found = [
@@ -103,7 +103,7 @@ def selection(office: "Office", asked: RwsRequest) -> Served:
 
 
 @serves(ops.CHANGE_COUNT)
-def change_count(office: "Office", asked: RwsRequest) -> Served:
+def change_count(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """How often a task's program was changed."""
     task = find_task(office, asked.names["task"], asked)
     count = str(office.cabinet.programs.changes[task.name])
@@ -112,15 +112,15 @@ def change_count(office: "Office", asked: RwsRequest) -> Served:
 
 
 @serves(ops.ACTIVATE, ops.DEACTIVATE)
-def activate(office: "Office", asked: RwsRequest) -> None:
+def activate(office: "RwsContext", asked: RwsRequest) -> None:
     """The task selection panel: which NORMAL tasks are started with the program."""
     # RobotWare 6 takes mastership by itself [RWS manual].
     office.masters.need(asked, "rapid", by_itself=asked.is_one)
     task = find_task(office, asked.names.get("task") or asked.field("task"), asked)
     if task.spec.type != "NORMAL":
-        raise Denied(403, "E_REJECT", f"{task.name} is a background task", -2)
+        raise RequestDenied(403, "E_REJECT", f"{task.name} is a background task", -2)
     if execution(office.controller) == "running":
-        raise Denied(400 if asked.is_one else 403, "E_EXEC_STATE", "the program runs", -508)
+        raise RequestDenied(400 if asked.is_one else 403, "E_EXEC_STATE", "the program runs", -508)
     left_out = office.controller.operation.left_out
     if "deactivate" in (asked.query.get("action"), asked.path.rpartition("/")[2]):
         left_out.add(task.name)
@@ -131,16 +131,16 @@ def activate(office: "Office", asked: RwsRequest) -> None:
 # -- modules -------------------------------------------------------------------------------------
 
 
-def task_asked(office: "Office", asked: RwsRequest) -> Task:
+def task_to_boot(office: "RwsContext", asked: RwsRequest) -> Task:
     """The task that a path, or `?task=` of RWS 1.0, names. Denied."""
     name = asked.names.get("task") or asked.query.get("task", "")
     return find_task(office, name, asked)
 
 
 @serves(ops.MODULES)
-def get_modules(office: "Office", asked: RwsRequest) -> Served:
+def get_modules(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """Modules of a task; they stand in `state` in HAL, though they are many [VC 7.21]."""
-    found = office.cabinet.programs.modules(task_asked(office, asked))
+    found = office.cabinet.programs.modules(task_to_boot(office, asked))
     return show(
         *(
             Item(
@@ -154,9 +154,9 @@ def get_modules(office: "Office", asked: RwsRequest) -> Served:
 
 
 @serves(ops.MODULE)
-def get_module(office: "Office", asked: RwsRequest) -> Served:
+def get_module(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """One module: its file."""
-    task, name = task_asked(office, asked), asked.names["module"]
+    task, name = task_to_boot(office, asked), asked.names["module"]
     found = [m for m in office.cabinet.programs.modules(task) if m.name.lower() == name.lower()]
     if not found:
         raise no_module(asked, name)
@@ -165,13 +165,15 @@ def get_module(office: "Office", asked: RwsRequest) -> Served:
     return show(Item("rap-module", found[0].name, told))
 
 
-def no_module(asked: RwsRequest, name: str) -> Denied:
+def no_module(asked: RwsRequest, name: str) -> RequestDenied:
     """The answer for a module that is not there."""
-    return Denied(400 if asked.is_one else 404, "E_NO_SUCH_SYMBOL", f"no module {name}", -517)
+    return RequestDenied(
+        400 if asked.is_one else 404, "E_NO_SUCH_SYMBOL", f"no module {name}", -517
+    )
 
 
 @serves(ops.LOAD_MODULE)
-def load_module(office: "Office", asked: RwsRequest) -> Served | None:
+def load_module(office: "RwsContext", asked: RwsRequest) -> RwsResponse | None:
     """Load a module; what is wrong in it is told by `builderror`, not here [VC 7.21]."""
     office.masters.need(asked, "rapid")
     task = find_task(office, asked.names["task"], asked)
@@ -188,7 +190,7 @@ def load_module(office: "Office", asked: RwsRequest) -> Served | None:
 
 
 @serves(ops.UNLOAD_MODULE)
-def unload_module(office: "Office", asked: RwsRequest) -> None:
+def unload_module(office: "RwsContext", asked: RwsRequest) -> None:
     """Take a module out of a task."""
     office.masters.need(asked, "rapid")
     task = find_task(office, asked.names["task"], asked)
@@ -199,22 +201,22 @@ def unload_module(office: "Office", asked: RwsRequest) -> None:
         raise load_refused(asked, fault, name) from fault
 
 
-def load_refused(asked: RwsRequest, fault: CannotLoad, what: str) -> Denied:
+def load_refused(asked: RwsRequest, fault: CannotLoad, what: str) -> RequestDenied:
     """The answer to a module that is not taken, or not given away."""
     name = str(fault)
-    return Denied(_STATUS[name][0 if asked.is_one else 1], name, what, -507)
+    return RequestDenied(_STATUS[name][0 if asked.is_one else 1], name, what, -507)
 
 
 @serves(ops.SAVE_MODULE)
-def save_module(office: "Office", asked: RwsRequest) -> None:
+def save_module(office: "RwsContext", asked: RwsRequest) -> None:
     """Write a module with the present values of its persistents; an ending is put behind."""
-    task, name = task_asked(office, asked), asked.names["module"]
+    task, name = task_to_boot(office, asked), asked.names["module"]
     module = task.program.modules.get(name.lower())
     if module is None:
         raise no_module(asked, name)
     folder = asked.field("path")
     if not asked.is_one and not folder.endswith(":"):
-        raise Denied(400, "E_INVALID_PATH", folder)  # the root of a volume only [VC 7.21]
+        raise RequestDenied(400, "E_INVALID_PATH", folder)  # the root of a volume only [VC 7.21]
     ending = ".mod" if asked.is_one else ".modx"
     path = disk_path(office, f"{folder.rstrip('/')}/{asked.field('name')}{ending}", asked)
     text = module_text(task, module)

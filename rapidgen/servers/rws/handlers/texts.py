@@ -5,15 +5,15 @@ from typing import TYPE_CHECKING
 
 from rapidgen.controller.programs import CannotLoad
 from rapidgen.runtime.task.task import Task
-from rapidgen.servers.rws.handlers.tasks import load_refused, no_module, task_asked
-from rapidgen.servers.rws.messages import Denied, RwsRequest, Served, show
+from rapidgen.servers.rws.handlers.tasks import load_refused, no_module, task_to_boot
+from rapidgen.servers.rws.messages import RequestDenied, RwsRequest, RwsResponse, show
 from rapidgen.servers.rws.routing import serves
 from rapidgen.system.model import ModuleFile
 from rapidgen.wire.rws import operations as ops
 from rapidgen.wire.rws.bodies import Item
 
 if TYPE_CHECKING:
-    from rapidgen.servers.rws.context import Office
+    from rapidgen.servers.rws.context import RwsContext
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,8 +25,8 @@ class _Module:
     text: str
 
 
-def _module(office: "Office", asked: RwsRequest) -> _Module:
-    task, name = task_asked(office, asked), asked.names["module"]
+def _module(office: "RwsContext", asked: RwsRequest) -> _Module:
+    task, name = task_to_boot(office, asked), asked.names["module"]
     programs = office.cabinet.programs
     text = programs.text(task, name)
     for module in programs.modules(task):
@@ -35,12 +35,12 @@ def _module(office: "Office", asked: RwsRequest) -> _Module:
     raise no_module(asked, name)
 
 
-def _count(office: "Office", task: Task) -> str:
+def _count(office: "RwsContext", task: Task) -> str:
     return str(office.cabinet.programs.changes[task.name])
 
 
 @serves(ops.MODULE_TEXT)
-def get_text(office: "Office", asked: RwsRequest) -> Served:
+def get_text(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """The source of a module."""
     module = _module(office, asked)
     told = {"change-count": _count(office, module.task), "module-text": module.text}
@@ -48,7 +48,7 @@ def get_text(office: "Office", asked: RwsRequest) -> Served:
 
 
 @serves(ops.MODULE_COUNT)
-def get_count(office: "Office", asked: RwsRequest) -> Served:
+def get_count(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """How often the program that a module is in was changed."""
     count = _count(office, _module(office, asked).task)
     return show(Item("rap-module-changecount", asked.names["module"], {"count": count}))
@@ -69,24 +69,24 @@ def _range(text: str, fields: dict[str, str]) -> _Range:
         try:
             at, over = int(fields.get(row, "-1" if last else "1")), int(fields.get(column, "-1"))
         except ValueError as error:
-            raise Denied(400, "E_INVALIDARG", f"{row}, {column}") from error
+            raise RequestDenied(400, "E_INVALIDARG", f"{row}, {column}") from error
         at = len(rows) if at == -1 and last else at
         if not 1 <= at <= len(rows):
-            raise Denied(400, "E_INVALIDARG", f"{row} {at}")
+            raise RequestDenied(400, "E_INVALIDARG", f"{row} {at}")
         length = len(rows[at - 1].rstrip("\r\n"))
         over = (length if last else 1) if over == -1 else over
         if not 0 <= over <= length + 1:
-            raise Denied(400, "E_INVALIDARG", f"{column} {over}")
+            raise RequestDenied(400, "E_INVALIDARG", f"{column} {over}")
         return sum(map(len, rows[: at - 1])) + (over if last else max(over, 1) - 1)
 
     found = _Range(offset("startrow", "startcol", False), offset("endrow", "endcol", True))
     if found.end < found.begin:
-        raise Denied(400, "E_INVALIDARG", "it ends before it begins")
+        raise RequestDenied(400, "E_INVALIDARG", "it ends before it begins")
     return found
 
 
 @serves(ops.TEXT_RANGE)
-def get_range(office: "Office", asked: RwsRequest) -> Served:
+def get_range(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """A piece of the source; -1 is the end."""
     text = _module(office, asked).text
     piece = _range(text, dict(asked.query))
@@ -95,12 +95,12 @@ def get_range(office: "Office", asked: RwsRequest) -> Served:
 
 
 @serves(ops.TEXT_SEARCH)
-def search(office: "Office", asked: RwsRequest) -> Served:
+def search(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
     """Where a text stands, whatever its case."""
     wanted = asked.query.get("text", "").lower()
     found: list[Item] = []
     if not wanted:
-        raise Denied(400, "E_INVALIDARG", "text")
+        raise RequestDenied(400, "E_INVALIDARG", "text")
     for number, row in enumerate(_module(office, asked).text.splitlines(), 1):
         column = row.lower().find(wanted)
         if column >= 0:
@@ -110,14 +110,14 @@ def search(office: "Office", asked: RwsRequest) -> Served:
 
 
 @serves(ops.SET_TEXT)
-def set_text(office: "Office", asked: RwsRequest) -> None:
+def set_text(office: "RwsContext", asked: RwsRequest) -> None:
     """Another source for a module; what is wrong in it is told by `builderror`."""
     office.masters.need(asked, "rapid")
     _put(office, asked, _module(office, asked), asked.field("text"))
 
 
 @serves(ops.SET_TEXT_RANGE)
-def set_range(office: "Office", asked: RwsRequest) -> None:
+def set_range(office: "RwsContext", asked: RwsRequest) -> None:
     """Another text for a piece of the source, or one more before or behind it."""
     office.masters.need(asked, "rapid")
     module, more = _module(office, asked), asked.field("text")
@@ -129,11 +129,11 @@ def set_range(office: "Office", asked: RwsRequest) -> None:
         "after": (piece.end, piece.end),
     }.get(mode, (-1, -1))
     if begin < 0:
-        raise Denied(400, "E_INVALIDARG", f"replace-mode {mode}")
+        raise RequestDenied(400, "E_INVALIDARG", f"replace-mode {mode}")
     _put(office, asked, module, module.text[:begin] + more + module.text[end:])
 
 
-def _put(office: "Office", asked: RwsRequest, module: _Module, text: str) -> None:
+def _put(office: "RwsContext", asked: RwsRequest, module: _Module, text: str) -> None:
     name, programs = asked.names["module"], office.cabinet.programs
     file = ModuleFile(module.file.name, module.file.path, text.encode())
     new = office.controller.parse_module(file).name or name
